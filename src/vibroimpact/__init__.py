@@ -1,0 +1,27 @@
+"""Computational nonlinear dynamics of two coupled vibro-impact modules: theory, exact simulation, comparison."""
+
+from importlib import import_module
+from importlib.metadata import version
+
+__version__ = version("vibroimpact")
+
+_PUBLIC = {
+    "System": "vibroimpact.system",
+    "PhysicalSystem": "vibroimpact.system",
+    "fixed_points": "vibroimpact.theory.fixed_points",
+    "simulate": "vibroimpact.exact.simulation",
+}
+__all__ = [*_PUBLIC, "__version__"]
+
+
+def __getattr__(name: str):
+    """Load a public name on first use, so that the import itself stays light."""
+    if name not in _PUBLIC:
+        raise AttributeError(f"module 'vibroimpact' has no attribute {name!r}")
+    value = getattr(import_module(_PUBLIC[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted(__all__)

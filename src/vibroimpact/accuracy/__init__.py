@@ -1,0 +1,1 @@
+"""Reference solutions, and what each method achieves against them."""

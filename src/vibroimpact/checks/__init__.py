@@ -1,0 +1,1 @@
+"""Checks of inputs and outputs of the pipeline."""

@@ -1,0 +1,1 @@
+"""The figures: compute(...) -> tables, draw(tables) -> Figure."""

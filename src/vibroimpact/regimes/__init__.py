@@ -1,0 +1,1 @@
+"""What the system does: recognising regimes, continuation, maps, measures of modulation."""

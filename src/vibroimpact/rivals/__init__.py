@@ -1,0 +1,1 @@
+"""Other integrators behind one small protocol."""

@@ -1,0 +1,45 @@
+"""Mass, damping and stiffness matrices of the boxes in each contact state of the balls."""
+
+import numpy as np
+
+
+def damping_matrix(system) -> np.ndarray:
+    """Damping matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
+    coupling = system.gamma12
+    return np.array([[system.gamma1 + coupling, -coupling], [-coupling, system.gamma2 + coupling]])
+
+
+def stiffness_matrix(system) -> np.ndarray:
+    """Stiffness matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
+    coupling = system.alpha12
+    return np.array([[1.0 + coupling, -coupling], [-coupling, system.stiffness2 + coupling]])
+
+
+def masses(system, stuck=(False, False)) -> np.ndarray:
+    """Moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks to a wall."""
+    return np.where(stuck, 1.0 + system.epsilon, 1.0)
+
+
+def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
+    """K - Omega^2 M + i Omega C, shape (2, 2) complex: forcing amplitude over harmonic response."""
+    omega = system.Omega
+    mass = np.diag(masses(system, stuck))
+    return stiffness_matrix(system) - omega**2 * mass + 1j * omega * damping_matrix(system)
+
+
+def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
+    """Rate matrix A of d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
+
+    Carrying the forcing phase as two states keeps the flow one matrix exponential for every parameter,
+    repeated, defective, undamped and resonant spectra included.
+    """
+    mass = masses(system, stuck)[:, None]
+    omega = system.Omega
+    rate = np.zeros((6, 6))
+    rate[0:2, 2:4] = np.eye(2)
+    rate[2:4, 0:2] = -stiffness_matrix(system) / mass
+    rate[2:4, 2:4] = -damping_matrix(system) / mass
+    rate[2:4, 4] = system.forcing / mass[:, 0]
+    rate[4, 5] = omega
+    rate[5, 4] = -omega
+    return rate

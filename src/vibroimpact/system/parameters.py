@@ -1,0 +1,108 @@
+"""Dimensionless parameters of the two-module system, (10.2) with the scaling (10.4)-(10.6)."""
+
+import math
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from vibroimpact.system.matrices import dynamic_stiffness
+
+
+@dataclass(frozen=True, kw_only=True)
+class System:
+    """Two coupled vibro-impact modules under forcing f_i sin(Omega tau).
+
+    All parameters are dimensionless. The hatted ones are those of (10.4) and (10.6): the physical effect
+    is epsilon times the hatted value. A negative forcing amplitude means forcing in anti-phase.
+
+    Raises:
+        ValueError: a parameter is not a finite number or leaves its admissible range, or the boxes
+            (balls in free flight) are driven at an undamped resonance, where no bounded linear response exists.
+    """
+
+    epsilon: float
+    kappa: float
+    alpha12_hat: float
+    gamma1_hat: float
+    gamma2_hat: float
+    gamma12_hat: float
+    sigma20_hat: float
+    sigma_e_hat: float
+    f10_hat: float
+    f20_hat: float
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = getattr(self, field.name)
+            try:
+                number = float(value)
+            except (TypeError, ValueError):
+                raise ValueError(f"{field.name}: {value!r} is not a number") from None
+            if not math.isfinite(number):
+                raise ValueError(f"{field.name}: {value!r} is not finite")
+            object.__setattr__(self, field.name, number)
+        if self.epsilon <= 0:
+            raise ValueError(f"epsilon: {self.epsilon} is not above 0")
+        if not 0 < self.kappa < 1:
+            raise ValueError(f"kappa: {self.kappa} is not between 0 and 1 (both excluded)")
+        for name in ("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"{name}: {getattr(self, name)} is below 0")
+        if self.stiffness2 <= 0:
+            raise ValueError(f"sigma20_hat: 1 + epsilon sigma20_hat = {self.stiffness2} is not above 0")
+        if self.Omega <= 0:
+            raise ValueError(f"sigma_e_hat: 1 + epsilon sigma_e_hat = {self.Omega} is not above 0")
+        if self._resonates():
+            raise ValueError(
+                f"sigma_e_hat: {self.sigma_e_hat} drives the undamped boxes at their resonance "
+                f"Omega = {self.Omega}; add damping or change the frequency"
+            )
+
+    @property
+    def gamma1(self) -> float:
+        """Damping of box 1 to ground, (10.4)."""
+        return self.epsilon * self.gamma1_hat
+
+    @property
+    def gamma2(self) -> float:
+        """Damping of box 2 to ground, (10.4)."""
+        return self.epsilon * self.gamma2_hat
+
+    @property
+    def gamma12(self) -> float:
+        """Damping of the coupling, (10.4)."""
+        return self.epsilon * self.gamma12_hat
+
+    @property
+    def alpha12(self) -> float:
+        """Stiffness of the coupling, (10.4)."""
+        return self.epsilon * self.alpha12_hat
+
+    @property
+    def stiffness2(self) -> float:
+        """Stiffness Omega_20^2 of box 2 to ground, (10.5)."""
+        return 1.0 + self.epsilon * self.sigma20_hat
+
+    @property
+    def Omega(self) -> float:
+        """Forcing frequency Omega_1 = Omega_2, (10.5)."""
+        return 1.0 + self.epsilon * self.sigma_e_hat
+
+    @property
+    def period(self) -> float:
+        """Forcing period 2 pi / Omega in units of tau."""
+        return 2.0 * math.pi / self.Omega
+
+    @property
+    def forcing(self) -> np.ndarray:
+        """Forcing amplitudes (f_10, f_20), shape (2,), (10.4)."""
+        return self.epsilon * np.array([self.f10_hat, self.f20_hat])
+
+    def with_(self, **changes: float) -> "System":
+        """The same system with some parameters changed."""
+        return replace(self, **changes)
+
+    def _resonates(self) -> bool:
+        left, values, _ = np.linalg.svd(dynamic_stiffness(self))
+        loaded = abs(left[:, -1].conj() @ self.forcing) > 1e-12 * np.linalg.norm(self.forcing)
+        return bool(values[-1] < 1e-12 * values[0] and loaded)

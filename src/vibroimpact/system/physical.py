@@ -1,0 +1,96 @@
+"""Physical parameters of (10.1) and their scaling to (10.2) and back."""
+
+import math
+from dataclasses import dataclass, fields
+
+from vibroimpact.system.parameters import System
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhysicalSystem:
+    """Parameters of (10.1) in any consistent units (SI say).
+
+    M, m: mass of a box and of a ball; k1, k2, k12: stiffness to ground and of the coupling; c1, c2, c12: damping
+    likewise; F10, F20: force amplitudes; omega1, omega2: circular frequencies of the forces; L: the ball meets a
+    wall at |x - y| = L; kappa: restitution coefficient.
+
+    Raises:
+        ValueError: a parameter that scales others (M, m, k1, L) is not above 0.
+    """
+
+    M: float
+    m: float
+    k1: float
+    k2: float
+    k12: float
+    c1: float
+    c2: float
+    c12: float
+    F10: float
+    F20: float
+    omega1: float
+    omega2: float
+    L: float
+    kappa: float
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not isinstance(value, (int, float)) or not math.isfinite(value):
+                raise ValueError(f"{field.name}: {value!r} is not a finite number")
+        for name in ("M", "m", "k1", "L"):
+            if getattr(self, name) <= 0:
+                raise ValueError(f"{name}: {getattr(self, name)} is not above 0")
+
+    @property
+    def omega10(self) -> float:
+        """Natural frequency sqrt(k1 / M) of the first box, the unit of frequency in section 10.2."""
+        return math.sqrt(self.k1 / self.M)
+
+    def dimensionless(self) -> System:
+        """The dimensionless system, by the definitions below (10.2) and by (10.4)-(10.6).
+
+        Raises:
+            ValueError: the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or a
+                dimensionless parameter is not admissible (see System).
+        """
+        if self.omega1 != self.omega2:
+            raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) needs one frequency")
+        epsilon = self.m / self.M
+        force = self.M * self.L * self.omega10**2 * epsilon
+        damping = self.M * self.omega10 * epsilon
+        return System(
+            epsilon=epsilon,
+            kappa=self.kappa,
+            alpha12_hat=self.k12 / (self.k1 * epsilon),
+            gamma1_hat=self.c1 / damping,
+            gamma2_hat=self.c2 / damping,
+            gamma12_hat=self.c12 / damping,
+            sigma20_hat=(self.k2 / self.k1 - 1.0) / epsilon,
+            sigma_e_hat=(self.omega1 / self.omega10 - 1.0) / epsilon,
+            f10_hat=self.F10 / force,
+            f20_hat=self.F20 / force,
+        )
+
+    @classmethod
+    def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
+        """The physical system with box mass M, first stiffness k1 and characteristic dimension L."""
+        omega10 = math.sqrt(k1 / M)
+        damping = M * omega10
+        force = M * L * omega10**2
+        return cls(
+            M=M,
+            m=system.epsilon * M,
+            k1=k1,
+            k2=system.stiffness2 * k1,
+            k12=system.alpha12 * k1,
+            c1=system.gamma1 * damping,
+            c2=system.gamma2 * damping,
+            c12=system.gamma12 * damping,
+            F10=float(system.forcing[0]) * force,
+            F20=float(system.forcing[1]) * force,
+            omega1=system.Omega * omega10,
+            omega2=system.Omega * omega10,
+            L=L,
+            kappa=system.kappa,
+        )

@@ -1,0 +1,15 @@
+"""The impact law: Newton's restitution rule with conservation of momentum (section 10.2)."""
+
+
+def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
+    """Velocities (X', Y') just after an impact, from those just before, (10.2).
+
+    Newton: W'+ = -kappa W'-; momentum X' + epsilon Y' unchanged. Works on floats and arrays alike.
+    """
+    impulse = (1.0 + kappa) / (1.0 + epsilon) * (box_velocity - ball_velocity)
+    return box_velocity - epsilon * impulse, ball_velocity + impulse
+
+
+def energy_lost(epsilon: float, kappa: float, relative_velocity: float):
+    """Kinetic energy lost in an impact at relative velocity W'-, in units of M L^2 omega_10^2 (never negative)."""
+    return 0.5 * epsilon / (1.0 + epsilon) * (1.0 - kappa**2) * relative_velocity**2
