@@ -1,0 +1,54 @@
+"""The look shared by all figures, and how a figure becomes files."""
+
+import functools
+from pathlib import Path
+
+import matplotlib.style
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.atomic import replacing
+
+STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
+
+SINGLE_COLUMN, DOUBLE_COLUMN = 84.0, 174.0
+"""Widths of a printed figure in mm."""
+
+BLACK, GREY, LIGHT_GREY = "black", "0.55", "0.88"
+STABLE = {"color": BLACK, "linewidth": 1.8, "linestyle": "-"}
+UNSTABLE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4.5, 2.5))}
+LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
+"""Lines of the chapter: stable branch bold solid, unstable branch dashed, B_min and C_min dotted."""
+
+# No date, so that the same figure always gives the same bytes.
+_METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+
+
+def styled(function):
+    """Run a drawing function in the shared style, whatever the caller's Matplotlib settings are."""
+
+    @functools.wraps(function)
+    def in_style(*args, **kwargs):
+        with matplotlib.style.context(STYLE_FILE, after_reset=True):
+            return function(*args, **kwargs)
+
+    return in_style
+
+
+def new_figure(width: float, height: float, layout: str | None = "constrained") -> Figure:
+    """An empty figure of exactly width by height in mm."""
+    return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
+
+
+def panel_label(axes, letter: str):
+    """Letter a panel as the captions do, in bold, in its upper left corner inside the frame."""
+    return axes.annotate(
+        letter, (0, 1), (3, -3), xycoords="axes fraction", textcoords="offset points", va="top", weight="bold"
+    )
+
+
+@styled
+def save(figure: Figure, outputs: dict) -> None:
+    """Write a figure to outputs["png"], outputs["pdf"], outputs["svg"] (those present), each file at once or not at all."""
+    for kind in _METADATA.keys() & outputs.keys():
+        with replacing(outputs[kind]) as path:
+            figure.savefig(path, format=kind, metadata=_METADATA[kind])
