@@ -1,0 +1,103 @@
+"""The slow flow on the manifold, (10.22), and its linearisation. Derived in docs/derivation.md."""
+
+import numpy as np
+from scipy.linalg import eigvals
+
+from vibroimpact.theory.manifold import B_of_C, rho, slope
+
+# Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
+FIRST_HARMONIC = 8 / np.pi**2
+
+
+def impedances(system) -> tuple[np.ndarray, complex]:
+    """Slow impedances (d_1, d_2), shape (2,), of the boxes without balls, and K of the coupling.
+
+    With b_i = B_i exp(-i psi_i) the slow flow reads
+    2i D_1 b_i = f_i - (d_i + N(C_i)) b_i + K b_j, where N is the describing function of the ball.
+    """
+    coupling = system.alpha12_hat + 1j * system.gamma12_hat
+    detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
+    return coupling + detuning + 1j * np.array([system.gamma1_hat, system.gamma2_hat]), coupling
+
+
+def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
+    """(D_1 B_i, D_1 psi_i), each shape (2,), by (10.22).
+
+    Args:
+        B, psi, C: amplitudes, phases [rad] and saw-tooth amplitudes of the modules, each shape (2,).
+    """
+    return rates_from_phasors(system, np.asarray(B), np.cos(psi), np.sin(psi), np.asarray(C))
+
+
+def rates_from_phasors(system, B, cosine, sine, C):
+    """`rates` as rational functions of B, cos psi, sin psi and C: open to computer algebra."""
+    forcing = np.array([system.f10_hat, system.f20_hat])
+    damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
+    stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
+    other = B[::-1]
+    cosine_ahead = cosine * cosine[::-1] + sine * sine[::-1]  # cos(psi_i - psi_j)
+    sine_ahead = sine * cosine[::-1] - cosine * sine[::-1]
+    ball_damping = FIRST_HARMONIC * rho(system.kappa) * C**2 / B
+    ball_stiffness = FIRST_HARMONIC * C * (1 - C) / B
+    in_quadrature = system.gamma12_hat * cosine_ahead + system.alpha12_hat * sine_ahead
+    in_phase = system.alpha12_hat * cosine_ahead - system.gamma12_hat * sine_ahead
+    dB = (forcing * sine - damping * B - ball_damping + other * in_quadrature) / 2
+    dpsi = (forcing * cosine - stiffness * B - ball_stiffness + other * in_phase) / (2 * B)
+    return dB, dpsi
+
+
+def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
+    """Matrices (J, M), each (4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
+
+    Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
+    follow B; the usual Jacobian in (B, psi) is infinite there.
+
+    Args:
+        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (2,).
+    """
+    r = rho(system.kappa)
+    C = np.asarray(C, dtype=float)
+    B, B_C = B_of_C(C, r), slope(C, r)
+    d, K = impedances(system)
+    forcing = np.array([system.f10_hat, system.f20_hat])
+    ahead = np.exp(1j * np.asarray(psi))
+    ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
+    ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
+    # D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i), the complex form of (10.22).
+    from_other = K * ahead * (B / ahead)[::-1]
+    drive = forcing * ahead - d * B - ball + from_other
+    drive_own_C = -d * B_C - ball_C
+    drive_own_psi = 1j * (forcing * ahead + from_other)
+    drive_other_C = K * ahead * (B_C / ahead)[::-1]
+    drive_other_psi = -1j * from_other
+
+    J, M = np.zeros((4, 4)), np.eye(4)
+    for i in (0, 1):
+        own, other = 2 * i, 2 * (1 - i)
+        row = np.zeros(4, dtype=complex)
+        row[own : own + 2] = drive_own_C[i], drive_own_psi[i]
+        row[other : other + 2] = drive_other_C[i], drive_other_psi[i]
+        J[own] = row.imag / 2
+        J[own + 1] = row.real / (2 * B[i])
+        J[own + 1, own] -= drive[i].real * B_C[i] / (2 * B[i] ** 2)
+        M[own, own] = B_C[i]
+    return J, M
+
+
+def jacobian(system, psi, C) -> np.ndarray:
+    """Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2), C following B on its arm of the manifold.
+
+    Raises:
+        ValueError: some C_i is at the fold, where the Jacobian is infinite.
+    """
+    J, M = linearisation(system, psi, C)
+    follow = np.diag(M)
+    if np.any(follow == 0):
+        raise ValueError(f"C: {C} is at the fold C_min of the manifold, where dC/dB is infinite")
+    return J / follow
+
+
+def slow_eigenvalues(system, psi, C) -> np.ndarray:
+    """The four eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold."""
+    values = eigvals(*linearisation(system, psi, C))
+    return values[np.argsort(-values.real, kind="stable")]

@@ -1,0 +1,8 @@
+"""The chapter's stability criterion for two impacts per cycle, (10.26)."""
+
+import numpy as np
+
+
+def printed_limit(rho):
+    """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho)."""
+    return 4 / (4 + np.pi * rho)
