@@ -13,7 +13,7 @@ STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 SINGLE_COLUMN, DOUBLE_COLUMN = 84.0, 174.0
 """Widths of a printed figure in mm."""
 
-BLACK, GREY, LIGHT_GREY = "black", "0.55", "0.88"
+BLACK, GREY, LIGHT_GREY = "black", "0.55", "0.86"
 STABLE = {"color": BLACK, "linewidth": 1.8, "linestyle": "-"}
 UNSTABLE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4.5, 2.5))}
 LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}

@@ -13,8 +13,9 @@ TEXT = ("panel", "series", "label")
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Rows of one curve or point set; quantities are arrays of one length (n,) or scalars."""
-    columns = {name: np.atleast_1d(values) for name, values in quantities.items()}
+    """Rows of one curve or point set; quantities are arrays (n,) or scalars, broadcast."""
+    values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
+    columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})
 
 
