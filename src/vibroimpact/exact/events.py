@@ -1,0 +1,295 @@
+"""The event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
+
+Between events the flow is linear and evaluated in closed form (flow.advance). The next event is approached from the
+safe side (constraints.module_time), so nothing before it is missed. Events:
+
+impact    a ball meets a wall with outward relative velocity: Newton's restitution, momentum conserved;
+stick     the end of a chatter: infinitely many impacts in a finite time, completed at once when what that neglects is
+          below rounding; from then on box and ball move as one of mass 1 + epsilon;
+release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it jump below zero.
+
+Time is the forcing phase, kept modulo one period with a compensation term, so it does not lose digits in long runs.
+Boxes are tuples (X1, X2, X1', X2'), balls (Y1, Y2, Y1', Y2'), walls the wall that each ball sticks to, or 0.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from vibroimpact.exact.constraints import (
+    RESOLUTION,
+    acceleration_rounding,
+    derivative_bound,
+    derivatives,
+    gap_rounding,
+    module_time,
+)
+from vibroimpact.exact.flow import advance
+from vibroimpact.system.restitution import after_impact
+
+IMPACT, STICK, RELEASE = 0, 1, 2
+FINISHED, PENETRATED, STALLED = 0, 1, 2
+FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = 0, 1, 2, 3, 4, 5
+
+TWO_PI = 2.0 * math.pi
+TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
+LOOKAHEAD = 64.0  # in steps of the flow table, like SHORT
+SHORT = 0.002  # a fourth-order Taylor step this long is exact to rounding
+NEGLIGIBLE = 1e-18
+PATIENCE = 100_000  # events without any progress of time after which a run is given up
+
+_impact = njit(cache=True)(after_impact)
+
+
+@njit(cache=True)
+def mode_of(walls):
+    """Index of the contact state in the flow tables."""
+    return (1 if walls[0] != 0 else 0) + (2 if walls[1] != 0 else 0)
+
+
+@njit(cache=True)
+def _pair(values, i, value):
+    """The pair with its i-th entry replaced."""
+    return (value, values[1]) if i == 0 else (values[0], value)
+
+
+@njit(cache=True)
+def _with_velocity(values, i, velocity):
+    """Boxes or balls with the velocity of module i replaced."""
+    return (values[0], values[1], velocity, values[3]) if i == 0 else (values[0], values[1], values[2], velocity)
+
+
+@njit(cache=True)
+def _with_position(values, i, position):
+    """Boxes or balls with the position of module i replaced."""
+    return (position, values[1], values[2], values[3]) if i == 0 else (values[0], position, values[2], values[3])
+
+
+@njit(cache=True)
+def carry(balls, walls, boxes, t):
+    """Balls a time t after the start of a flight, the boxes being there already."""
+    y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
+    if walls[0] != 0:
+        y1, v1 = boxes[0] - walls[0], boxes[2]
+    if walls[1] != 0:
+        y2, v2 = boxes[1] - walls[1], boxes[3]
+    return y1, y2, v1, v2
+
+
+@njit(cache=True)
+def glide(flow, boxes, balls, walls, sine, cosine, t):
+    """Boxes and balls a time t later, no event in between."""
+    x1, x2, v1, v2, _, _ = advance(flow, mode_of(walls), boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
+    later = (x1, x2, v1, v2)
+    return later, carry(balls, walls, later, t)
+
+
+@njit(cache=True)
+def pack(boxes, balls, state):
+    """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    for i in range(4):
+        state[2 * i] = boxes[i]
+        state[2 * i + 1] = balls[i]
+
+
+@njit(cache=True)
+def _record(events, count, time, i, wall, kind, boxes, balls):
+    """Append an event; the table doubles when it is full."""
+    if count == len(events):
+        larger = np.empty((2 * count, 12))
+        larger[:count] = events
+        events = larger
+    row = events[count]
+    row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
+    pack(boxes, balls, row[4:])
+    return events, count + 1
+
+
+@njit(cache=True)
+def _push(q, d, boxes, i, wall, sticking):
+    """Sign of the force between ball i and the wall that it is at rest on: > 0 holds it there, < 0 would have to pull.
+
+    Where the force vanishes within rounding its first derivative that does not decides. So it does for a sticking ball
+    where the pull is too brief to lift the ball by more than rounding: it would lift it by 2 |force|^3 / (3 change^2).
+    """
+    tiny = acceleration_rounding(q, boxes)
+    force, change = wall * d[i], wall * d[2 + i]
+    if abs(force) <= tiny:
+        return change if change != 0.0 else wall * d[4 + i]
+    if sticking and force < 0.0 < change and -(force**3) < tiny * change**2:
+        return change
+    return force
+
+
+@njit(cache=True)
+def _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger):
+    """(whether the chatter of ball i may be completed now, time to its end).
+
+    After an impact with inward speed u under the push a the flights shrink by kappa each and end after
+    T = 2 u / (a (1 - kappa)). Completing at once keeps the momentum of box and ball; it neglects the force of the
+    springs on the distance of the ball meanwhile, of order u^3 / a^2.
+    """
+    q = flow.coefficients
+    mode = mode_of(walls)
+    wall = touching[i]
+    a, j = wall * d[i], wall * d[2 + i]
+    u = -wall * (boxes[2 + i] - balls[2 + i])
+    if a <= acceleration_rounding(q, boxes):
+        return False, 0.0
+    total = 2.0 * u / (a * (1.0 - q.kappa))
+    window = 2.0 * total
+    if window > min(remaining, LOOKAHEAD * flow.spacing):
+        return False, 0.0
+    if window * derivative_bound(q, mode, d, 3, window) > 0.25 * a:
+        return False, 0.0
+    neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
+    unresolved = u * u <= 2.0 * a * gap_rounding(boxes, balls, i)
+    if neglected > NEGLIGIBLE and not unresolved:
+        return False, 0.0
+    other = 1 - i
+    t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, window)
+    if t < window:
+        return unresolved, 0.0
+    ledger[NEGLECTED] += neglected
+    return True, total * (1.0 - j * total / (3.0 * a))
+
+
+@njit(cache=True)
+def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
+    """Everything that happens at one instant: impacts, completed chatters, balls at rest that stick, releases.
+
+    due: the module whose constraint is just met, or -1. Runs until nothing changes, since an impact in one module can
+    release the ball of the other.
+    """
+    q = flow.coefficients
+    pulled = due if due >= 0 and walls[due] != 0 else -1
+    for i in range(2):
+        if walls[i] != 0:
+            continue
+        relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
+        wall = 1 if relative > 0.0 else -1
+        if i != due and 1.0 - wall * relative > gap_rounding(boxes, balls, i):
+            continue
+        touching = _pair(touching, i, wall)
+        ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
+        balls = _with_position(balls, i, boxes[i] - wall)
+        if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
+            balls = _with_velocity(balls, i, boxes[2 + i])
+        elif wall * velocity > 0.0:
+            box, ball = _impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
+            boxes, balls = _with_velocity(boxes, i, box), _with_velocity(balls, i, ball)
+            events, count = _record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
+            d = derivatives(q, mode_of(walls), boxes, sine, cosine)
+            done, end = _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger)
+            if done:
+                common = (boxes[2 + i] + q.epsilon * balls[2 + i]) / (1.0 + q.epsilon)
+                boxes, balls = _with_velocity(boxes, i, common), _with_velocity(balls, i, common)
+                walls, touching = _pair(walls, i, wall), _pair(touching, i, 0)
+                ledger[CHATTERS] += 1
+                later, there = glide(flow, boxes, balls, walls, sine, cosine, end)
+                events, count = _record(events, count, elapsed + end, i, wall, STICK, later, there)
+    for i in range(2):
+        d = derivatives(q, mode_of(walls), boxes, sine, cosine)
+        if walls[i] != 0:
+            if i == pulled or _push(q, d, boxes, i, walls[i], True) < 0.0:
+                touching, walls = _pair(touching, i, walls[i]), _pair(walls, i, 0)
+                events, count = _record(events, count, elapsed, i, touching[i], RELEASE, boxes, balls)
+        elif touching[i] != 0 and boxes[2 + i] == balls[2 + i] and _push(q, d, boxes, i, touching[i], False) > 0.0:
+            walls, touching = _pair(walls, i, touching[i]), _pair(touching, i, 0)
+            events, count = _record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
+    return boxes, balls, walls, touching, events, count
+
+
+@njit(cache=True)
+def _taylor(boxes, d, t):
+    """The boxes a very short time t (of either sign) later."""
+    x1 = boxes[0] + t * (boxes[2] + t * (d[0] / 2 + t * (d[2] / 6 + t * d[4] / 24)))
+    x2 = boxes[1] + t * (boxes[3] + t * (d[1] / 2 + t * (d[3] / 6 + t * d[5] / 24)))
+    v1 = boxes[2] + t * (d[0] + t * (d[2] / 2 + t * (d[4] / 6 + t * d[6] / 24)))
+    v2 = boxes[3] + t * (d[1] + t * (d[3] / 2 + t * (d[5] / 6 + t * d[7] / 24)))
+    return x1, x2, v1, v2
+
+
+@njit(cache=True)
+def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
+    """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls)."""
+    q = flow.coefficients
+    mode = mode_of(walls)
+    reach = min(remaining, flow.longest)
+    now, there, s, c, t = boxes, balls, sine, cosine, 0.0
+    ledger[FLIGHTS] += 1
+    while True:
+        ledger[EVALUATIONS] += 1
+        d = derivatives(q, mode, now, s, c)
+        horizon = min(reach - t, LOOKAHEAD * flow.spacing)
+        step, due, doubt = horizon, -1, False
+        for i in range(2):
+            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, horizon)
+            if time < step:
+                step, due, doubt = time, (i if crossing else -1), undecided
+        if due >= 0 and abs(step) <= SHORT * flow.spacing:
+            ledger[UNDECIDED] += doubt
+            later = _taylor(now, d, step)
+            t = max(t + step, 0.0)
+            return t, due, later, carry(balls, walls, later, t)
+        t = min(t + step, reach)
+        x1, x2, v1, v2, s, c = advance(flow, mode, boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
+        now = (x1, x2, v1, v2)
+        there = carry(balls, walls, now, t)
+        touching = (0, 0)
+        if t >= reach:
+            return t, -1, now, there
+
+
+@njit(cache=True)
+def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
+    """Run a state over a number of forcing cycles.
+
+    start_phase in [0, 2 pi); sample_times (n,) ascending, from the start of the run; samples (n, 8) is filled (at an
+    event: the state after it). Returns the boxes and balls at the end, the events (m, 12) as rows [time since the
+    start, module, wall, kind, state after], the status and the ledger of the run.
+    """
+    q = flow.coefficients
+    events, count = np.empty((64, 12)), 0
+    ledger = np.zeros(6)
+    walls, touching, due = (0, 0), (0, 0), -1
+    phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
+    sampled, stalled = 0, 0
+    while True:
+        sine, cosine = math.sin(phase), math.cos(phase)
+        sine, cosine = sine + cosine * tail, cosine - sine * tail
+        remaining = max(((cycles - revolutions) * TWO_PI - (phase - start_phase) - tail) / q.omega, 0.0)
+        boxes, balls, walls, touching, events, count = _settle(
+            flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
+        )
+        if remaining == 0.0:
+            break
+        t, due, later, there = _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger)
+        while sampled < len(sample_times) and sample_times[sampled] < elapsed + t:
+            lag = max(sample_times[sampled] - elapsed, 0.0)
+            snapshot, flying = glide(flow, boxes, balls, walls, sine, cosine, lag)
+            pack(snapshot, flying, samples[sampled])
+            sampled += 1
+        boxes, balls, touching = later, there, (0, 0)
+        for i in range(2):
+            if abs(boxes[i] - balls[i]) > 1.0 + 16.0 * gap_rounding(boxes, balls, i):
+                return boxes, balls, events[:count], PENETRATED, ledger
+        stalled = 0 if t > 0.0 else stalled + 1
+        if stalled > PATIENCE:
+            return boxes, balls, events[:count], STALLED, ledger
+        if due < 0 and t >= remaining:
+            revolutions, phase, tail = cycles, start_phase, 0.0
+        else:  # the rounding of every addition goes to the tail
+            step = q.omega * t
+            total = phase + step
+            part = total - phase
+            tail += (phase - (total - part)) + (step - part)
+            phase = total
+            if phase >= TWO_PI:
+                phase, tail, revolutions = phase - TWO_PI, tail - TWO_PI_TAIL, revolutions + 1
+        elapsed = (revolutions * TWO_PI + (phase - start_phase) + tail) / q.omega
+    while sampled < len(sample_times):
+        pack(boxes, balls, samples[sampled])
+        sampled += 1
+    return boxes, balls, events[:count], FINISHED, ledger

@@ -1,0 +1,60 @@
+"""How long a constraint certainly holds: conservative advancement with a third-order bound.
+
+A constraint is a smooth g(t) >= 0 (the gap to a wall, or the contact force of a sticking ball). From g, its first two
+derivatives and a bound on the modulus of the third, every t up to the returned time has g(t) >= 0, proved by
+
+    g(t) >= g - v t - a t^2 / 2 - bound t^3 / 6,   v = -g', a = -g'',   and t^3 <= h t^2 on [0, h].
+
+Repeated from the safe side, the times converge cubically to a transversal zero of g and never pass it.
+"""
+
+import math
+
+from numba import njit
+
+
+@njit(cache=True, inline="always")
+def _first_zero(g, v, a):
+    """First t > 0 where g - v t - a t^2 / 2 falls to 0 (inf if never), for g >= 0; where g = 0, v <= 0 is needed."""
+    root = v * v + 2.0 * a * g
+    if root < 0.0:
+        return math.inf
+    root = math.sqrt(root)
+    if v > 0.0:
+        return 2.0 * g / (v + root)
+    return (root - v) / a if a > 0.0 else math.inf
+
+
+@njit(cache=True)
+def safe_time(g, v, a, bound, horizon):
+    """A time in [0, horizon] up to which the constraint certainly holds, close to the best the bound allows."""
+    early = _first_zero(g, v, a + bound * horizon / 3.0)
+    if early >= horizon:
+        return horizon
+    late = min(horizon, _first_zero(g, v, a + bound * early / 3.0))
+    better = _first_zero(g, v, a + bound * late / 3.0)
+    return max(early, min(better, late))
+
+
+@njit(cache=True)
+def leaving_time(a, j, bound, horizon):
+    """As safe_time for a constraint that starts at g = g' = 0, with a = -g'' <= 0, j = -g''' and |g''''| <= bound.
+
+    g(t) >= t^2 (-a / 2 - j t / 6 - bound t^2 / 24), and the bracket starts positive, or at 0 with positive slope.
+    """
+    return min(horizon, _first_zero(-0.5 * a, j / 6.0, bound / 12.0))
+
+
+@njit(cache=True)
+def crossing_time(g, v, a, j, bound, horizon):
+    """The time of the only zero nearby, to fourth order, if the constraint certainly falls through it; else inf.
+
+    With h = 2 |g| / v and |a| h + bound h^2 / 2 < v / 2 the slope stays beyond v / 2 on [-h, h]: there is one zero.
+    """
+    h = 2.0 * abs(g) / v
+    if h > horizon or abs(a) * h + 0.5 * bound * h * h >= 0.5 * v:
+        return math.inf
+    t = g / v
+    for _ in range(3):
+        t -= (t * (v + t * (0.5 * a + t * j / 6.0)) - g) / (v + t * (a + 0.5 * t * j))
+    return t

@@ -1,0 +1,136 @@
+"""Free flight in closed form: the linear flow of the boxes, evaluated without time stepping.
+
+Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
+The flow over a time t is exp(A j h) from a table times the Taylor series of exp(A r), |r| <= h/2, short enough to be
+exact to rounding. No eigenvalues are used, so repeated, defective, undamped and resonant spectra are no exception.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
+
+CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
+"""Which balls stick, in the order of the tables: index = stuck_1 + 2 stuck_2."""
+
+TAYLOR_ORDER = 9
+STEPS_PER_UNIT = 16
+LONGEST_TABLE = 4096
+
+
+class Coefficients(NamedTuple):
+    """The scalars of (10.2) as the compiled loops read them."""
+
+    k11: float
+    k12: float
+    k22: float
+    c11: float
+    c12: float
+    c22: float
+    f1: float
+    f2: float
+    omega: float
+    epsilon: float
+    kappa: float
+
+
+class Flow(NamedTuple):
+    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing and count."""
+
+    coefficients: Coefficients
+    propagators: np.ndarray
+    rotations: np.ndarray
+    spacing: float
+    longest: float
+
+
+@lru_cache(maxsize=64)
+def flow_of(system) -> Flow:
+    """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
+    stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
+    coefficients = Coefficients(
+        *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
+        *(float(v) for v in (damping[0, 0], damping[0, 1], damping[1, 1])),
+        float(force[0]),
+        float(force[1]),
+        system.Omega,
+        system.epsilon,
+        system.kappa,
+    )
+    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
+    propagators = np.array([_powers(rate_matrix(system, stuck), spacing, count) for stuck in CONTACT_STATES])
+    angles = system.Omega * spacing * np.arange(count)
+    rotations = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return Flow(
+        coefficients,
+        np.ascontiguousarray(propagators[:, :, :4, :]),
+        rotations,
+        spacing,
+        spacing * (count - 1),
+    )
+
+
+def _powers(rate, spacing, count):
+    """exp(rate spacing j) for j < count, in extended precision so that the table is rounded only once."""
+    scaled = rate.astype(np.longdouble) * spacing
+    term = np.eye(6, dtype=np.longdouble)
+    step = term.copy()
+    for k in range(1, 25):
+        term = term @ scaled / k
+        step = step + term
+    table = np.eye(6, dtype=np.longdouble)[None]
+    while len(table) < count:
+        table = np.concatenate([table, table @ step])
+        step = step @ step
+    return table[:count].astype(float)
+
+
+@njit(cache=True)
+def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
+    """Box accelerations for inverse masses i1, i2 under the forces s1, s2 (also: next derivative of a derivative)."""
+    a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
+    a2 = i2 * (s2 - q.k12 * x1 - q.k22 * x2 - q.c12 * v1 - q.c22 * v2)
+    return a1, a2
+
+
+@njit(cache=True)
+def inverse_masses(q, mode):
+    """1 / moving mass of each module in a contact state."""
+    stuck = 1.0 / (1.0 + q.epsilon)
+    return (stuck if mode & 1 else 1.0), (stuck if mode & 2 else 1.0)
+
+
+@njit(cache=True)
+def advance(flow, mode, x1, x2, v1, v2, sine, cosine, t):
+    """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: X1, X2, X1', X2', sin, cos."""
+    q = flow.coefficients
+    j = int(t / flow.spacing + 0.5)
+    r = t - j * flow.spacing
+    if j > 0:
+        p = flow.propagators[mode, j]
+        y1 = p[0, 0] * x1 + p[0, 1] * x2 + p[0, 2] * v1 + p[0, 3] * v2 + p[0, 4] * sine + p[0, 5] * cosine
+        y2 = p[1, 0] * x1 + p[1, 1] * x2 + p[1, 2] * v1 + p[1, 3] * v2 + p[1, 4] * sine + p[1, 5] * cosine
+        w1 = p[2, 0] * x1 + p[2, 1] * x2 + p[2, 2] * v1 + p[2, 3] * v2 + p[2, 4] * sine + p[2, 5] * cosine
+        w2 = p[3, 0] * x1 + p[3, 1] * x2 + p[3, 2] * v1 + p[3, 3] * v2 + p[3, 4] * sine + p[3, 5] * cosine
+        x1, x2, v1, v2 = y1, y2, w1, w2
+        ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
+        sine, cosine = sine * ca + cosine * sa, cosine * ca - sine * sa
+    i1, i2 = inverse_masses(q, mode)
+    d1, d2, e1, e2, ds, dc = x1, x2, v1, v2, sine, cosine  # r^k / k! times the k-th derivatives
+    for k in range(1, TAYLOR_ORDER + 1):
+        b = r / k
+        n1, n2 = acceleration(q, i1, i2, d1, d2, e1, e2, q.f1 * ds, q.f2 * ds)
+        d1, d2, e1, e2 = b * e1, b * e2, b * n1, b * n2
+        ds, dc = b * q.omega * dc, -b * q.omega * ds
+        x1 += d1
+        x2 += d2
+        v1 += e1
+        v2 += e2
+        sine += ds
+        cosine += dc
+    return x1, x2, v1, v2, sine, cosine
