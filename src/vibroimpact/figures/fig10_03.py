@@ -11,16 +11,16 @@ from vibroimpact.figures.tables import curve, join, select
 from vibroimpact.theory.sawtooth import sawtooth
 
 
-def compute(C: float, theta: float, tau0_max: float) -> pd.DataFrame:
-    """The saw-tooth Z(tau_0) of (10.11) for constant C and theta [rad], and its impacts, for 0 <= tau_0 <= tau0_max.
+def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
+    """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, for 0 <= tau_0 <= tau0_max.
 
     Returns columns panel, series ("Z" or "impacts"), tau0, Z. The corners are among the points of the line.
 
     Raises:
-        ValueError: C is not above 0, or the window holds no impact.
+        ValueError: amplitude is not above 0, or the window holds no impact.
     """
-    if C <= 0:
-        raise ValueError(f"C: {C} is not above 0")
+    if not amplitude > 0:
+        raise ValueError(f"amplitude: {amplitude} is not above 0")
     first = math.ceil(-theta / math.pi)
     last = math.floor((tau0_max - theta) / math.pi)
     if not tau0_max > 0 or last < first:
@@ -28,7 +28,7 @@ def compute(C: float, theta: float, tau0_max: float) -> pd.DataFrame:
     impacts = theta + math.pi * np.arange(first, last + 1)
     tau0 = np.union1d(np.linspace(0.0, tau0_max, 201), impacts)
     return join(
-        curve("Z", series, tau0=instants, Z=sawtooth(instants, C, theta))
+        curve("Z", series, tau0=instants, Z=sawtooth(instants, amplitude, theta))
         for series, instants in (("Z", tau0), ("impacts", impacts))
     )
 
