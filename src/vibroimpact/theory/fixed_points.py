@@ -78,8 +78,8 @@ def search_radius(system) -> float:
 
 
 def _fixed_point(system, balance, C, multiple):
-    b = balance.at(C)[0] * balance.phasors(C)
-    psi = -np.angle(b)
+    numerators, denominator = balance.solve(C)
+    psi = -np.angle(balance.at(C)[0] * numerators / denominator)
     return FixedPoint(
         C=C,
         B=B_of_C(C, rho(system.kappa)),
@@ -90,8 +90,9 @@ def _fixed_point(system, balance, C, multiple):
 
 
 def _refuse_resonance(system, balance):
-    size = np.prod(np.abs(balance.p[:, 0])) + abs(balance.K) ** 2
-    if abs(balance.determinant((0.0, 0.0))) <= 1e-12 * size:
+    own = np.abs(balance.q[:, 0])
+    size = own.prod() + abs(balance.K) * own.sum()
+    if abs(balance.solve((0.0, 0.0))[1]) <= 1e-12 * size:
         raise ValueError(
             f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at its resonance; "
             "add damping or change the frequency"

@@ -25,11 +25,11 @@ def C_of_B(B, rho):
         ValueError: some B is below B_min, where the manifold has no real point.
     """
     B = np.asarray(B, dtype=float)
-    lowest = B_min(rho)
-    if not np.all(B >= lowest):
-        raise ValueError(f"B: {np.min(B)} is below B_min = {lowest} for rho = {rho}")
+    above = B - B_min(rho)
+    if not np.all(above >= 0):
+        raise ValueError(f"B: {np.min(B)} is not at least B_min = {B_min(rho)} for rho = {rho}")
     # Both differences are factored: exact at the fold, no cancellation on the lower arm near C = 0.
-    root = np.sqrt((1 + rho**2) * (B - lowest) * (B + lowest))
+    root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
 
 

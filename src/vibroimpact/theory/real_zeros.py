@@ -24,7 +24,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
     Args:
         coefficients: shape (m, 3, 3), of x^j y^k; the common zeros of the first two are zeros of all.
-        magnitudes: shape (m, 3, 3), sums of moduli from which the coefficients were formed: the scale of their rounding.
+        magnitudes: shape (m, 3, 3), the coefficients formed with moduli throughout: the scale of their rounding.
 
     Returns:
         Zeros, shape (n, 2), in ascending order of x, and for each whether it is multiple (shape (n,), bool).
@@ -40,8 +40,9 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
         centres, local, noise = centres[keep], local[keep], noise[keep]
         empty, single, newton = _krawczyk(local[:, :2], noise[:, :2])
         found += [(pair, half) for pair in zip(centres[single], newton[single], strict=True)]
-        rest = centres[~(empty | single)]
-        fine = half <= _RESOLUTION * np.maximum(1, np.abs(rest).max(axis=1, initial=0))
+        settled = empty | single
+        rest = centres[~settled]
+        fine = (_drowned(local, noise) | (half <= _RESOLUTION * np.maximum(1, np.abs(centres).max(axis=1))))[~settled]
         unsettled += [(centre, half) for centre in rest[fine]]
         rest = rest[~fine]
         if not len(rest):
@@ -74,9 +75,36 @@ def _expand(coefficients, magnitudes, centres, half):
 
 
 def _may_vanish(local, noise):
-    bernstein = _TO_BERNSTEIN @ local @ _TO_BERNSTEIN.T
+    """Whether a box may hold a zero, judged by the polynomials and by the adjugate Jacobian times the pair.
+
+    The latter separates the two curves where they cross, and where they nearly touch, without dividing.
+    """
+    adjugate = _adjugate(_gradient(local))
+    separated = np.einsum("nab,nbjk->najk", adjugate, local[:, :2])
+    blur = np.einsum("nab,nb->na", np.abs(adjugate), noise[:, :2]) * (1 + _ROUNDING)
+    bernstein = _TO_BERNSTEIN @ np.concatenate([local, separated], axis=1) @ _TO_BERNSTEIN.T
+    noise = np.concatenate([noise, blur], axis=1)
     lowest, highest = bernstein.min(axis=(2, 3)), bernstein.max(axis=(2, 3))
     return np.all((lowest <= noise) & (highest >= -noise), axis=1)
+
+
+def _gradient(local):
+    """Jacobian (n, 2, 2) of the pair at the centres, in box coordinates."""
+    return np.stack([local[:, :2, 1, 0], local[:, :2, 0, 1]], -1)
+
+
+def _adjugate(matrix):
+    rows = [
+        np.stack([matrix[:, 1, 1], -matrix[:, 0, 1]], -1),
+        np.stack([-matrix[:, 1, 0], matrix[:, 0, 0]], -1),
+    ]
+    return np.stack(rows, -2)
+
+
+def _drowned(local, noise):
+    """Whether the polynomials change by less than their rounding over the box: dividing it teaches nothing more."""
+    size = np.abs(local)
+    return np.all(size.sum(axis=(2, 3)) - size[..., 0, 0] <= noise, axis=1)
 
 
 def _krawczyk(local, noise):
@@ -85,8 +113,7 @@ def _krawczyk(local, noise):
     With Y the inverse of the Jacobian at the centre, x - Y F(x) maps the box of half-width s into
     -Y F(0) + [-q s, q s], where q bounds the change of Y DF over the wide box.
     """
-    constant = local[..., 0, 0]
-    centre = np.stack([local[..., 1, 0], local[..., 0, 1]], -1)
+    constant, gradient = local[..., 0, 0], _gradient(local)
     size = np.abs(local)
     s = _REACH ** np.arange(3)
     change = np.stack(
@@ -98,15 +125,7 @@ def _krawczyk(local, noise):
     )
     change += noise[..., None]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        determinant = centre[:, 0, 0] * centre[:, 1, 1] - centre[:, 0, 1] * centre[:, 1, 0]
-        adjugate = np.stack(
-            [
-                np.stack([centre[:, 1, 1], -centre[:, 0, 1]], -1),
-                np.stack([-centre[:, 1, 0], centre[:, 0, 0]], -1),
-            ],
-            -2,
-        )
-        inverse = adjugate / determinant[:, None, None]
+        inverse = _adjugate(gradient) / np.linalg.det(gradient)[:, None, None]
         q = (np.abs(inverse) @ change).sum(axis=2)
         step = -np.einsum("nij,nj->ni", inverse, constant)
         blur = np.einsum("nij,nj->ni", np.abs(inverse), noise) + _ROUNDING

@@ -13,7 +13,8 @@ def determinant(system, C) -> float:
     this is their determinant (docs/derivation.md, section 8). Zero for all C when the modules are uncoupled.
     """
     balance = Balance.of(system)
-    z, p = balance.at(C)
+    z, q = balance.at(C)
+    p = q + balance.K * z
     return float((np.prod(p * z.conj()) * balance.K.conjugate() ** 2).imag)
 
 
@@ -35,9 +36,9 @@ def singular_points(system, point, module) -> np.ndarray:
         raise ValueError(f"module: {module!r} is neither 1 nor 2")
     own, other = module - 1, 2 - module
     balance = Balance.of(system)
-    z, p = balance.at(point.C)
-    held = p[other] * (z[other] * balance.K**2).conjugate()
-    C = _real_roots((held * np.convolve(balance.p[own], balance.z.conj())).imag)
+    z, q = balance.at(point.C)
+    held = (q[other] + balance.K * z[other]) * (z[other] * balance.K**2).conjugate()
+    C = _real_roots((held * np.convolve(balance.q[own] + balance.K * balance.z, balance.z.conj())).imag)
     C = np.unique(C[C >= 0])
     return np.column_stack([C, B_of_C(C, rho(system.kappa))])
 

@@ -10,14 +10,14 @@ FIRST_HARMONIC = 8 / np.pi**2
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Slow impedances (d_1, d_2), shape (2,), of the boxes without balls, and K of the coupling.
+    """Slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K of the coupling.
 
     With b_i = B_i exp(-i psi_i) the slow flow reads
-    2i D_1 b_i = f_i - (d_i + N(C_i)) b_i + K b_j, where N is the describing function of the ball.
+    2i D_1 b_i = f_i - (e_i + N(C_i)) b_i - K (b_i - b_j), where N is the describing function of the ball.
     """
-    coupling = system.alpha12_hat + 1j * system.gamma12_hat
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
-    return coupling + detuning + 1j * np.array([system.gamma1_hat, system.gamma2_hat]), coupling
+    damping = np.array([system.gamma1_hat, system.gamma2_hat])
+    return detuning + 1j * damping, system.alpha12_hat + 1j * system.gamma12_hat
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
@@ -58,15 +58,15 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     r = rho(system.kappa)
     C = np.asarray(C, dtype=float)
     B, B_C = B_of_C(C, r), slope(C, r)
-    d, K = impedances(system)
+    e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
     ahead = np.exp(1j * np.asarray(psi))
     ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
     ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
     # D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i), the complex form of (10.22).
     from_other = K * ahead * (B / ahead)[::-1]
-    drive = forcing * ahead - d * B - ball + from_other
-    drive_own_C = -d * B_C - ball_C
+    drive = forcing * ahead - (e + K) * B - ball + from_other
+    drive_own_C = -(e + K) * B_C - ball_C
     drive_own_psi = 1j * (forcing * ahead + from_other)
     drive_other_C = K * ahead * (B_C / ahead)[::-1]
     drive_other_psi = -1j * from_other
