@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.fixed_point_table import labelled_points
 from vibroimpact.figures.manifold import branches, draw_branches
-from vibroimpact.figures.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.style import BLACK, GREY, SINGLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.tables import curve, join, select
 from vibroimpact.theory.singular_points import singular_points
 
@@ -23,40 +23,44 @@ MARKERS = {
 """In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
 
 
-def compute(system, points: pd.DataFrame, C_max: tuple[float, float]) -> pd.DataFrame:
+def compute(system, points: pd.DataFrame, C_max) -> pd.DataFrame:
     """Manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
 
     Args:
         points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
-        C_max: the manifold is shown for 0 <= C_i <= C_max[i - 1].
+        C_max: the manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed
+            point lies beyond.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
     "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
 
     Raises:
-        ValueError: C_max does not reach beyond the fold or leaves a fixed point out.
+        ValueError: C_max does not reach beyond the fold of the manifold.
     """
-    rows = [curve for point in labelled_points(points) for curve in planes(system, point, C_max)]
-    if not rows:
-        rows = [branch for i in MODULES for branch in branches(str(i), system.kappa, C_max[i - 1])]
-    return join(rows)
+    return join(planes(system, labelled_points(points), C_max))
 
 
-def planes(system, point, C_max) -> list[pd.DataFrame]:
-    """The curves of both planes of one fixed point; see `compute`."""
-    curves = []
-    for module, highest in zip(MODULES, C_max, strict=True):
-        panel = f"{point.label}{module}"
-        C, B = point.C[module - 1], point.B[module - 1]
-        if C > highest:
-            raise ValueError(f"C_max: {highest} leaves out the fixed point {point.label} at C_{module} = {C}")
-        singular = singular_points(system, point, module)
-        inside = singular[:, 0] <= highest
-        curves += branches(panel, system.kappa, highest)
-        curves.append(curve(panel, f"P_{module}", C=C, B=B))
-        for series, part in ((f"S_{module}", singular[inside]), (f"S_{module} beyond", singular[~inside])):
-            curves.append(curve(panel, series, C=part[:, 0], B=part[:, 1]))
-    return curves
+def planes(system, points, C_max) -> list[pd.DataFrame]:
+    """The curves of both planes of each labelled point; see `compute`."""
+    ends = np.max([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)], axis=0)
+    if not points:
+        return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
+    return [part for point in points for i in MODULES for part in _plane(system, point, i, ends[i - 1])]
+
+
+def _plane(system, point, module, end):
+    panel = f"{point.label}{module}"
+    C, B = point.C[module - 1], point.B[module - 1]
+    singular = singular_points(system, point, module)
+    inside = singular[:, 0] <= end
+    return [
+        *branches(panel, system.kappa, end),
+        curve(panel, f"P_{module}", C=C, B=B),
+        *(
+            curve(panel, series, C=part[:, 0], B=part[:, 1])
+            for series, part in ((f"S_{module}", singular[inside]), (f"S_{module} beyond", singular[~inside]))
+        ),
+    ]
 
 
 @styled
@@ -66,7 +70,7 @@ def draw(table: pd.DataFrame) -> Figure:
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + FOOT)
     grid = figure.subplots(len(labels), len(MODULES), sharex="col", sharey="col", squeeze=False)
     for row, label in zip(grid, labels, strict=True):
-        row[0].set_title(label, loc="left", weight="bold", pad=3)
+        letter_panel(row[0], label)
         for axes, module in zip(row, MODULES, strict=True):
             draw_plane(axes, table, f"{label}{module}")
     for axes, module in zip(grid[-1], MODULES, strict=True):

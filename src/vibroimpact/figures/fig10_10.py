@@ -9,7 +9,7 @@ from vibroimpact.figures.style import SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.tables import join
 
 
-def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_max: tuple[float, float]) -> pd.DataFrame:
+def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_max) -> pd.DataFrame:
     """The planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
     Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
@@ -20,7 +20,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_ma
     point = labelled_point(points, fixed_point)
     return join(
         [
-            *fig10_06.planes(system, point, C_max),
+            *fig10_06.planes(system, [point], C_max),
             fig10_07.compute(system, points, fixed_point, periods),
         ]
     )

@@ -39,11 +39,9 @@ def new_figure(width: float, height: float, layout: str | None = "constrained") 
     return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
 
 
-def panel_label(axes, letter: str):
-    """Letter a panel as the captions do, in bold, in its upper left corner inside the frame."""
-    return axes.annotate(
-        letter, (0, 1), (3, -3), xycoords="axes fraction", textcoords="offset points", va="top", weight="bold"
-    )
+def letter_panel(axes, letter: str) -> None:
+    """Letter a panel as the captions do: in bold, above its upper left corner."""
+    axes.set_title(letter, loc="left", weight="bold", pad=3)
 
 
 @styled

@@ -1,0 +1,78 @@
+"""Recognising the motion that a run has settled on: does it repeat, is it symmetric, how often does it impact.
+
+Everything here works on states sampled evenly, a whole number of times per forcing period.
+"""
+
+import numpy as np
+
+
+def samples_per_cycle(tau, period: float) -> int:
+    """Number of samples per forcing period of evenly spaced times tau, shape (n,).
+
+    Raises:
+        ValueError: the times are not evenly spaced, or do not divide the period, or span less than one period.
+    """
+    tau = np.asarray(tau, dtype=float)
+    if tau.ndim != 1 or len(tau) < 2:
+        raise ValueError(f"tau: needs at least 2 times, got shape {tau.shape}")
+    step = (tau[-1] - tau[0]) / (len(tau) - 1)
+    number = round(period / step) if step > 0 else 0
+    slack = 1e-6 * step
+    if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
+        raise ValueError(f"tau: samples {step} apart do not divide the period {period} evenly")
+    if len(tau) <= number:
+        raise ValueError(f"tau: {len(tau)} samples span less than one period of {number}")
+    return number
+
+
+def distance_after(states, per_cycle: int, cycles: int = 1) -> float:
+    """Largest change of any state component over some forcing periods, over the whole window.
+
+    0 for a motion that repeats after `cycles` periods.
+
+    Args:
+        states: sampled states, shape (n, 8) with n > cycles * per_cycle.
+    """
+    states, lag = np.asarray(states), cycles * per_cycle
+    if not 0 < lag < len(states):
+        raise ValueError(f"cycles: {cycles} periods are not within the window of {len(states) / per_cycle:g}")
+    return float(np.max(np.abs(states[lag:] - states[:-lag])))
+
+
+def repeats_after(states, per_cycle: int, tolerance: float) -> int | None:
+    """The smallest number of forcing periods after which the motion repeats within a tolerance, or None.
+
+    Only numbers up to half the window are tried, so that every claimed repetition was seen at least twice.
+    """
+    longest = (len(states) - 1) // (2 * per_cycle)
+    candidates = range(1, longest + 1)
+    return next((n for n in candidates if distance_after(states, per_cycle, n) <= tolerance), None)
+
+
+def mirror_distance(states, per_cycle: int) -> float:
+    """Largest |s(tau + T/2) + s(tau)| over the window: 0 for a motion that is its own mirror image.
+
+    The equations of motion turn into themselves under state to minus state and half a period later.
+
+    Raises:
+        ValueError: per_cycle is odd, so that half a period is not a whole number of samples.
+    """
+    if per_cycle % 2:
+        raise ValueError(f"per_cycle: {per_cycle} is odd, half a period lies between samples")
+    states, half = np.asarray(states), per_cycle // 2
+    return float(np.max(np.abs(states[half:] + states[:-half])))
+
+
+def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
+    """Number of impacts in each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
+
+    Args:
+        tau, module, wall: of each impact, shape (m,).
+        start: time at which the first of the periods begins.
+    """
+    tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
+    edges = start + period * np.arange(cycles + 1)
+    counts = [
+        [np.histogram(tau[(module == i) & (wall == side)], edges)[0] for side in (1, -1)] for i in (1, 2)
+    ]
+    return np.moveaxis(np.array(counts), -1, 0)
