@@ -22,7 +22,9 @@ def draw() -> Figure:
     length = 2 * (L + RADIUS)
     drawing.body(axes, CENTRE - 0.5 * length, CAVITY_BOTTOM, length, 2 * RADIUS, facecolor="white")
     for wall in (-1, 1):
-        drawing.ball(axes, CENTRE + wall * L, AXIS, RADIUS, facecolor="none", linestyle=(0, (3, 2)), linewidth=drawing.LINE)
+        drawing.ball(
+            axes, CENTRE + wall * L, AXIS, RADIUS, facecolor="none", linestyle=(0, (3, 2)), linewidth=drawing.LINE
+        )
         _centre_line(axes, CENTRE + wall * L, AXIS + RADIUS + 1.5, L_LEVEL - 1.5)
         drawing.dimension(axes, CENTRE, CENTRE + wall * L, L_LEVEL, "$L$")
     drawing.ball(axes, CENTRE + OFFSET, AXIS, RADIUS)

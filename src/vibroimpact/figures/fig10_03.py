@@ -12,7 +12,7 @@ from vibroimpact.theory.sawtooth import sawtooth
 
 
 def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
-    """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, for 0 <= tau_0 <= tau0_max.
+    """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, on [0, tau0_max].
 
     Returns columns panel, series ("Z" or "impacts"), tau0, Z. The corners are among the points of the line.
 
@@ -31,6 +31,12 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
         curve("Z", series, tau0=instants, Z=sawtooth(instants, amplitude, theta))
         for series, instants in (("Z", tau0), ("impacts", impacts))
     )
+
+
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """The impacts: instant tau_0, level Z, and time since the impact before."""
+    impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
+    return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
 
 
 @styled

@@ -21,6 +21,13 @@ def compute(kappa: float, C_max: float) -> pd.DataFrame:
     return join([*branches("SIM", kappa, C_max), level])
 
 
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """Where the stable branch begins, and the lowest point of the manifold."""
+    stable = select(table, "SIM", "SIM stable")[["C", "B"]]
+    points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
+    return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
+
+
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min dotted."""

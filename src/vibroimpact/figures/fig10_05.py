@@ -35,6 +35,15 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     )
 
 
+def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
+    """For evenly spaced kappa: the border of stability, C_min, and the piece of the left arm that is stable."""
+    fold = select(table, "regions", "C_min")["C"].to_numpy()
+    border = select(table, "regions", "stable").iloc[: len(fold)]
+    rows = np.linspace(0, len(fold) - 1, values).astype(int)
+    points = pd.DataFrame({"kappa": border["kappa"].to_numpy(), "border": border["C"].to_numpy(), "C_min": fold})
+    return points.assign(stable_left_arm=points["C_min"] - points["border"]).iloc[rows].reset_index(drop=True)
+
+
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: stable shaded, unstable white, C_min dotted."""

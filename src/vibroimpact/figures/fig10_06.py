@@ -107,6 +107,6 @@ def _name(axes, points, module, fold):
         axes.annotate(f"${kind}_{module}$", (C, B), **NAME, **offset)
     for C, B, kind in (point for point in points if point not in close):
         below = fold < C < 0.8 * axes.get_xlim()[1]
-        rightwards = below or C < fold
+        rightwards = below or fold > C
         offset, side = ((5, -9 if below else 2), "left") if rightwards else ((-5, 2), "right")
         axes.annotate(f"${kind}_{module}$", (C, B), offset, **NAME, ha=side)

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from vibroimpact.theory.manifold import C_min, overshoot, rho
+from vibroimpact.theory.stability import printed_limit
+
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
@@ -32,5 +35,35 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     """
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
-        raise ValueError(f"fixed_point: {label!r} is not among the fixed points of this case ({', '.join(points) or 'none'})")
+        raise ValueError(
+            f"fixed_point: {label!r} is not among the fixed points of this case ({', '.join(points) or 'none'})"
+        )
     return points[label]
+
+
+def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
+    """Where each fixed point lies: one row per point and module.
+
+    Columns label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable", (10.26)),
+    overshoot (how far W leaves the walls at leading order, 0 where |W| <= 1).
+    """
+    r = rho(system.kappa)
+    return pd.DataFrame(
+        {
+            "label": point.label,
+            "module": module,
+            "C": C,
+            "B": B,
+            "arm": "right" if C > C_min(r) else "left",
+            "branch": "stable" if C > printed_limit(r) else "unstable",
+            "overshoot": float(overshoot(C, r)),
+        }
+        for point in labelled_points(table)
+        for module, C, B in zip((1, 2), point.C, point.B, strict=True)
+    )
+
+
+def verdicts(places: pd.DataFrame) -> pd.Series:
+    """The chapter's verdict on each fixed point, by label: stable where both projections are on the stable branch."""
+    stable = (places["branch"] == "stable").groupby(places["label"]).all()
+    return stable.map({True: "stable", False: "unstable"}).rename("verdict")

@@ -24,9 +24,10 @@ def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[
     if not C_max > fold:
         raise ValueError(f"C_max: {C_max} is not above C_min = {fold}, so the right arm would be missing")
     C = np.union1d(np.linspace(0.0, C_max, points), [limit, fold])
+    border = np.searchsorted(C, limit)
     return [
         curve(panel, series, C=part, B=B_of_C(part, r))
-        for series, part in (("SIM unstable", C[C <= limit]), ("SIM stable", C[C >= limit]))
+        for series, part in (("SIM unstable", C[: border + 1]), ("SIM stable", C[border:]))
     ]
 
 

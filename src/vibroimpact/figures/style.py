@@ -46,7 +46,7 @@ def letter_panel(axes, letter: str) -> None:
 
 @styled
 def save(figure: Figure, outputs: dict) -> None:
-    """Write a figure to outputs["png"], outputs["pdf"], outputs["svg"] (those present), each file at once or not at all."""
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all."""
     for kind in _METADATA.keys() & outputs.keys():
         with replacing(outputs[kind]) as path:
             figure.savefig(path, format=kind, metadata=_METADATA[kind])

@@ -1,6 +1,7 @@
 """Recognising the motion that a run has settled on: does it repeat, is it symmetric, how often does it impact.
 
-Everything here works on states sampled evenly, a whole number of times per forcing period.
+Everything here works on displacements (X1, Y1, X2, Y2) sampled evenly, a whole number of times per forcing period.
+Velocities are left out: they jump at impacts, and a sample next to an impact would compare the two sides of the jump.
 """
 
 import numpy as np
@@ -25,32 +26,32 @@ def samples_per_cycle(tau, period: float) -> int:
     return number
 
 
-def distance_after(states, per_cycle: int, cycles: int = 1) -> float:
-    """Largest change of any state component over some forcing periods, over the whole window.
+def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
+    """Largest change of any displacement over some forcing periods, over the whole window.
 
     0 for a motion that repeats after `cycles` periods.
 
     Args:
-        states: sampled states, shape (n, 8) with n > cycles * per_cycle.
+        displacements: shape (n, k) with n > cycles * per_cycle.
     """
-    states, lag = np.asarray(states), cycles * per_cycle
-    if not 0 < lag < len(states):
-        raise ValueError(f"cycles: {cycles} periods are not within the window of {len(states) / per_cycle:g}")
-    return float(np.max(np.abs(states[lag:] - states[:-lag])))
+    displacements, lag = np.asarray(displacements), cycles * per_cycle
+    if not 0 < lag < len(displacements):
+        raise ValueError(f"cycles: {cycles} periods are not within the window of {len(displacements) / per_cycle:g}")
+    return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
-def repeats_after(states, per_cycle: int, tolerance: float) -> int | None:
+def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
     """The smallest number of forcing periods after which the motion repeats within a tolerance, or None.
 
     Only numbers up to half the window are tried, so that every claimed repetition was seen at least twice.
     """
-    longest = (len(states) - 1) // (2 * per_cycle)
+    longest = (len(displacements) - 1) // (2 * per_cycle)
     candidates = range(1, longest + 1)
-    return next((n for n in candidates if distance_after(states, per_cycle, n) <= tolerance), None)
+    return next((n for n in candidates if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
-def mirror_distance(states, per_cycle: int) -> float:
-    """Largest |s(tau + T/2) + s(tau)| over the window: 0 for a motion that is its own mirror image.
+def mirror_distance(displacements, per_cycle: int) -> float:
+    """Largest |x(tau + T/2) + x(tau)| over the window: 0 for a motion that is its own mirror image.
 
     The equations of motion turn into themselves under state to minus state and half a period later.
 
@@ -59,8 +60,8 @@ def mirror_distance(states, per_cycle: int) -> float:
     """
     if per_cycle % 2:
         raise ValueError(f"per_cycle: {per_cycle} is odd, half a period lies between samples")
-    states, half = np.asarray(states), per_cycle // 2
-    return float(np.max(np.abs(states[half:] + states[:-half])))
+    displacements, half = np.asarray(displacements), per_cycle // 2
+    return float(np.max(np.abs(displacements[half:] + displacements[:-half])))
 
 
 def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
@@ -72,7 +73,5 @@ def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: in
     """
     tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
     edges = start + period * np.arange(cycles + 1)
-    counts = [
-        [np.histogram(tau[(module == i) & (wall == side)], edges)[0] for side in (1, -1)] for i in (1, 2)
-    ]
+    counts = [[np.histogram(tau[(module == i) & (wall == side)], edges)[0] for side in (1, -1)] for i in (1, 2)]
     return np.moveaxis(np.array(counts), -1, 0)

@@ -1,6 +1,10 @@
 """The slow variables of (10.9)-(10.12) as they are found in a sampled motion, for comparison with fixed points."""
 
+from dataclasses import dataclass
+
 import numpy as np
+
+WALLS = (1, -1)
 
 
 def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray]:
@@ -38,3 +42,49 @@ def mean_phase(phases) -> tuple[float, float]:
     mean = np.angle(np.mean(np.exp(2j * np.pi * turns))) / (2 * np.pi) % 1.0
     distance = np.abs((turns - mean + 0.5) % 1.0 - 0.5)
     return float(mean), float(np.max(distance))
+
+
+@dataclass(frozen=True, eq=False)
+class SlowVariables:
+    """What a sampled motion shows of the slow variables.
+
+    Attributes:
+        B, psi: amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).
+        C: from the mean speed of the ball's flights, shape (2,).
+        impact_phases: mean phase in the cycle, [module, wall +1 / wall -1], shape (2, 2), fractions in [0, 1).
+    """
+
+    B: np.ndarray
+    psi: np.ndarray
+    C: np.ndarray
+    impact_phases: np.ndarray
+
+    def distance(self, point) -> float:
+        """Distance to a fixed point: of the phasors B_i exp(-i psi_i) of both modules together."""
+        return float(np.linalg.norm(self.B * np.exp(-1j * self.psi) - point.B * np.exp(-1j * np.asarray(point.psi))))
+
+
+def measure(system, tau, displacements, impacts) -> SlowVariables:
+    """Measure the slow variables of a periodic motion.
+
+    Args:
+        tau, displacements: evenly spaced times of whole periods (end left out) and X1, Y1, X2, Y2 there, shape (n, 4).
+        impacts: mapping of arrays (m,): tau, module, wall and dY1, dY2 just after the impact.
+
+    Raises:
+        ValueError: a ball misses one of its walls.
+    """
+    X, Y = displacements[:, 0::2], displacements[:, 1::2]
+    B, psi = amplitude_and_lag(tau, X + system.epsilon * Y, system.Omega)
+    C, phases = np.empty(2), np.empty((2, 2))
+    module, wall = np.asarray(impacts["module"]), np.asarray(impacts["wall"])
+    phase = phase_in_cycle(impacts["tau"], system.period)
+    for i in (1, 2):
+        speed = np.asarray(impacts[f"dY{i}"])[module == i]
+        for column, side in enumerate(WALLS):
+            here = (module == i) & (wall == side)
+            if not here.any():
+                raise ValueError(f"impacts: none of module {i} at the wall {side:+d}")
+            phases[i - 1, column] = mean_phase(phase[here])[0]
+        C[i - 1] = np.mean(sawtooth_amplitude(speed, system.epsilon, system.Omega))
+    return SlowVariables(B=B, psi=psi, C=C, impact_phases=phases)
