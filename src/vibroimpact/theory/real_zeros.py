@@ -16,6 +16,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 # Half-width, relative to max(1, |centre|), at which a double zero drowns in rounding.
 _RESOLUTION = 1e-8
 _REACH = 2.0  # the Krawczyk test looks at a box this many times as wide, so that zeros on an edge are settled
+_CROWD = 20_000  # more boxes than this hold a curve of zeros
 _DEPTH = 200
 
 
@@ -47,7 +48,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
         rest = rest[~fine]
         if not len(rest):
             return _gather(coefficients, found, unsettled)
-        if len(rest) > 100_000:
+        if len(rest) > _CROWD:
             break
         half /= 2
         corners = half * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])

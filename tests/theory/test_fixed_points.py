@@ -1,0 +1,308 @@
+"""All fixed points, against exact root counts, blind multistart, closed forms and symmetries."""
+
+import time
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import root
+
+import vibroimpact as vi
+from vibroimpact.theory import manifold
+from vibroimpact.theory.fixed_points import search
+from vibroimpact.theory.slow_flow import rates
+
+CHAPTER = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+    "f10_hat": 1.0,
+    "f20_hat": 1.0,
+}
+IDENTICAL = {"sigma20_hat": 0.0}
+UNCOUPLED = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
+UNDAMPED = {"gamma1_hat": 0.0, "gamma2_hat": 0.0, "gamma12_hat": 0.0}
+# Found by scanning random parameters; the counts are confirmed below by exact arithmetic.
+FIVE = {"sigma20_hat": 0.01, "f10_hat": 1.25, "f20_hat": 1.25}
+SIX = {"kappa": 0.793, "alpha12_hat": 2.622, "gamma1_hat": 0.0127, "gamma2_hat": 0.0765, "gamma12_hat": 0.872}
+SIX |= {"sigma20_hat": -1.066, "sigma_e_hat": 0.838, "f10_hat": 1.227, "f20_hat": -0.905}
+
+CASES = {
+    "equal": ({}, 3),
+    "unequal": ({"f20_hat": 0.89}, 3),
+    "weak": ({"f10_hat": 0.5, "f20_hat": 0.5}, 1),
+    "five": (FIVE, 5),
+    "six": (SIX, 6),
+    "none, weakly forced": ({"f10_hat": 0.05, "f20_hat": 0.05}, 0),
+    "none, strongly damped": ({"gamma1_hat": 20.0}, 0),
+    "undamped": (UNDAMPED, 3),
+    "opposed forces": ({"f20_hat": -1.0}, 3),
+    "kappa near 0": ({"kappa": 1e-6}, 1),
+    "kappa near 1": ({"kappa": 1 - 1e-6}, 3),
+    "weak coupling": ({"alpha12_hat": 1e-6, "gamma12_hat": 1e-7}, 1),
+    "strong coupling": ({"alpha12_hat": 1e4}, 3),
+    "strong forces": ({"f10_hat": 100.0, "f20_hat": 100.0}, 1),
+    "first box unforced": ({"f10_hat": 0.0}, 1),
+    "second box unforced": ({"f20_hat": 0.0}, 1),
+}
+
+
+def build(changes=None):
+    return vi.System(**(CHAPTER | (changes or {})))
+
+
+def everything(system):
+    found = search(system)
+    return found.points + found.outside
+
+
+def residual(system, point):
+    dB, dpsi = rates(system, point.B, point.psi, point.C)
+    return np.abs([*dB, *(point.B * dpsi)]).max()
+
+
+def exact_count(system):
+    """Number of real (C_1, C_2), by Sturm's theorem on the resultant in exact rational arithmetic.
+
+    From |b_i|^2 = B_i^2 with b the solution of the 2 x 2 complex linear system; floats are taken as the rationals they
+    are, pi is rounded to a rational once.
+    """
+    x, y = sp.symbols("x y", real=True)
+    exact = {name: sp.Rational(getattr(system, name)) for name in CHAPTER}
+    pi = sp.Rational(np.pi)
+    mu = 8 / pi**2
+    r = 2 * (1 - exact["kappa"]) / (pi * (1 + exact["kappa"]))
+    K = exact["alpha12_hat"] + sp.I * exact["gamma12_hat"]
+    d = [
+        K - 2 * exact["sigma_e_hat"] + sp.I * exact["gamma1_hat"],
+        K + exact["sigma20_hat"] - 2 * exact["sigma_e_hat"] + sp.I * exact["gamma2_hat"],
+    ]
+    force = [exact["f10_hat"], exact["f20_hat"]]
+    z = [1 - (1 + sp.I * r) * C for C in (x, y)]
+    A = [d[0] * z[0] + mu * x, d[1] * z[1] + mu * y]
+
+    def modulus_squared(e):
+        re, im = sp.expand(e).as_real_imag()
+        return sp.expand(re**2 + im**2)
+
+    delta = modulus_squared(A[0] * A[1] - K**2 * z[0] * z[1])
+    first = sp.Poly(delta - modulus_squared(force[0] * A[1] + K * z[1] * force[1]), x, y)
+    second = sp.Poly(delta - modulus_squared(force[1] * A[0] + K * z[0] * force[0]), x, y)
+    eliminated = sp.Poly(sp.resultant(first, second, y), x)
+    square_free = eliminated.sqf_part()
+    assert square_free.degree() == 8, "the count needs distinct C_1"
+    return square_free.count_roots()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_count_of_admissible_points(name):
+    changes, count = CASES[name]
+    points = vi.fixed_points(build(changes))
+    assert len(points) == count
+    assert all(np.all(point.C >= 0) for point in points)
+    assert [point.C[0] for point in points] == sorted(point.C[0] for point in points)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_point_stands_still_in_the_slow_flow(name):
+    system = build(CASES[name][0])
+    scale = max(1, system.alpha12_hat, abs(system.f10_hat))
+    for point in everything(system):
+        assert not point.multiple
+        assert residual(system, point) < 1e-13 * scale * (1 + np.abs(point.C).max())
+        assert point.B == pytest.approx(manifold.B_of_C(point.C, manifold.rho(system.kappa)), rel=1e-14)
+        assert np.all(np.abs(point.psi) <= np.pi)
+
+
+@pytest.mark.parametrize(
+    "name", ["equal", "unequal", "weak", "five", "six", "undamped", "kappa near 0", "opposed forces"]
+)
+def test_total_count_is_exact(name):
+    system = build(CASES[name][0])
+    assert len(everything(system)) == exact_count(system)
+
+
+parameters = st.fixed_dictionaries(
+    {
+        "epsilon": st.just(0.1),
+        "kappa": st.floats(0.02, 0.99),
+        "alpha12_hat": st.floats(0.01, 10),
+        "gamma1_hat": st.floats(0.001, 2),
+        "gamma2_hat": st.floats(0, 2),
+        "gamma12_hat": st.floats(0.01, 2),
+        "sigma20_hat": st.floats(-3, 3),
+        "sigma_e_hat": st.floats(-1, 1),
+        "f10_hat": st.floats(-3, 3),
+        "f20_hat": st.floats(-3, 3),
+    }
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(parameters)
+def test_no_point_beyond_the_radius(values):
+    """The power balance: what the forces supply is what dampers and balls dissipate."""
+    system = vi.System(**values)
+    found = search(system)
+    f = np.array([system.f10_hat, system.f20_hat])
+    for point in found.points + found.outside:
+        assert np.linalg.norm(point.C) <= found.radius
+        b = point.B * np.exp(-1j * point.psi)
+        supplied = (b.conj() @ f).imag
+        dampers = np.array([system.gamma1_hat, system.gamma2_hat]) @ point.B**2
+        dampers += system.gamma12_hat * abs(b[0] - b[1]) ** 2
+        balls = 8 / np.pi**2 * manifold.rho(system.kappa) * (point.C**2).sum()
+        assert supplied == pytest.approx(dampers + balls, rel=1e-6, abs=1e-6)
+
+
+@settings(max_examples=40, deadline=None)
+@given(parameters)
+def test_swapping_the_modules_swaps_the_points(values):
+    """Detunings are counted from module 1, so they change with the swap."""
+    system = vi.System(**values)
+    swapped = system.with_(
+        gamma1_hat=system.gamma2_hat,
+        gamma2_hat=system.gamma1_hat,
+        f10_hat=system.f20_hat,
+        f20_hat=system.f10_hat,
+        sigma20_hat=-system.sigma20_hat,
+        sigma_e_hat=system.sigma_e_hat - system.sigma20_hat / 2,
+    )
+    ours, theirs = everything(system), everything(swapped)
+    if any(point.multiple for point in ours + theirs):
+        return
+    assert len(ours) == len(theirs)
+    for point in ours:
+        assert min(np.abs(point.C - other.C[::-1]).max() for other in theirs) < 1e-5
+
+
+def test_reversing_the_forces_turns_the_phases_by_half_a_cycle():
+    system = build()
+    turned = system.with_(f10_hat=-1.0, f20_hat=-1.0)
+    for ours, theirs in zip(vi.fixed_points(system), vi.fixed_points(turned), strict=True):
+        assert ours.C == pytest.approx(theirs.C, rel=1e-12)
+        assert np.exp(1j * ours.psi) == pytest.approx(-np.exp(1j * theirs.psi), rel=1e-12)
+
+
+def test_epsilon_does_not_enter():
+    """(10.23) is the order-epsilon balance: all its parameters are hatted."""
+    for epsilon in (1e-6, 5.0):
+        ours, theirs = vi.fixed_points(build()), vi.fixed_points(build({"epsilon": epsilon}))
+        assert [p.C.tolist() for p in ours] == [p.C.tolist() for p in theirs]
+
+
+@pytest.mark.parametrize("name", ["equal", "unequal", "weak", "five", "six"])
+def test_blind_multistart_finds_nothing_else(name):
+    """Newton's method from random starts in (C_1, psi_1, C_2, psi_2), blind to the elimination."""
+    system = build(CASES[name][0])
+    r = manifold.rho(system.kappa)
+    known = np.array([point.C for point in everything(system)])
+    rng = np.random.default_rng(1)
+
+    def flow(x):
+        C, psi = x[0::2], x[1::2]
+        B = manifold.B_of_C(C, r)
+        dB, dpsi = rates(system, B, psi, C)
+        return np.ravel([dB, B * dpsi])
+
+    hits = set()
+    for _ in range(400):
+        start = np.column_stack([rng.uniform(-2, 4, 2), rng.uniform(-np.pi, np.pi, 2)]).ravel()
+        solution = root(flow, start)
+        if solution.success and np.abs(flow(solution.x)).max() < 1e-10:
+            distance = np.abs(known - solution.x[0::2]).max(axis=1)
+            assert distance.min() < 1e-6
+            hits.add(int(distance.argmin()))
+    assert hits == set(range(len(known)))
+
+
+def single_module(e, force, kappa):
+    """Real C of one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic in C."""
+    r = 2 * (1 - kappa) / (np.pi * (1 + kappa))
+    mu = 8 / np.pi**2
+    constant, rate = e, mu - e * (1 + 1j * r)
+    quadratic = [abs(rate) ** 2, 2 * (constant * np.conj(rate)).real, abs(constant) ** 2 - force**2]
+    roots = np.roots(quadratic)
+    return np.sort(roots.real) if np.isreal(roots).all() else np.empty(0)
+
+
+@pytest.mark.parametrize("changes", [{}, IDENTICAL, {"gamma1_hat": 0.0, "f20_hat": 3.0}, {"f10_hat": 0.0}])
+def test_uncoupled_modules_stand_alone(changes):
+    system = build(UNCOUPLED | changes)
+    alone = [
+        single_module(-2 * system.sigma_e_hat + 1j * system.gamma1_hat, system.f10_hat, system.kappa),
+        single_module(
+            system.sigma20_hat - 2 * system.sigma_e_hat + 1j * system.gamma2_hat, system.f20_hat, system.kappa
+        ),
+    ]
+    expected = sorted((a, b) for a in alone[0] for b in alone[1])
+    found = sorted(np.round(point.C, 12).tolist() for point in everything(system))
+    assert np.array(found).reshape(-1, 2) == pytest.approx(np.array(expected).reshape(-1, 2), abs=1e-11)
+
+
+@pytest.mark.parametrize("force", [0.2, 0.5, 1.2, 1.3, 2.0])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_identical_modules_have_mirrored_pairs(force, sense):
+    found = everything(build(IDENTICAL | {"f10_hat": force, "f20_hat": sense * force}))
+    C = np.array([point.C for point in found]).reshape(-1, 2)
+    for mirrored in C[:, ::-1]:
+        assert np.count_nonzero(np.abs(C - mirrored).max(axis=1) < 1e-9) == 1
+
+
+def test_identical_modules_can_have_five_points():
+    points = vi.fixed_points(build(IDENTICAL | {"f10_hat": 1.25, "f20_hat": 1.25}))
+    assert len(points) == 5
+    assert sum(abs(point.C[0] - point.C[1]) < 1e-9 for point in points) == 1
+
+
+def test_without_forces_there_is_no_response():
+    found = search(build({"f10_hat": 0.0, "f20_hat": 0.0}))
+    assert (found.points, found.outside, found.radius) == ([], [], 0.0)
+
+
+def test_the_undamped_resonance_of_the_slow_flow_is_refused():
+    with pytest.raises(ValueError, match=r"^sigma_e_hat: 0\.0 drives the undamped slow flow at its resonance"):
+        vi.fixed_points(build(UNDAMPED | IDENTICAL | {"sigma_e_hat": 0.0, "f20_hat": -1.0}))
+
+
+def fold_in_f20(inside=0.70, outside=0.65):
+    """f20_hat at which two of the three points of the chapter's system merge, by bisection on their number."""
+    while inside - outside > 1e-12:
+        middle = (inside + outside) / 2
+        if len(vi.fixed_points(build({"f20_hat": middle}))) == 3:
+            inside = middle
+        else:
+            outside = middle
+    return inside, outside
+
+
+def test_merging_points_are_reported_as_multiple():
+    inside, outside = fold_in_f20()
+    merged = [point for point in vi.fixed_points(build({"f20_hat": outside})) if point.multiple]
+    before = vi.fixed_points(build({"f20_hat": inside + 1e-6}))
+    after = vi.fixed_points(build({"f20_hat": inside - 1e-6}))
+    assert (len(before), len(after)) == (3, 1)
+    assert not any(point.multiple for point in before + after)
+    for point in merged:
+        assert np.abs(point.slow_eigenvalues).min() < 1e-3, "a fold: one slow eigenvalue passes through zero"
+    # The pair approaches as the square root of the distance to the fold.
+    gap = [np.diff([p.C[0] for p in vi.fixed_points(build({"f20_hat": inside + h}))[:2]])[0] for h in (1e-4, 1e-6)]
+    assert gap[0] / gap[1] == pytest.approx(10, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["equal", "unequal", "weak"])
+def test_the_search_is_fast(name):
+    system = build(CASES[name][0])
+    times = []
+    for _ in range(3):
+        start = time.perf_counter()
+        search(system)
+        times.append(time.perf_counter() - start)
+    assert min(times) < 0.2
