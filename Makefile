@@ -1,0 +1,29 @@
+SHELL := /bin/bash
+CORES ?= 2
+unexport PYTHONDONTWRITEBYTECODE
+export OMP_NUM_THREADS := 1
+
+.PHONY: help figures test lock clean set-up
+.DEFAULT_GOAL := help
+
+help:  ## list these commands
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+figures: set-up  ## build every figure into results/ (CORES=2)
+	.venv/bin/snakemake --cores $(CORES)
+
+test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
+	.venv/bin/ruff check
+	.venv/bin/ruff format --check
+	.venv/bin/lint-imports
+	.venv/bin/pytest --numprocesses 2 --dist loadgroup
+
+lock:  ## pin every package anew into environment.lock (needs uv)
+	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
+		--no-header --no-emit-find-links --no-emit-index-url pyproject.toml -o environment.lock
+
+clean:  ## delete results and caches, keep the environment
+	rm -rf results .snakemake .cache .pytest_cache .ruff_cache .import_linter_cache
+
+set-up:
+	@workflow/set_up.sh

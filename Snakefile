@@ -1,0 +1,23 @@
+# From one config to every figure of the chapter:
+# config -> fixed points -> simulations -> figures and notebooks.
+
+
+include: "workflow/rules/common.smk"
+
+
+configfile: CONFIG_FILE
+
+
+check_config()
+
+
+include: "workflow/rules/fixed_points.smk"
+include: "workflow/rules/simulations.smk"
+include: "workflow/rules/figures.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        "results/fixed_points.csv",
+        rules.figures.input,

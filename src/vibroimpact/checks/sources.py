@@ -1,0 +1,113 @@
+"""Which source files a piece of code depends on, and a fingerprint of their content.
+
+A result is out of date when code that made it has changed. Imports tell which code that is, followed through the
+library; content is compared, never a date, so a file that was only touched has not changed.
+"""
+
+import ast
+import hashlib
+import json
+from importlib.util import find_spec
+from pathlib import Path
+
+import grimp
+
+import vibroimpact
+
+LIBRARY = "vibroimpact"
+
+
+class Sources:
+    """The import graph of the library, read once."""
+
+    def __init__(self):
+        self._graph = grimp.build_graph(LIBRARY, include_external_packages=True, cache_dir=None)
+        self._root = Path(find_spec(LIBRARY).origin).parent
+
+    def fingerprint(self, *files, modules=()) -> str:
+        """Hash of scripts or notebooks, of everything in the library that they import, and of further modules.
+
+        Args:
+            files: Python scripts and notebooks; of a notebook only what its cells say counts. A script may import
+                scripts beside it.
+            modules: names of library modules that are imported by a computed name.
+
+        Raises:
+            ValueError: a module does not exist in the library.
+        """
+        digest = hashlib.sha256()
+        codes = _with_neighbours([Path(file) for file in files])
+        for file, code in codes.items():
+            digest.update(f"{file.name}\n{code}\n".encode())
+        imported = {name for code in codes.values() for name in _imports(code)}
+        used = {name for name in imported if self.knows(name)} | set(modules)
+        if LIBRARY in imported:
+            # Names of the top level are loaded on first use, which the import graph does not show.
+            used |= set(vibroimpact._PUBLIC.values())
+        for name in self.modules_used(used):
+            digest.update(name.encode())
+            for path in self._files(name):
+                digest.update(path.name.encode() + path.read_bytes())
+        return digest.hexdigest()[:16]
+
+    def modules_used(self, modules) -> list[str]:
+        """The given library modules and all library modules they import, directly or not, sorted."""
+        used = set()
+        waiting = set(modules)
+        while waiting:
+            name = waiting.pop()
+            if not self.knows(name):
+                raise ValueError(f"modules: {name!r} is no module of {LIBRARY}")
+            package = name.rpartition(".")[0]
+            used.add(name)
+            waiting |= {m for m in self._graph.find_modules_directly_imported_by(name) if self.knows(m)} - used
+            waiting |= {package} - used - {""}
+        return sorted(used)
+
+    def compiled(self) -> str:
+        """Hash of everything that Numba compiles: a compiled function is stale when any of it has changed."""
+        compiled = self._graph.find_modules_that_directly_import("numba") if "numba" in self._graph.modules else ()
+        return self.fingerprint(modules=compiled)
+
+    def knows(self, module: str) -> bool:
+        """Whether the library has this module."""
+        return module.split(".")[0] == LIBRARY and module in self._graph.modules
+
+    def _files(self, name):
+        """The file of a module; for a package also the data files beside it, such as a style sheet."""
+        path = self._root.joinpath(*name.split(".")[1:])
+        if not path.is_dir():
+            return [path.with_suffix(".py")]
+        data = (file for file in path.iterdir() if file.is_file() and file.suffix not in (".py", ".pyc"))
+        return [path / "__init__.py", *sorted(data)]
+
+
+def _with_neighbours(files) -> dict[Path, str]:
+    """Code of the files and of the scripts beside them that they import."""
+    codes = {}
+    waiting = list(files)
+    while waiting:
+        file = waiting.pop()
+        if file not in codes:
+            codes[file] = _code(file)
+            neighbours = (file.with_name(f"{name}.py") for name in _imports(codes[file]))
+            waiting += [path for path in neighbours if path.is_file()]
+    return dict(sorted(codes.items()))
+
+
+def _code(file):
+    if file.suffix != ".ipynb":
+        return file.read_text(encoding="utf-8")
+    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+    texts = (("".join(cell["source"]), cell["cell_type"]) for cell in cells)
+    return "\n".join(text if kind == "code" else repr(text) for text, kind in texts)
+
+
+def _imports(code):
+    """Names of all modules that a Python text may import: for `from a import b` both a and a.b."""
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)

@@ -1,0 +1,65 @@
+# What every stage needs: settled surroundings, one build at a time, a valid config, fingerprints of code.
+
+import fcntl
+import sys
+from pathlib import Path
+
+import yaml
+
+from vibroimpact.checks import config as config_checks
+from vibroimpact.checks.sources import Sources
+
+ROOT = Path(workflow.basedir)
+sys.path.append(str(ROOT / "workflow/scripts"))
+from environment import settle
+
+CONFIG_FILE = "config/config.yaml"
+OVERRIDES = dict(config)
+SOURCES = Sources()
+settle(ROOT, SOURCES)
+
+
+def refuse(lines):
+    print(*lines, sep="\n", file=sys.stderr)
+    sys.exit(1)
+
+
+def one_build_at_a_time():
+    """Wait for another build of this directory. The system frees the lock with the process, however it ends."""
+    Path(".cache").mkdir(exist_ok=True)
+    lock = open(".cache/build.lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        print("Waiting for another build in this directory to finish.", file=sys.stderr)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+    return lock
+
+
+def check_config():
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    found = config_checks.problems(config, schema)
+    if found:
+        refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
+
+
+def code(*files, modules=()):
+    """Fingerprint of a rule's script or notebook (paths from the root) and of the library modules it uses."""
+    return SOURCES.fingerprint(*(ROOT / file for file in files), modules=modules)
+
+
+def system_of(case):
+    return config_checks.case_parameters(config, case)
+
+
+if workflow.is_main_process:
+    BUILD_LOCK = one_build_at_a_time()
+
+try:
+    config_checks.parse(Path(CONFIG_FILE).read_text(encoding="utf-8"))
+except (OSError, ValueError) as error:
+    refuse([f"{CONFIG_FILE}: {error}"])
+
+
+wildcard_constraints:
+    case="[a-z][a-z0-9_]+",

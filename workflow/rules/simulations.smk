@@ -1,0 +1,18 @@
+# Direct integration of (10.1): one directory per case that a figure shows.
+
+
+rule simulation:
+    output:
+        samples="results/simulations/{case}/samples.csv",
+        events="results/simulations/{case}/events.csv",
+        summary="results/simulations/{case}/summary.json",
+    params:
+        system=lambda wildcards: system_of(wildcards.case),
+        settings=lambda wildcards: config["cases"][wildcards.case]["simulation"],
+        code=code("workflow/scripts/simulate.py"),
+    log:
+        "results/logs/simulations/{case}.log",
+    benchmark:
+        "results/benchmarks/simulations/{case}.tsv"
+    script:
+        "../scripts/simulate.py"

@@ -1,0 +1,61 @@
+"""One figure: its notebook executed with the figure's parameters -> the files of the figure, and the page to read.
+
+The executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
+"""
+
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import papermill
+from adapter import logging_to
+from offline import page
+from traitlets.config import Config
+
+from vibroimpact.figures.atomic import replacing
+
+PARAMETERS = {"figure", "settings", "inputs", "outputs"}
+
+
+def main(notebook, executed, html, figure: str, settings: dict, inputs: dict, outputs: dict) -> None:
+    """Execute and export a notebook.
+
+    Raises:
+        ValueError: the parameters cell of the notebook does not name exactly those of PARAMETERS.
+        papermill.PapermillExecutionError: a cell failed.
+    """
+    declared = set(papermill.inspect_notebook(str(notebook)))
+    if declared != PARAMETERS:
+        raise ValueError(f"notebook: {notebook} has the parameters {sorted(declared)}, needs {sorted(PARAMETERS)}")
+    parameters = {"figure": figure, "settings": settings, "inputs": inputs, "outputs": outputs}
+    Path(executed).parent.mkdir(parents=True, exist_ok=True)
+    with replacing(html) as partial:
+        partial.write_text(page(execute(notebook, executed, parameters), title=figure), encoding="utf-8")
+
+
+def execute(notebook, executed, parameters: dict):
+    """The notebook after execution; its kernel is spoken to through sockets in a directory of its own."""
+    with TemporaryDirectory(prefix="kernel-") as sockets:
+        os.environ["JUPYTER_RUNTIME_DIR"] = sockets
+        return papermill.execute_notebook(
+            str(notebook),
+            str(executed),
+            parameters,
+            kernel_name="python3",
+            progress_bar=False,
+            config=Config({"KernelManager": {"transport": "ipc"}}),
+        )
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log.text):
+        outputs = dict(snakemake.output.items())
+        main(
+            snakemake.params.notebook,
+            snakemake.log.notebook,
+            outputs.pop("html"),
+            snakemake.params.figure,
+            snakemake.params.settings,
+            dict(snakemake.input.items()),
+            outputs,
+        )

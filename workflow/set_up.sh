@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Create .venv from environment.lock, unless it is there already. One at a time; an interrupted set-up starts over.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usable='import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))'
+version='import platform, sys; print(sys.implementation.name, *platform.python_version_tuple()[:2], platform.machine())'
+
+find_python() {
+    local candidate
+    for candidate in ${PYTHON:-.venv/bin/python python3 python3.13 python3.12 python3.11 python3.14}; do
+        if "$candidate" -c "$usable" 2>/dev/null; then
+            # Inside an environment, the interpreter that the environment was made from.
+            "$candidate" -c 'import sys; print(getattr(sys, "_base_executable", sys.executable))'
+            return
+        fi
+    done
+    echo "Set-up needs Python 3.11 or newer with its venv module (on Debian: apt install python3-venv)." >&2
+    echo "None of these is one: ${PYTHON:-python3 python3.13 python3.12 python3.11 python3.14}. Name one with PYTHON=..." >&2
+    return 1
+}
+
+mkdir -p .cache
+exec 9>.cache/set_up.lock
+flock --nonblock 9 || { echo "Waiting for another set-up of this checkout to finish." >&2; flock 9; }
+
+python=$(find_python)
+stamp=$(cat environment.lock pyproject.toml <("$python" -c "$version") <(pwd) | sha256sum)
+if [[ -f .venv/.complete && "$(cat .venv/.complete)" == "$stamp" ]]; then
+    exit 0
+fi
+
+echo "Setting up .venv with $("$python" --version) from environment.lock (once, some minutes) ..."
+export PIP_DISABLE_PIP_VERSION_CHECK=1
+"$python" -m venv --clear .venv
+.venv/bin/python -m pip install --quiet --require-hashes --no-deps -r environment.lock
+.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .
+.venv/bin/python -m pip check
+echo "Compiling the simulation engine (once, under a minute) ..."
+env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py
+echo "$stamp" >.venv/.complete
