@@ -5,10 +5,11 @@ import math
 import numpy as np
 from numba import njit
 
-from vibroimpact.exact.exclusion import crossing_time, leaving_time, safe_time
+from vibroimpact.exact.exclusion import crossing_time, leaving_time, return_time, safe_time
 from vibroimpact.exact.flow import acceleration, inverse_masses
 
 RESOLUTION = 4.0 * np.finfo(float).eps
+SHORT = 0.03  # in steps of the flow table: a fifth-order Taylor step this long is exact to rounding
 
 
 @njit(cache=True)
@@ -56,30 +57,31 @@ def gap_rounding(boxes, balls, i):
 
 
 @njit(cache=True)
-def _time_of(g, v, a, j, bound, margin, horizon):
+def _time_of(g, v, higher, bound, margin, horizon):
     """(time the constraint certainly holds or time of its crossing, whether it is a crossing, g within rounding)."""
     if v > 0.0:
-        t = crossing_time(g, v, a, j, bound, horizon)
+        t = crossing_time(g, v, higher, bound, horizon)
         if t < math.inf:
             return t, True, False
         if g <= margin:
             return 0.0, True, True
-    return safe_time(max(g - margin, 0.0), v, a, bound, horizon), False, False
+    return safe_time(max(g - margin, 0.0), v, higher[0], bound, horizon), False, False
 
 
 @njit(cache=True)
-def module_time(q, mode, i, boxes, balls, wall, touching, d, horizon):
+def module_time(q, mode, i, boxes, balls, wall, touching, d, horizon, short):
     """How far module i may fly: (time, crossing, undecided).
 
     Without a crossing the module has no event up to time. With one, its next event is at time, to fourth order
     (slightly negative when just passed); undecided marks a tangential meeting that rounding cannot tell from a miss.
     wall: the wall that the ball sticks to, or 0; touching: the wall that it touches now, moving inwards or at rest.
+    A hop on the wall touched is timed to the end if it is no longer than short.
     """
     a, j, s, r = d[i], d[2 + i], d[4 + i], d[6 + i]
     if wall != 0:
         bound = derivative_bound(q, mode, d, 5, horizon)
         margin = acceleration_rounding(q, boxes)
-        return _time_of(wall * a, -wall * j, -wall * s, -wall * r, bound, margin, horizon)
+        return _time_of(wall * a, -wall * j, (-wall * s, -wall * r, 0.0, 0.0), bound, margin, horizon)
     bound = derivative_bound(q, mode, d, 3, horizon)
     margin = gap_rounding(boxes, balls, i)
     relative = boxes[i] - balls[i]
@@ -87,13 +89,15 @@ def module_time(q, mode, i, boxes, balls, wall, touching, d, horizon):
     time, crossing, undecided = horizon, False, False
     for w in (1, -1):
         if w != touching:
-            t, c, u = _time_of(1.0 - w * relative, w * velocity, w * a, w * j, bound, margin, horizon)
+            t, c, u = _time_of(1.0 - w * relative, w * velocity, (w * a, w * j, w * s, w * r), bound, margin, horizon)
         elif velocity == 0.0:
             outwards = w * a if w * a < -acceleration_rounding(q, boxes) else 0.0
             t = leaving_time(outwards, w * j, derivative_bound(q, mode, d, 4, horizon), horizon)
             c, u = False, False
         else:
-            t, c, u = safe_time(0.0, w * velocity, w * a, bound, horizon), False, False
+            t, c, u = return_time(-w * velocity, (w * a, w * j, w * s, w * r), bound, horizon), True, False
+            if t > short:
+                t, c = safe_time(0.0, w * velocity, w * a, bound, horizon), False
         if t < time:
             time, crossing, undecided = t, c, u
     return time, crossing, undecided

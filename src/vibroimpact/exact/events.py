@@ -19,6 +19,7 @@ from numba import njit
 
 from vibroimpact.exact.constraints import (
     RESOLUTION,
+    SHORT,
     acceleration_rounding,
     derivative_bound,
     derivatives,
@@ -34,8 +35,7 @@ FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = 0, 1, 2, 3, 4, 
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
-LOOKAHEAD = 64.0  # in steps of the flow table, like SHORT
-SHORT = 0.002  # a fourth-order Taylor step this long is exact to rounding
+LOOKAHEAD = 64.0  # in steps of the flow table
 NEGLIGIBLE = 1e-18
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 
@@ -148,7 +148,7 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger
     if neglected > NEGLIGIBLE and not unresolved:
         return False, 0.0
     other = 1 - i
-    t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, window)
+    t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, window, 0.0)
     if t < window:
         return unresolved, 0.0
     ledger[NEGLECTED] += neglected
@@ -204,8 +204,8 @@ def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rem
 @njit(cache=True)
 def _taylor(boxes, d, t):
     """The boxes a very short time t (of either sign) later."""
-    x1 = boxes[0] + t * (boxes[2] + t * (d[0] / 2 + t * (d[2] / 6 + t * d[4] / 24)))
-    x2 = boxes[1] + t * (boxes[3] + t * (d[1] / 2 + t * (d[3] / 6 + t * d[5] / 24)))
+    x1 = boxes[0] + t * (boxes[2] + t * (d[0] / 2 + t * (d[2] / 6 + t * (d[4] / 24 + t * d[6] / 120))))
+    x2 = boxes[1] + t * (boxes[3] + t * (d[1] / 2 + t * (d[3] / 6 + t * (d[5] / 24 + t * d[7] / 120))))
     v1 = boxes[2] + t * (d[0] + t * (d[2] / 2 + t * (d[4] / 6 + t * d[6] / 24)))
     v2 = boxes[3] + t * (d[1] + t * (d[3] / 2 + t * (d[5] / 6 + t * d[7] / 24)))
     return x1, x2, v1, v2
@@ -223,12 +223,13 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
         ledger[EVALUATIONS] += 1
         d = derivatives(q, mode, now, s, c)
         horizon = min(reach - t, LOOKAHEAD * flow.spacing)
+        short = SHORT * flow.spacing
         step, due, doubt = horizon, -1, False
         for i in range(2):
-            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, horizon)
+            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, horizon, short)
             if time < step:
                 step, due, doubt = time, (i if crossing else -1), undecided
-        if due >= 0 and abs(step) <= SHORT * flow.spacing:
+        if due >= 0 and abs(step) <= short:
             ledger[UNDECIDED] += doubt
             later = _taylor(now, d, step)
             t = max(t + step, 0.0)

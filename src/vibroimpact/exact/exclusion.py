@@ -32,8 +32,8 @@ def safe_time(g, v, a, bound, horizon):
     if early >= horizon:
         return horizon
     late = min(horizon, _first_zero(g, v, a + bound * early / 3.0))
-    better = _first_zero(g, v, a + bound * late / 3.0)
-    return max(early, min(better, late))
+    middle = math.sqrt(early * late)  # the best time, where it equals its own horizon, lies between the two
+    return max(early, min(middle, _first_zero(g, v, a + bound * middle / 3.0)))
 
 
 @njit(cache=True)
@@ -46,15 +46,35 @@ def leaving_time(a, j, bound, horizon):
 
 
 @njit(cache=True)
-def crossing_time(g, v, a, j, bound, horizon):
-    """The time of the only zero nearby, to fourth order, if the constraint certainly falls through it; else inf.
+def crossing_time(g, v, higher, bound, horizon):
+    """The time of the only zero nearby, to sixth order, if the constraint certainly falls through it; else inf.
 
-    With h = 2 |g| / v and |a| h + bound h^2 / 2 < v / 2 the slope stays beyond v / 2 on [-h, h]: there is one zero.
+    higher: -g'' to -g^(5). With h = 2 |g| / v and |g''| h + bound h^2 / 2 < v / 2 the slope stays beyond v / 2 on
+    [-h, h]: there is one zero.
     """
+    a, j, s, r = higher
     h = 2.0 * abs(g) / v
     if h > horizon or abs(a) * h + 0.5 * bound * h * h >= 0.5 * v:
         return math.inf
     t = g / v
     for _ in range(3):
-        t -= (t * (v + t * (0.5 * a + t * j / 6.0)) - g) / (v + t * (a + 0.5 * t * j))
+        fall = t * (v + t * (a / 2 + t * (j / 6 + t * (s / 24 + t * r / 120))))
+        slope = v + t * (a + t * (j / 2 + t * (s / 6 + t * r / 24)))
+        t -= (fall - g) / slope
+    return t
+
+
+@njit(cache=True)
+def return_time(u, higher, bound, horizon):
+    """The end of a very short hop, g(0) = 0 and g'(0) = u > 0, to sixth order, if it certainly ends so; else inf.
+
+    The zero at the start is divided out, so that the time keeps its relative accuracy however short the hop.
+    """
+    a, j, s, r = higher
+    t = 2.0 * u / a if a > 0.0 else math.inf
+    if t > 0.5 * horizon or 2.0 * bound * t > 0.25 * a:
+        return math.inf
+    for _ in range(4):
+        slope = a / 2 + t * (j / 6 + t * (s / 24 + t * r / 120))
+        t = u / slope
     return t

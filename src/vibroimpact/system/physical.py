@@ -15,7 +15,7 @@ class PhysicalSystem:
     wall at |x - y| = L; kappa: restitution coefficient.
 
     Raises:
-        ValueError: a parameter that scales others (M, m, k1, L) is not above 0.
+        ValueError: a mass, stiffness to ground, frequency or L is not above 0, a damping or k12 is below 0.
     """
 
     M: float
@@ -38,9 +38,12 @@ class PhysicalSystem:
             value = getattr(self, field.name)
             if not isinstance(value, (int, float)) or not math.isfinite(value):
                 raise ValueError(f"{field.name}: {value!r} is not a finite number")
-        for name in ("M", "m", "k1", "L"):
+        for name in ("M", "m", "k1", "k2", "omega1", "omega2", "L"):
             if getattr(self, name) <= 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is not above 0")
+        for name in ("k12", "c1", "c2", "c12"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"{name}: {getattr(self, name)} is below 0")
 
     @property
     def omega10(self) -> float:

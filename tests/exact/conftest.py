@@ -1,0 +1,138 @@
+"""An auditor of simulated motions that shares no code with the engine: matrix exponentials and a dense search."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import vibroimpact as vi
+
+CHAPTER = dict(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1.0,
+    gamma1_hat=0.2,
+    gamma2_hat=0.2,
+    gamma12_hat=0.2,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+)
+FORCES = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
+
+
+@pytest.fixture
+def chapter():
+    """The chapter's system under given forcing."""
+
+    def make(f10_hat=1.0, f20_hat=1.0, **changes):
+        return vi.System(**{**CHAPTER, **changes}, f10_hat=f10_hat, f20_hat=f20_hat)
+
+    return make
+
+
+@pytest.fixture(params=FORCES)
+def case(request):
+    """Each case of the chapter in turn."""
+    f10_hat, f20_hat = FORCES[request.param]
+    return vi.System(**CHAPTER, f10_hat=f10_hat, f20_hat=f20_hat)
+
+
+class Auditor:
+    """Flows states with scipy's matrix exponential, in the full coordinates of (10.2) written out by hand."""
+
+    def __init__(self, system):
+        self.system = system
+        e, a = system.epsilon, system.epsilon * system.alpha12_hat
+        c1, c2, c12 = (e * g for g in (system.gamma1_hat, system.gamma2_hat, system.gamma12_hat))
+        self.stiff = np.array([[1 + a, -a], [-a, 1 + e * system.sigma20_hat + a]])
+        self.damp = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
+        self.force = e * np.array([system.f10_hat, system.f20_hat])
+        self.omega = 1 + e * system.sigma_e_hat
+
+    def rate(self, stuck):
+        mass = np.array([1 + self.system.epsilon if s else 1.0 for s in stuck])
+        rate = np.zeros((6, 6))
+        rate[:2, 2:4] = np.eye(2)
+        rate[2:4, :2] = -self.stiff / mass[:, None]
+        rate[2:4, 2:4] = -self.damp / mass[:, None]
+        rate[2:4, 4] = self.force / mass
+        rate[4, 5], rate[5, 4] = self.omega, -self.omega
+        return rate
+
+    def lifted(self, state, tau):
+        x = state[[0, 2, 4, 6]]
+        return np.concatenate([x, [np.sin(self.omega * tau), np.cos(self.omega * tau)]])
+
+    def flow(self, state, walls, tau, t):
+        """State a time t later without events; walls: wall each ball sticks to, or 0."""
+        z = expm(self.rate([w != 0 for w in walls]) * t) @ self.lifted(state, tau)
+        later = np.empty(8)
+        later[[0, 2, 4, 6]] = z[:4]
+        for i, wall in enumerate(walls):
+            ball, speed = state[2 * i + 1], state[2 * i + 5]
+            later[2 * i + 1] = z[i] - wall if wall else ball + t * speed
+            later[2 * i + 5] = z[2 + i] if wall else speed
+        return later
+
+    def acceleration(self, state, walls, tau):
+        """Box accelerations, shape (2,)."""
+        return (self.rate([w != 0 for w in walls]) @ self.lifted(state, tau))[2:4]
+
+    def audit(self, run, state, tau0, cycles, tolerance=2e-12, grid=24):
+        """Check a whole run flight by flight; returns the largest errors met.
+
+        Every flight must keep the gaps open and the contact forces pushing, every event must happen at the wall,
+        impacts obey restitution and conserve momentum, a release leave the state as it is, a stick join the velocities.
+        What a completed chatter leaves out (the flights between its last impact and the stick) is judged elsewhere.
+        """
+        eps, kappa = self.system.epsilon, self.system.kappa
+        walls, now, tau = [0, 0], np.array(state, float), tau0
+        worst = dict(gap=0.0, wall=0.0, restitution=0.0, momentum=0.0, position=0.0, pull=0.0)
+        end = np.zeros((), run.events.dtype)
+        end["tau"], end["module"], end["state"] = tau0 + cycles * self.system.period, 0, run.final
+        for event in [*run.events, end]:
+            t = event["tau"] - tau
+            chattering = int(event["module"]) - 1 if event["kind"] == 1 and event["module"] else -1
+            assert t >= -1e-12
+            for s in np.linspace(0, max(t, 0), grid) if t > 1e-9 else ():
+                mid = self.flow(now, walls, tau, s)
+                push = self.acceleration(mid, walls, tau + s)
+                for i in range(2):
+                    if walls[i]:
+                        worst["pull"] = max(worst["pull"], -walls[i] * push[i])
+                    elif i != chattering:
+                        worst["gap"] = max(worst["gap"], abs(mid[2 * i] - mid[2 * i + 1]) - 1)
+            before = self.flow(now, walls, tau, t)
+            after = event["state"]
+            own = int(event["module"]) - 1
+            if own >= 0:
+                x, y, dx, dy = 2 * own, 2 * own + 1, 2 * own + 4, 2 * own + 5
+                worst["wall"] = max(worst["wall"], abs(after[x] - after[y] - event["wall"]))
+                if event["kind"] == 0:
+                    assert walls[own] == 0
+                    speed = before[dx] - before[dy]
+                    assert speed * event["wall"] > -tolerance, "an impact from inside"
+                    worst["restitution"] = max(
+                        worst["restitution"], abs(after[dx] - after[dy] + kappa * (before[dx] - before[dy]))
+                    )
+                    worst["momentum"] = max(
+                        worst["momentum"], abs(after[dx] + eps * after[dy] - before[dx] - eps * before[dy])
+                    )
+                    before[dx], before[dy] = after[dx], after[dy]
+                elif event["kind"] == 1:
+                    assert after[dx] == after[dy]
+                    walls[own] = int(event["wall"])
+                    before = after
+                else:
+                    assert walls[own] == event["wall"]
+                    walls[own] = 0
+            worst["position"] = max(worst["position"], np.abs(after - before).max())
+            now, tau = np.array(after), float(event["tau"])
+        for name, value in worst.items():
+            limit = 1e-9 if name == "pull" else tolerance
+            assert value <= limit, (name, value, worst)
+        return worst
+
+
+@pytest.fixture
+def auditor():
+    return Auditor

@@ -1,0 +1,188 @@
+"""Chatter, sticking, release and contact at the start, against closed forms and high precision."""
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
+
+QUIET = dict(alpha12_hat=0.0, gamma12_hat=0.0)
+ALONE = dict(QUIET, gamma1_hat=0.0, gamma2_hat=0.0)
+
+
+def swing(x, v, t):
+    """Undamped unforced box of unit mass and stiffness in mpmath: position and velocity after t."""
+    return x * mp.cos(t) + v * mp.sin(t), v * mp.cos(t) - x * mp.sin(t)
+
+
+def next_impact(x, v, u):
+    """Time to the next impact at wall +1 of a ball leaving it with velocity u: Newton on gap / time."""
+    t = 2 * (u - v) / (-x)
+    for _ in range(12):
+        position, velocity = swing(x, v, t)
+        gap, rate = x + u * t - position, u - velocity
+        t -= (gap / t) / (rate / t - gap / t**2)
+    return t
+
+
+def chatter_in_high_precision(x, v, u, epsilon, kappa, impacts):
+    """(time, X, X', Y') after successive impacts at wall +1 of one undamped unforced module."""
+    x, v, u, epsilon, kappa = map(mp.mpf, (x, v, u, epsilon, kappa))
+    t, history = mp.mpf(0), []
+    for _ in range(impacts):
+        flight = next_impact(x, v, u)
+        t += flight
+        x, v = swing(x, v, flight)
+        impulse = (1 + kappa) / (1 + epsilon) * (v - u)
+        v, u = v - epsilon * impulse, u + impulse
+        history.append((t, x, v, u))
+    return history
+
+
+@pytest.mark.parametrize("kappa", ["0.3", "0.65", "0.9"])
+def test_chatter_against_high_precision(chapter, kappa):
+    system = chapter(0.0, 0.0, kappa=float(kappa), **ALONE)
+    start = np.array([-1.5, -2.5, 0.0, 0.0, 0.0, 0.05, 0.0, 0.0])
+    run = vi.simulate(system, start, 1)
+    stick = run.events[run.events["kind"] == STICK][0]
+    impacts = run.events[(run.events["kind"] == IMPACT) & (run.events["tau"] < stick["tau"])]
+    with mp.workdps(80):
+        history = chatter_in_high_precision(-1.5, 0, 0.05, "0.1", kappa, int(18 / -np.log10(float(kappa))))
+        end, x, v, u = history[-1]
+        common = (v + mp.mpf("0.1") * u) / mp.mpf("1.1")
+    times = [float(row[0]) for row in history[: len(impacts)]]
+    # hops down to speeds of 7e-4 are timed from positions of size 2.5; each error passes on to all later hops
+    rounding = 2.5 * np.finfo(float).eps / (7e-4 * (1 - float(kappa)))
+    np.testing.assert_allclose(impacts["tau"], times, rtol=0, atol=rounding)
+    assert stick["tau"] == pytest.approx(float(end), abs=1e-11)
+    expected = [float(x), float(x) - 1, 0, 0, float(common), float(common), 0, 0]
+    # the stick is reported at its own, slightly approximated instant: compare the states at the same instant
+    shift = stick["tau"] - float(end)
+    expected = np.array(expected) + shift * np.array([expected[4], expected[4], 0, 0, 1.5, 1.5, 0, 0])
+    np.testing.assert_allclose(stick["state"], expected, atol=1e-13)
+
+
+def test_chatter_follows_its_asymptotic_law(chapter):
+    """Flights shrink by kappa each and the rest of the chatter lasts 2 u / (a (1 - kappa))."""
+    system = chapter(0.0, 0.0, **ALONE)
+    start = np.array([-1.5, -2.5, 0.0, 0.0, 0.0, 0.02, 0.0, 0.0])
+    run = vi.simulate(system, start, 1)
+    stick = run.events[run.events["kind"] == STICK][0]
+    impacts = run.events[(run.events["kind"] == IMPACT) & (run.events["tau"] < stick["tau"])]
+    flights = np.diff(impacts["tau"])
+    errors = np.abs(flights[1:] / flights[:-1] - system.kappa)
+    assert errors[-1] < 1e-4 < errors[0]
+    for impact in impacts[-6:]:
+        inward = impact["state"][5] - impact["state"][4]
+        push = -impact["state"][0]
+        assert stick["tau"] - impact["tau"] == pytest.approx(2 * inward / (push * (1 - system.kappa)), rel=1e-3)
+
+
+def test_sticking_lasts_until_the_contact_force_vanishes(chapter):
+    """Undamped, unforced: box and ball swing as one of mass 1 + epsilon and part at X = 0, in closed form."""
+    system = chapter(0.0, 0.0, **ALONE)
+    start = np.array([-1.5, -2.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    run = vi.simulate(system, start, 1)
+    stick, release = run.events[:2]
+    assert (stick["kind"], stick["tau"], stick["wall"]) == (STICK, 0.0, 1)
+    assert (release["kind"], release["wall"], release["module"]) == (RELEASE, 1, 1)
+    assert release["tau"] == pytest.approx(np.pi / 2 * np.sqrt(1.1), abs=1e-15)
+    speed = 1.5 / np.sqrt(1.1)
+    np.testing.assert_allclose(release["state"], [0, -1, 0, 0, speed, speed, 0, 0], atol=1e-15)
+
+
+def test_sticks_and_releases_alternate_and_forces_push(chapter, auditor):
+    """In the modulated regime every stick ends in a release; its contact force pushes all the way and then vanishes."""
+    system = chapter(0.5, 0.5)
+    run = vi.simulate(system, [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3000)
+    audit = auditor(system)
+    sticks = np.flatnonzero(run.events["kind"] == STICK)
+    assert len(sticks) >= 10
+    for k in sticks:
+        stick = run.events[k]
+        later = run.events[k + 1 :]
+        release = later[(later["module"] == stick["module"]) & (later["kind"] != IMPACT)][0]
+        assert release["kind"] == RELEASE
+        own, wall = int(stick["module"]) - 1, int(stick["wall"])
+        walls = [wall if i == own else 0 for i in range(2)]
+        between = later[later["tau"] < release["tau"]]
+        if len(between):  # the other module met something meanwhile: audited flight by flight elsewhere
+            continue
+        span = release["tau"] - stick["tau"]
+        forces = []
+        for s in np.linspace(0, span, 30):
+            state = audit.flow(np.array(stick["state"]), walls, stick["tau"], s)
+            forces.append(wall * audit.acceleration(state, walls, stick["tau"] + s)[own])
+        assert min(forces[:-1]) > 0
+        assert abs(forces[-1]) < 1e-11
+
+
+def test_an_impact_in_one_module_releases_the_ball_of_the_other(chapter):
+    """Only a coupling damper can do it: the impact makes X2' and with it the force on box 1 jump."""
+    system = chapter(0.0, 0.0, epsilon=0.5, gamma12_hat=4.0, gamma1_hat=0.0, gamma2_hat=0.0, alpha12_hat=0.0)
+    # ball 1 rests on wall +1 of an almost unloaded box; ball 2 flies into wall +1 of box 2 from behind: box 2 slows
+    start = np.array([-0.02, -1.02, 0.0, -0.9, 0.0, 0.0, 0.0, -3.0])
+    run = vi.simulate(system, start, 1)
+    kinds = [(int(e["module"]), int(e["kind"])) for e in run.events[:3]]
+    assert kinds == [(1, STICK), (2, IMPACT), (1, RELEASE)]
+    assert run.events["tau"][1] == run.events["tau"][2]
+    before, after = run.events["state"][1], run.events["state"][2]
+    np.testing.assert_array_equal(before, after)
+    force = -after[0] + 2.0 * (after[6] - after[4])
+    assert force < 0
+
+
+REST = dict(
+    pushed=(np.array([-1.5, -2.5, 0.4, 0.0, 0.0, 0.0, 0.1, 0.3]), (STICK, 1)),
+    pulled=(np.array([1.5, 0.5, 0.4, 0.0, 0.0, 0.0, 0.1, 0.3]), None),
+    outward=(np.array([-1.5, -2.5, 0.4, 0.0, 0.2, 0.0, 0.1, 0.3]), (IMPACT, 1)),
+    inward=(np.array([-1.5, -2.5, 0.4, 0.0, -0.2, 0.0, 0.1, 0.3]), None),
+)
+
+
+@pytest.mark.parametrize(("start", "first"), REST.values(), ids=REST)
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_contact_at_the_start(chapter, auditor, start, first, mirror):
+    system = chapter(0.7, 0.3)
+    run = vi.simulate(system, mirror * start, 10)
+    auditor(system).audit(run, mirror * start, 0.0, 10)
+    at_start = [(e["kind"], e["wall"] * mirror) for e in run.events if e["tau"] == 0.0]
+    assert at_start == ([first] if first else [])
+
+
+@pytest.mark.parametrize("first", ["free", "stuck"])
+@pytest.mark.parametrize("second", ["free", "stuck"])
+def test_the_four_contact_states(chapter, auditor, first, second):
+    system = chapter(0.7, 0.3)
+    ball = {"free": 0.3, "stuck": 1.0}
+    start = np.array([-1.5, -1.5 - ball[first], 1.2, 1.2 + ball[second], 0.0, 0.0, 0.0, 0.0])
+    run = vi.simulate(system, start, 10)
+    stuck = {int(e["module"]) for e in run.events if e["tau"] == 0.0 and e["kind"] == STICK}
+    assert stuck == {m for m, s in ((1, first), (2, second)) if s == "stuck"}
+    auditor(system).audit(run, start, 0.0, 10)
+
+
+def test_both_modules_meet_in_the_same_instant(chapter, auditor):
+    """Identical modules in mirrored motion: every event comes twice at one time."""
+    system = chapter(1.0, -1.0, sigma20_hat=0.0)
+    start = np.array([0.1, 0.0, -0.1, 0.0, 0.0, 0.3, 0.0, -0.3])
+    run = vi.simulate(system, start, 12)
+    first, second = run.events[run.events["module"] == 1], run.events[run.events["module"] == 2]
+    assert len(first) == len(second) > 10
+    np.testing.assert_allclose(first["tau"], second["tau"], atol=1e-10)
+    auditor(system).audit(run, start, 0.0, 12)
+
+
+def test_impact_law_conserves_momentum_and_never_gains_energy():
+    from vibroimpact.system.restitution import after_impact, energy_lost
+
+    rng = np.random.default_rng(0)
+    box, ball = rng.normal(size=(2, 1000))
+    epsilon, kappa = rng.uniform(0.001, 1, 1000), rng.uniform(0.001, 0.999, 1000)
+    new_box, new_ball = after_impact(epsilon, kappa, box, ball)
+    np.testing.assert_allclose(new_box + epsilon * new_ball, box + epsilon * ball, atol=1e-14)
+    np.testing.assert_allclose(new_box - new_ball, -kappa * (box - ball), atol=1e-14)
+    energy = 0.5 * (box**2 + epsilon * ball**2) - 0.5 * (new_box**2 + epsilon * new_ball**2)
+    np.testing.assert_allclose(energy, energy_lost(epsilon, kappa, box - ball), atol=1e-14)
+    assert (energy_lost(epsilon, kappa, box - ball) >= 0).all()

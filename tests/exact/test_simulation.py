@@ -1,0 +1,234 @@
+"""The engine against an auditor, other integrators, symmetries and the laws it claims to keep."""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import vibroimpact as vi
+from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
+
+START = np.array([0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2])
+
+
+def test_three_cases_pass_the_audit(case, auditor):
+    run = vi.simulate(case, START, 120, sample_times=np.linspace(0, 120 * case.period, 5001))
+    assert len(run.events) > 350
+    auditor(case).audit(run, START, 0.0, 120)
+    walls = run.samples[:, [0, 2]] - run.samples[:, [1, 3]]
+    assert np.abs(walls).max() <= 1 + 1e-14
+
+
+def test_long_runs_never_penetrate_and_meet_every_kind_of_event(chapter):
+    system = chapter(0.5, 0.5)
+    run = vi.simulate(system, START, 20_000, sample_times=np.linspace(0, 20_000 * system.period, 100_003))
+    assert np.abs(run.samples[:, [0, 2]] - run.samples[:, [1, 3]]).max() <= 1 + 1e-13
+    assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
+    assert (np.diff(run.events["tau"]) >= 0).all()
+
+
+def test_energy_balance_over_a_long_run(case):
+    """Work of the forces = dissipation in dampers and impacts + stored energy: one line for the whole engine."""
+    cycles, per_cycle = 40, 4000
+    tau = np.linspace(0, cycles * case.period, cycles * per_cycle + 1)
+    run = vi.simulate(case, START, cycles, sample_times=tau)
+    e = case.epsilon
+    k12, c = e * case.alpha12_hat, e * np.array([case.gamma1_hat, case.gamma2_hat, case.gamma12_hat])
+
+    def stored(s):
+        x1, x2, d1, d2 = s[..., 0], s[..., 2], s[..., 4], s[..., 6]
+        balls = e * (s[..., 5] ** 2 + s[..., 7] ** 2)
+        return 0.5 * (d1**2 + d2**2 + balls + x1**2 + (1 + e * case.sigma20_hat) * x2**2 + k12 * (x1 - x2) ** 2)
+
+    d1, d2 = run.samples[:, 4], run.samples[:, 6]
+    power = e * np.sin(case.Omega * tau) * (case.f10_hat * d1 + case.f20_hat * d2)
+    power -= c[0] * d1**2 + c[1] * d2**2 + c[2] * (d1 - d2) ** 2
+    impacts = run.events[run.events["kind"] == IMPACT]
+    columns = 4 + 2 * (impacts["module"] - 1)
+    rows = np.arange(len(impacts))
+    rebound = impacts["state"][rows, columns] - impacts["state"][rows, columns + 1]
+    lost = 0.5 * e / (1 + e) * (1 - case.kappa**2) * (rebound / case.kappa) ** 2
+    work = np.trapezoid(power, tau)
+    # the velocities jump within a sample interval: each jump costs the quadrature up to half a step of power
+    slack = len(impacts) * (tau[1] - tau[0]) * 0.02
+    assert stored(run.final) - stored(START) == pytest.approx(work - lost.sum(), abs=slack)
+    assert lost.sum() > 50 * slack
+
+
+def test_dimensional_equations_integrated_by_a_library_agree():
+    """(10.1) in physical units with scipy's DOP853 and events, scaled afterwards."""
+    physical = vi.PhysicalSystem(
+        M=2.0, m=0.2, k1=50.0, k2=52.5, k12=5.0, c1=0.2, c2=0.25, c12=0.3, F10=0.4, F20=0.35, omega1=5.1, omega2=5.1,
+        L=0.08, kappa=0.65,
+    )  # fmt: skip
+    system = physical.dimensionless()
+    p = physical
+
+    def rates(t, z):
+        x1, _, x2, _, u1, v1, u2, v2 = z
+        spring, damper = p.k12 * (x2 - x1), p.c12 * (u2 - u1)
+        a1 = (p.F10 * np.sin(p.omega1 * t) - p.c1 * u1 - p.k1 * x1 + damper + spring) / p.M
+        a2 = (p.F20 * np.sin(p.omega2 * t) - p.c2 * u2 - p.k2 * x2 - damper - spring) / p.M
+        return [u1, v1, u2, v2, a1, 0.0, a2, 0.0]
+
+    def wall(i, side):
+        def event(t, z):
+            return p.L - side * (z[2 * i] - z[2 * i + 1])
+
+        event.terminal, event.direction = True, -1
+        return event
+
+    walls = [(i, side) for i in range(2) for side in (1, -1)]
+    cycles = 6
+    z = START.copy()
+    z[:4] *= p.L
+    z[4:] *= p.L * p.omega10
+    t, end, hits = 0.0, cycles * 2 * np.pi / p.omega1, []
+    while t < end:
+        flight = solve_ivp(
+            rates, (t, end), z, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.02, events=[wall(*w) for w in walls]
+        )
+        t, z = flight.t[-1], flight.y[:, -1]
+        for (i, side), times in zip(walls, flight.t_events, strict=True):
+            if len(times):
+                u, v = z[4 + 2 * i], z[5 + 2 * i]
+                momentum, relative = p.M * u + p.m * v, -p.kappa * (u - v)
+                z[4 + 2 * i] = (momentum + p.m * relative) / (p.M + p.m)
+                z[5 + 2 * i] = (momentum - p.M * relative) / (p.M + p.m)
+                z[2 * i + 1] = z[2 * i] - side * p.L * (1 - 1e-13)
+                hits.append(t * p.omega10)
+    run = vi.simulate(system, START, cycles)
+    assert len(run.events) == len(hits) > 15
+    np.testing.assert_allclose(run.events["tau"], hits, atol=1e-9)
+    scaled = np.concatenate([z[:4] / p.L, z[4:] / (p.L * p.omega10)])
+    np.testing.assert_allclose(run.final, scaled, atol=1e-8)
+
+
+def test_mirror_symmetry(case):
+    """state -> -state with time shifted by half a forcing period."""
+    run = vi.simulate(case, START, 12)
+    mirrored = vi.simulate(case, -START, 12, tau0=case.period / 2)
+    np.testing.assert_allclose(mirrored.final, -run.final, atol=1e-11)
+    np.testing.assert_array_equal(mirrored.events["wall"], -run.events["wall"])
+
+
+def test_swap_of_identical_modules(chapter):
+    system = chapter(0.8, 0.6, sigma20_hat=0.0, gamma1_hat=0.3, gamma2_hat=0.3)
+    swapped = system.with_(f10_hat=0.6, f20_hat=0.8)
+    order = [2, 3, 0, 1, 6, 7, 4, 5]
+    run, other = vi.simulate(system, START, 12), vi.simulate(swapped, START[order], 12)
+    np.testing.assert_allclose(other.final[order], run.final, atol=1e-11)
+    np.testing.assert_array_equal(3 - other.events["module"], run.events["module"])
+
+
+def test_time_shift_by_a_period(case):
+    run, later = vi.simulate(case, START, 12), vi.simulate(case, START, 12, tau0=7 * case.period)
+    np.testing.assert_allclose(later.final, run.final, atol=1e-11)
+    np.testing.assert_allclose(later.events["tau"] - 7 * case.period, run.events["tau"], atol=1e-11)
+
+
+def test_a_run_continued_is_the_run(case):
+    whole = vi.simulate(case, START, 20)
+    half = vi.simulate(case, START, 10)
+    rest = vi.simulate(case, half.final, 10, tau0=10 * case.period)
+    np.testing.assert_allclose(rest.final, whole.final, atol=1e-10)
+
+
+def test_samples_agree_with_flow_and_events(case, auditor):
+    times = np.sort(np.random.default_rng(1).uniform(0, 5 * case.period, 300))
+    run = vi.simulate(case, START, 5, sample_times=times)
+    audit = auditor(case)
+    for tau, sample in zip(times, run.samples, strict=True):
+        k = np.searchsorted(run.events["tau"], tau, side="right") - 1
+        start, state = (0.0, START) if k < 0 else (run.events["tau"][k], run.events["state"][k])
+        np.testing.assert_allclose(sample, audit.flow(np.array(state), [0, 0], start, tau - start), atol=1e-12)
+    at_event = vi.simulate(case, START, 5, sample_times=run.events["tau"][:3])
+    np.testing.assert_allclose(at_event.samples[:, :4], run.events["state"][:3, :4], atol=1e-12)
+
+
+SPECTRA = {
+    "uncoupled and identical": dict(alpha12_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0),
+    "uncoupled": dict(alpha12_hat=0.0, gamma12_hat=0.0),
+    "undamped": dict(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0),
+    "undamped, uncoupled and identical": dict(
+        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, sigma20_hat=0.0
+    ),
+    "defective: critically damped": dict(
+        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=20.0, gamma2_hat=20.0, sigma20_hat=0.0
+    ),
+    "stiff": dict(alpha12_hat=4000.0, sigma20_hat=900.0),
+    "heavy balls": dict(epsilon=1.0),
+    "nearly elastic": dict(kappa=0.995),
+    "nearly plastic": dict(kappa=0.004),
+}
+
+
+@pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
+def test_any_spectrum(chapter, auditor, changes):
+    system = chapter(1.0, 0.7, **changes)
+    cycles = 25
+    run = vi.simulate(system, START, cycles)
+    auditor(system).audit(run, START, 0.0, cycles, tolerance=2e-11)
+    assert np.isfinite(run.final).all()
+
+
+def test_undamped_resonance_while_a_ball_sticks(chapter, auditor):
+    """A sticking ball tunes its box to the forcing: the response grows linearly, nothing may divide by zero."""
+    tuned = 1 / np.sqrt(1.1)
+    system = chapter(
+        0.3, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma_e_hat=(tuned - 1) / 0.1
+    )
+    start = np.array([-2.0, -3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])  # the box accelerates into the ball at wall +1
+    run = vi.simulate(system, start, 3)
+    assert run.events["kind"][0] == STICK
+    auditor(system).audit(run, start, 0.0, 3)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    epsilon=st.floats(0.005, 1.0),
+    kappa=st.floats(0.05, 0.95),
+    alpha=st.floats(0, 3),
+    damping=st.tuples(*[st.floats(0.01, 1)] * 3),
+    detuning=st.tuples(st.floats(-0.9, 2), st.floats(-0.5, 2)),
+    force=st.tuples(st.floats(-2, 2), st.floats(-2, 2)),
+    start=st.tuples(*[st.floats(-0.9, 0.9)] * 8),
+)
+def test_random_systems_pass_the_audit(auditor, epsilon, kappa, alpha, damping, detuning, force, start):
+    system = vi.System(
+        epsilon=epsilon, kappa=kappa, alpha12_hat=alpha, gamma1_hat=damping[0], gamma2_hat=damping[1],
+        gamma12_hat=damping[2], sigma20_hat=detuning[0], sigma_e_hat=detuning[1], f10_hat=force[0], f20_hat=force[1],
+    )  # fmt: skip
+    state = np.array(start)
+    state[[1, 3]] = state[[0, 2]] - state[[1, 3]]  # |W| = |start| <= 0.9
+    run = vi.simulate(system, state, 8, tau0=0.3)
+    auditor(system).audit(run, state, 0.3, 8, tolerance=5e-12, grid=40)
+
+
+BAD_CALLS = {
+    "a ball beyond a wall": (dict(state=[0, 1.1, 0, 0, 0, 0, 0, 0]), r"state: \|X1 - Y1\| = 1.1 is above 1"),
+    "seven numbers": (dict(state=[0.0] * 7), "state: needs 8 finite numbers"),
+    "not a number": (dict(state=[np.nan] + [0.0] * 7), "state: needs 8 finite numbers"),
+    "negative cycles": (dict(cycles=-1), "cycles: -1 is not a whole number"),
+    "half a cycle": (dict(cycles=1.5), "cycles: 1.5 is not a whole number"),
+    "infinite start": (dict(tau0=np.inf), "tau0: inf is not finite"),
+    "samples descend": (dict(sample_times=[2.0, 1.0]), "sample_times: needs a one-dimensional ascending array"),
+    "samples beyond the end": (dict(sample_times=[1.0, 100.0]), "sample_times: .* is not within the run"),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), BAD_CALLS.values(), ids=BAD_CALLS)
+def test_bad_calls_name_the_argument(chapter, changes, message):
+    arguments = {"state": START, "cycles": 2, **changes}
+    with pytest.raises(ValueError, match=message):
+        vi.simulate(chapter(), **arguments)
+
+
+def test_zero_cycles_and_no_force(chapter):
+    run = vi.simulate(chapter(), START, 0, sample_times=[0.0])
+    np.testing.assert_array_equal(run.final, START)
+    np.testing.assert_array_equal(run.samples, [START])
+    rest = vi.simulate(chapter(0.0, 0.0), np.zeros(8), 5)
+    assert len(rest.events) == 0
+    np.testing.assert_array_equal(rest.final, np.zeros(8))
