@@ -1,4 +1,4 @@
-"""The slow flow derived from (10.3) by computer algebra, step by step as in section 10.3, and compared with the code."""
+"""The slow flow derived from (10.3) by computer algebra, as in section 10.3, and compared with the code."""
 
 from types import SimpleNamespace
 

@@ -1,0 +1,121 @@
+"""Singular points against the elimination done by computer algebra, and their number in all its cases."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import vibroimpact as vi
+from vibroimpact.theory import manifold
+from vibroimpact.theory.singular_points import determinant, singular_everywhere, singular_points
+
+CHAPTER = vi.System(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1.0,
+    gamma1_hat=0.2,
+    gamma2_hat=0.3,
+    gamma12_hat=0.15,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+    f10_hat=1.0,
+    f20_hat=1.0,
+)
+
+
+def eliminated():
+    """Determinant of the two equations linear in cos and sin of delta = psi_2 - psi_1, by computer algebra.
+
+    From (10.23) in real form: f_i sin psi_i and f_i cos psi_i in terms of delta, squared and added.
+    """
+    names = "B_1 B_2 C_1 C_2 rho alpha gamma_12 gamma_1 gamma_2 sigma_20 sigma_e"
+    B1, B2, C1, C2, r, alpha, g12, g1, g2, s20, se = symbols = sp.symbols(names, real=True)
+    c, s = sp.symbols("c s", real=True)  # cos and sin of delta
+    mu = 8 / sp.pi**2
+    equations = []
+    for own, other, C, damping, stiffness, sense in ((B1, B2, C1, g1, 0, -1), (B2, B1, C2, g2, s20, 1)):
+        ahead = sense * s  # sin(psi_i - psi_j)
+        f_sine = (damping + g12) * own + mu * r * C**2 / own - other * (g12 * c + alpha * ahead)
+        f_cosine = (stiffness + alpha - 2 * se) * own + mu * C * (1 - C) / own - other * (alpha * c - g12 * ahead)
+        square = sp.expand(f_sine**2 + f_cosine**2)
+        square = sp.expand(square.subs(s**2, 1 - c**2))
+        linear = sp.Poly(square, c, s)
+        assert linear.total_degree() == 1
+        equations.append([linear.coeff_monomial(c), linear.coeff_monomial(s)])
+    return sp.lambdify(symbols, sp.Matrix(equations).det())
+
+
+DETERMINANT = eliminated()
+
+
+def derived(system, C):
+    r = manifold.rho(system.kappa)
+    return DETERMINANT(
+        *manifold.B_of_C(np.asarray(C), r),
+        *C,
+        r,
+        system.alpha12_hat,
+        system.gamma12_hat,
+        system.gamma1_hat,
+        system.gamma2_hat,
+        system.sigma20_hat,
+        system.sigma_e_hat,
+    )
+
+
+@pytest.mark.parametrize("C", [(0.2, 2.2), (1.1, 1.7), (0.9, 0.95), (3.0, 0.05)])
+def test_determinant_is_that_of_the_elimination(C):
+    assert 4 * determinant(CHAPTER, C) == pytest.approx(derived(CHAPTER, C), rel=1e-12)
+
+
+def sign_changes(system, point, module):
+    """Zeros of the determinant for C >= 0 by a scan: coarse, but blind to its being a quadratic."""
+    C = np.linspace(0, 60, 600_001)
+    both = (C, np.full_like(C, point.C[1])) if module == 1 else (np.full_like(C, point.C[0]), C)
+    value = derived(system, both)
+    return C[np.nonzero(value[1:] * value[:-1] < 0)[0]]
+
+
+@pytest.mark.parametrize("module", [1, 2])
+@pytest.mark.parametrize("f20_hat", [1.0, 0.89, 0.5])
+def test_all_singular_points_are_found(f20_hat, module):
+    system = CHAPTER.with_(f20_hat=f20_hat, gamma2_hat=0.2, gamma12_hat=0.2)
+    for point in vi.fixed_points(system):
+        found = singular_points(system, point, module)
+        assert found.shape[1] == 2
+        assert found[:, 0] == pytest.approx(sign_changes(system, point, module), abs=2e-4)
+        assert found[:, 1] == pytest.approx(manifold.B_of_C(found[:, 0], manifold.rho(system.kappa)), rel=1e-14)
+
+
+def test_none_one_and_several_occur_in_the_chapter_s_cases():
+    system = CHAPTER.with_(gamma2_hat=0.2, gamma12_hat=0.2)
+    counts = {len(singular_points(system, point, module)) for point in vi.fixed_points(system) for module in (1, 2)}
+    assert counts == {0, 1, 2}
+
+
+def test_uncoupled_modules_are_singular_everywhere():
+    uncoupled = CHAPTER.with_(alpha12_hat=0.0, gamma12_hat=0.0)
+    assert singular_everywhere(uncoupled)
+    assert not singular_everywhere(CHAPTER)
+    (point,) = vi.fixed_points(uncoupled)
+    assert singular_points(uncoupled, point, 1).shape == (0, 2)
+    assert derived(uncoupled, (0.3, 0.4)) == 0
+
+
+def test_a_fixed_point_can_be_singular_without_a_bifurcation():
+    """Against "if P_i gets closer to S_i, the fixed point becomes a singular point, potentially associated to a
+    bifurcation": between f20 = 0.92 and 0.91 the determinant changes sign on a fixed point that persists."""
+    chapter = CHAPTER.with_(gamma2_hat=0.2, gamma12_hat=0.2)
+    values = []
+    for f20_hat in (0.92, 0.91):
+        system = chapter.with_(f20_hat=f20_hat)
+        points = vi.fixed_points(system)
+        assert len(points) == 3
+        values.append(determinant(system, points[1].C))
+    assert values[0] < 0 < values[1]
+
+
+def test_the_module_must_be_1_or_2():
+    with pytest.raises(ValueError, match=r"^module: 0 is neither 1 nor 2"):
+        singular_points(CHAPTER, SimpleNamespace(C=np.ones(2)), 0)
