@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroimpact.theory import manifold
-from vibroimpact.theory.stability import printed_limit
 
 kappas = st.floats(0.001, 0.999)
 amplitudes = st.floats(-4, 4)
@@ -96,16 +95,3 @@ def test_large_C_violates_no_penetration_too():
     for kappa in (0.05, 0.3, 0.65, 0.95):
         r = manifold.rho(kappa)
         assert manifold.overshoot(1.01 / r, r) > 0
-
-
-@given(kappas)
-def test_printed_stability_limit_is_on_the_lower_arm(kappa):
-    """Below (10.26): the stable branch holds the upper arm and a piece of the lower arm."""
-    r = manifold.rho(kappa)
-    assert 0 < printed_limit(r) <= manifold.C_min(r)
-
-
-@pytest.mark.parametrize(("kappa", "limit"), [(0.65, 33 / 36.5), (0.5, 3 / 3.5)])
-def test_printed_limit_in_kappa(kappa, limit):
-    """4 / (4 + pi rho) = 2 (1 + kappa) / (3 + kappa), by hand: 3.3/3.65 at 0.65, 3/3.5 at 0.5."""
-    assert printed_limit(manifold.rho(kappa)) == pytest.approx(limit, rel=1e-14)
