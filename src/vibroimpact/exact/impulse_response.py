@@ -1,0 +1,92 @@
+"""Steady response of the boxes to the forcing and to periodic trains of unit impulses, in closed form."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from scipy.linalg import expm
+
+from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
+
+_TAYLOR_ORDER = 5
+_NODES_PER_RADIAN = 128  # leaves a Taylor remainder of (1/256)^6 / 6! = 5e-18
+_UNIT_IMPULSES = np.eye(4)[:, 2:]
+
+
+def forced_amplitude(system) -> np.ndarray:
+    """Complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau))."""
+    return np.linalg.solve(dynamic_stiffness(system), system.forcing.astype(complex))
+
+
+class ImpulseResponse:
+    """Motion [X1, X2, X1', X2'] of the unforced boxes under a steady train of unit impulses on one box.
+
+    sign = +1: equal impulses, one a period T. sign = -1: alternating impulses, one every T / 2.
+
+    Raises:
+        ValueError: the boxes are undamped and in resonance with the train, so that no steady response exists.
+    """
+
+    def __init__(self, system, sign: int):
+        self.sign = sign
+        self.interval = system.period if sign == 1 else system.period / 2
+        self._rate = rate_matrix(system)[:4, :4]
+        closure = np.eye(4) - sign * expm(self._rate * self.interval)
+        if np.linalg.cond(closure) > 1e12:
+            raise ValueError(
+                f"system: the undamped boxes are in resonance with {'a' if sign == 1 else 'an odd'} harmonic of "
+                f"Omega = {system.Omega}, so impacts in every cycle excite no bounded motion; add damping"
+            )
+        start = np.linalg.solve(closure, _UNIT_IMPULSES)
+        nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
+        self._spacing = self.interval / nodes
+        at_nodes = powers(expm(self._rate * self._spacing), nodes + 1) @ start
+        taylor = [np.linalg.matrix_power(self._rate, k) / math.factorial(k) for k in range(_TAYLOR_ORDER + 1)]
+        self._series = np.stack([term @ at_nodes for term in taylor], axis=1)
+
+    def __call__(self, s: np.ndarray) -> np.ndarray:
+        """The motion at times s (any real) since an impulse, shape (*s.shape, 4, 2): column j for a train on box j.
+
+        At an impulse it is the value just after.
+        """
+        impulses, within = np.divmod(s, self.interval)
+        node = np.rint(within / self._spacing).astype(int)
+        step = (within - node * self._spacing)[..., None, None]
+        terms = self._series[node]
+        value = terms[..., _TAYLOR_ORDER, :, :]
+        for k in reversed(range(_TAYLOR_ORDER)):
+            value = value * step + terms[..., k, :, :]
+        return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None, None] % 2))
+
+    def between(self, times: np.ndarray, boxes: np.ndarray):
+        """Displacement, velocity and acceleration, each (*times.shape, n), of every train's box under every train.
+
+        Train k has an impulse on box boxes[k] at times[..., k]; entry [..., m, k] is what train k does to box boxes[m]
+        just before the impulse of train m.
+        """
+        chosen = np.eye(2)[boxes]
+        motion = self(times[..., :, None] - times[..., None, :])
+        motion = np.einsum("...mksj,kj->...mks", motion, chosen)
+        own = np.arange(len(boxes))
+        motion[..., own, own, :] -= _UNIT_IMPULSES.T[boxes]
+        rates = motion @ self._rate.T
+        of_box = "...mks,ms->...mk"
+        return (
+            np.einsum(of_box, motion[..., :2], chosen),
+            np.einsum(of_box, motion[..., 2:], chosen),
+            np.einsum(of_box, rates[..., 2:], chosen),
+        )
+
+
+def powers(matrix: np.ndarray, count: int) -> np.ndarray:
+    """matrix**n for n = 0 .. count - 1, stacked, by doubling (rounding grows with log(count) only)."""
+    powers = np.eye(len(matrix))[None]
+    while len(powers) < count:
+        powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])
+    return powers[:count]
+
+
+@lru_cache(maxsize=16)
+def impulse_response(system, sign: int) -> ImpulseResponse:
+    """The impulse response of a system, kept for reuse."""
+    return ImpulseResponse(system, sign)

@@ -1,0 +1,30 @@
+"""Newton's method from many starts at once."""
+
+import numpy as np
+
+_STALLED = 1e-8  # steps near a double root come to rest at about the root of rounding
+
+
+def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5, tolerance: float = 1e-12):
+    """Roots reached from `starts`, shape (n, d), in no particular order and with repetitions.
+
+    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
+    `reach` in every component. A start has converged once its step is below `tolerance` (1 + |x|), or, if all steps are
+    used up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
+    """
+    x = np.array(starts, dtype=float)
+    found = [np.empty((0, x.shape[1]))]
+    for count in range(1, steps + 1):
+        if not len(x):
+            break
+        residual, jacobian = equations(x)
+        regular = np.isfinite(jacobian).all(axis=(1, 2)) & np.isfinite(residual).all(axis=1)
+        regular[regular] &= np.abs(np.linalg.det(jacobian[regular])) > 0
+        step = -np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
+        size = np.abs(step).max(axis=1, initial=0.0)
+        x = x[regular] + step * np.minimum(1.0, reach / np.maximum(size, reach))[:, None]
+        limit = tolerance if count < steps else _STALLED
+        done = size < limit * (1.0 + np.abs(x).max(axis=1, initial=0.0))
+        found.append(x[done])
+        x = x[~done]
+    return np.concatenate(found)

@@ -1,0 +1,184 @@
+"""All 1:1 responses of the exact system (10.2) with two impacts per forcing cycle and module, one at each wall."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from vibroimpact.exact.asymmetric import STARTS, asymmetric_solutions
+from vibroimpact.exact.floquet import follow, multipliers
+from vibroimpact.exact.impulse_response import forced_amplitude, impulse_response, powers
+from vibroimpact.exact.saltation import BALLS, BOXES
+from vibroimpact.exact.symmetric import symmetric_solutions, wrapped
+from vibroimpact.system import System
+from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
+
+_MODULES = np.array([1, 1, 2, 2])
+_WALLS = np.array([1, -1, 1, -1])
+_STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
+_TOUCH = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
+
+    system: the system it belongs to.
+    symmetric: whether state(tau + T/2) = -state(tau).
+    impact_phases: (2, 2), impact times as fractions of the period in [0, 1).
+    ball_speeds: (2, 2), speed of the flight that starts at this wall; negative for a root that is no motion.
+    multipliers: (8,) complex, by descending modulus. Where both modules impact in the same instant and gamma12 is not 0
+        they belong to perturbations that let module 1 impact first.
+    state: (8,) at tau = 0, just after the impact if there is one.
+    admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
+    residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
+    """
+
+    system: System
+    symmetric: bool
+    impact_phases: np.ndarray
+    ball_speeds: np.ndarray
+    multipliers: np.ndarray
+    state: np.ndarray
+    admissible: bool
+    residual: float
+
+    @property
+    def C(self) -> np.ndarray:
+        """Ball speed times a quarter period, (2, 2): on a symmetric orbit the C_i of (10.11)."""
+        return self.ball_speeds * self.system.period / 4
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitSearch:
+    """What a search found and how far it can be trusted.
+
+    orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.symmetric, exact.certify).
+    starts: Newton starts spent on the asymmetric ones, which may be incomplete.
+    fewest_hits: how many of these starts led to the asymmetric orbit (mirror images counted as one) that was hit least,
+        0 if there is none. A small number warns that others may have been missed.
+    """
+
+    orbits: list[Orbit]
+    starts: int
+    fewest_hits: int
+
+
+def orbits(system: System) -> list[Orbit]:
+    """All 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
+
+    Roots that are no motions of the system (see Orbit.admissible) are in the list too, marked. Order: symmetric ones
+    first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an asymmetric orbit
+    and its mirror image are neighbours.
+
+    Raises:
+        ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
+    """
+    return search(system).orbits
+
+
+def search(system: System, starts: int = STARTS) -> OrbitSearch:
+    """As orbits(system), with the effort spent on the asymmetric ones and what it says about completeness.
+
+    Raises:
+        ValueError: as orbits; starts is not a positive integer.
+    """
+    if not isinstance(system, System):
+        raise ValueError(f"system: {system!r} is not a System")
+    if not isinstance(starts, int) or starts < 1:
+        raise ValueError(f"starts: {starts!r} is not a positive integer")
+    symmetric = [_symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    roots, hits = asymmetric_solutions(system, starts)
+    asymmetric = [_asymmetric_orbit(system, root) for root in roots]
+    fewest = int(hits.min()) if len(hits) else 0
+    return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
+
+
+def _order(orbit):
+    """Sorting key; phases break ties between modules that do not feel each other."""
+    speeds = orbit.ball_speeds.sum(axis=1).round(9)
+    return (not orbit.symmetric, *speeds, *orbit.impact_phases.ravel().round(9))
+
+
+def _symmetric_orbit(system, root):
+    times, C = root[:2], root[2:]
+    later = wrapped(times + system.period / 2, system.period)
+    changes = 8 * C / system.period
+    return _orbit(system, np.stack([times, later], axis=1), changes, np.full(2, 0.5), sign=-1)
+
+
+def _asymmetric_orbit(system, root):
+    times = root[:4].reshape(2, 2)
+    fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
+    return _orbit(system, times, root[4:], fractions, sign=1)
+
+
+def _orbit(system, times, changes, fractions, sign):
+    """The orbit with impacts at `times` (2, 2), ball velocity changes (2,) there, flight fractions (2,) from wall +1.
+
+    sign: -1 if it is symmetric, so that each module's kicks are one alternating train; +1 if they are two trains.
+    """
+    speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
+    state = _state(system, times, changes, speeds, sign)
+    impacts = np.where(times == 0, system.period, times).ravel()  # the state at tau = 0 is after an impact there
+    order = np.argsort(impacts, kind="stable")
+    passage = follow(system, state, impacts[order], _MODULES[order])
+    gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
+    at_wall = gaps[range(4), _MODULES[order] - 1] - _WALLS[order]
+    return Orbit(
+        system=system,
+        symmetric=sign == -1,
+        impact_phases=wrapped(times / system.period, 1.0),
+        ball_speeds=speeds,
+        multipliers=multipliers(passage.jacobian),
+        state=state,
+        admissible=bool((speeds > 0).all() and _within_walls(system, state, impacts[order], passage)),
+        residual=float(max(abs(at_wall).max(), abs(passage.final - state).max())),
+    )
+
+
+def _state(system, times, changes, speeds, sign):
+    """State (8,) at tau = 0 by superposition of the forced response and the trains of kicks."""
+    response, amplitude = impulse_response(system, sign), forced_amplitude(system)
+    trains = 1 if sign == -1 else 2
+    kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
+
+    def boxes(tau):
+        forced = amplitude * np.exp(1j * system.Omega * tau)
+        motion = np.concatenate([forced.imag, system.Omega * forced.real])
+        return motion + np.einsum("iksi,ik->s", response(tau - times[:, :trains]), kicks)
+
+    state = np.empty(8)
+    state[BOXES] = boxes(0.0)
+    since = wrapped(-times, system.period)
+    for i, last in enumerate(since.argmin(axis=1)):
+        wall = (1, -1)[last]
+        velocity = wall * speeds[i, last]
+        state[BALLS[i]] = boxes(times[i, last])[i] - wall + velocity * since[i, last]
+        state[BALLS[2 + i]] = velocity
+    return state
+
+
+def _within_walls(system, state, impacts, passage):
+    """Whether |W_i| <= 1 throughout; it is 1 at the impacts themselves, so only the extrema inside flights matter."""
+    starts, ends = [0.0, *impacts], [*impacts, system.period]
+    flights = zip([state, *passage.after], starts, ends, strict=True)
+    return all(_extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in flights)
+
+
+def _extremes(system, state, start, end):
+    """|W_i| at its extrema inside one free flight from `state` at time `start` to time `end`."""
+    fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
+    count = 1 + math.ceil((end - start) * fastest / _STEP)
+    spacing = (end - start) / count
+    phase = system.Omega * start
+    boxes = powers(expm(rate_matrix(system) * spacing), count + 1) @ [*state[BOXES], math.sin(phase), math.cos(phase)]
+    elapsed = spacing * np.arange(count + 1)[:, None]
+    W = boxes[:, :2] - state[BALLS[:2]] - state[BALLS[2:]] * elapsed
+    V = (boxes[:, 2:4] - state[BALLS[2:]]) * spacing
+    turns = V[:-1] * V[1:] < 0
+    w0, w1, v0, v1 = W[:-1][turns], W[1:][turns], V[:-1][turns], V[1:][turns]
+    s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there
+    hermite = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
+    return abs(hermite)

@@ -1,0 +1,78 @@
+"""The interval proof of completeness, and that it does not prove too much."""
+
+import numpy as np
+import pytest
+
+flint = pytest.importorskip("flint", reason="python-flint belongs to the optional extra `reference`")
+
+from vibroimpact.exact import certify as module  # noqa: E402
+from vibroimpact.exact.certify import certify  # noqa: E402
+from vibroimpact.exact.symmetric import symmetric_solutions  # noqa: E402
+from vibroimpact.system import System  # noqa: E402
+
+
+def test_the_cases_of_the_chapter_are_complete(case):
+    certificate = certify(case)
+    assert certificate.complete
+    assert not certificate.undecided
+    assert len(certificate.isolated) == len(symmetric_solutions(case))
+
+
+def random_system(seed):
+    draw = np.random.default_rng(seed).uniform
+    return System(
+        epsilon=10 ** draw(-3, 0.3),
+        kappa=draw(0.02, 0.98),
+        alpha12_hat=draw(0, 3),
+        gamma1_hat=draw(0, 1),
+        gamma2_hat=draw(0, 1),
+        gamma12_hat=draw(0, 1),
+        sigma20_hat=draw(-0.4, 2),
+        sigma_e_hat=draw(-0.45, 1),
+        f10_hat=draw(-3, 3),
+        f20_hat=draw(-3, 3),
+    )
+
+
+@pytest.mark.parametrize("left_out", [0, 1])
+def test_a_missing_root_is_noticed(chapter, monkeypatch, left_out):
+    system = chapter()
+    listed = np.delete(symmetric_solutions(system), left_out, axis=0)
+    monkeypatch.setattr(module, "symmetric_solutions", lambda _: listed)
+    certificate = certify(system)
+    assert not certificate.undecided
+    assert not certificate.complete
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_systems_are_complete(seed):
+    system = random_system(seed)
+    assert certify(system).complete, system
+
+
+def test_a_double_root_is_reported_as_undecided(chapter):
+    """Identical modules in step: the lag 0 is a double root at a kink, so nothing is claimed there."""
+    certificate = certify(chapter(sigma20_hat=0))
+    assert not certificate.complete
+    assert certificate.undecided
+    for lower, upper in certificate.undecided:
+        assert min(upper, 1 - lower) < 1e-6
+
+
+def test_a_vanishing_condition_does_not_run_for_ever(chapter, monkeypatch):
+    monkeypatch.setattr(module._Condition, "count", lambda *_: None)
+    certificate = certify(chapter())
+    covered = sum(upper - lower for lower, upper in certificate.undecided)
+    assert covered == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("changes", [{"f10_hat": 0}, {"f20_hat": 0}])
+def test_a_box_at_rest_is_refused(chapter, changes):
+    with pytest.raises(ValueError, match="does not move"):
+        certify(chapter(alpha12_hat=0, gamma12_hat=0, **changes))
+
+
+def test_resonance_is_refused(chapter):
+    system = chapter(alpha12_hat=0, gamma1_hat=0, gamma2_hat=0, gamma12_hat=0)
+    with pytest.raises(ValueError, match="resonance"):
+        certify(system.with_(sigma20_hat=((3 * system.Omega) ** 2 - 1) / system.epsilon))

@@ -1,0 +1,63 @@
+"""The impulse response against its Fourier series, which knows nothing of matrix exponentials."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.exact.impulse_response import ImpulseResponse, forced_amplitude
+from vibroimpact.system.matrices import dynamic_stiffness
+
+
+def fourier(system, sign, s, harmonics=4000):
+    """Displacements (2, 2) from unit impulses repeated with the given sign, harmonic by harmonic."""
+    orders = np.arange(1, harmonics, 2) if sign == -1 else np.arange(1, harmonics)
+    weight = 2 / (system.period / 2 if sign == -1 else system.period)
+    mass = np.eye(2)
+    one = dynamic_stiffness(system)
+    damping = one.imag / system.Omega
+    stiffness = one.real + system.Omega**2 * mass
+    omega = orders[:, None, None] * system.Omega
+    receptance = np.linalg.inv(stiffness - omega**2 * mass + 1j * omega * damping)
+    total = weight * (receptance * np.exp(1j * omega * s)).real.sum(axis=0)
+    return total if sign == -1 else total + np.linalg.inv(stiffness) / system.period
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+@pytest.mark.parametrize("fraction", [0.11, 0.37, 0.83])
+def test_displacement_is_the_fourier_series(chapter, sign, fraction):
+    system = chapter(epsilon=0.3)
+    s = fraction * system.period
+    np.testing.assert_allclose(ImpulseResponse(system, sign)(s)[:2], fourier(system, sign, s), rtol=0, atol=3e-7)
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_velocity_jumps_by_the_impulse_and_nothing_else_jumps(chapter, sign):
+    response = ImpulseResponse(chapter(), sign)
+    n = response.interval
+    jump = response(0.0) - sign * response(np.nextafter(n, 0))
+    np.testing.assert_allclose(jump, np.eye(4)[:, 2:], rtol=0, atol=3e-14 * abs(response(0.0)).max())
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_repeats_with_its_sign(chapter, sign):
+    response = ImpulseResponse(chapter(), sign)
+    s = np.linspace(-5, 5, 11)
+    np.testing.assert_allclose(
+        response(s + response.interval), sign * response(s), rtol=0, atol=3e-14 * abs(response(0.0)).max()
+    )
+
+
+def test_forced_amplitude_solves_the_forced_boxes(chapter):
+    system = chapter(f20_hat=-0.4)
+    a = forced_amplitude(system)
+    np.testing.assert_allclose(dynamic_stiffness(system) @ a, system.forcing, rtol=1e-14)
+
+
+@pytest.mark.parametrize(("sign", "harmonic", "fails"), [(-1, 3, True), (-1, 2, False), (1, 2, True), (1, 3, True)])
+def test_undamped_resonance_with_the_impacts_is_refused(chapter, sign, harmonic, fails):
+    system = chapter(alpha12_hat=0, gamma1_hat=0, gamma2_hat=0, gamma12_hat=0)
+    tuned = system.with_(sigma20_hat=((harmonic * system.Omega) ** 2 - 1) / system.epsilon)
+    if fails:
+        with pytest.raises(ValueError, match="harmonic"):
+            ImpulseResponse(tuned, sign)
+    else:
+        assert np.isfinite(ImpulseResponse(tuned, sign)(1.0)).all()

@@ -1,0 +1,258 @@
+"""Exact 1:1 responses: reproduced by simulation, complete against brute force, known limits, symmetries, bad input."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.exact.floquet import follow
+from vibroimpact.exact.newton import newton
+from vibroimpact.exact.orbits import orbits, search
+from vibroimpact.exact.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
+
+
+@pytest.fixture(params=["equal", "unequal", "weak", "undamped", "heavy", "soft", "hard", "one_forced"])
+def scene(request, chapter):
+    """Systems of many kinds, near and far from the chapter's."""
+    undamped = {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0}
+    return {
+        "equal": lambda: chapter(),
+        "unequal": lambda: chapter(1, 0.89),
+        "weak": lambda: chapter(0.5, 0.5),
+        "undamped": lambda: chapter(**undamped),
+        "heavy": lambda: chapter(epsilon=1.0),
+        "soft": lambda: chapter(kappa=0.01),
+        "hard": lambda: chapter(kappa=0.999, f20_hat=-1),
+        "one_forced": lambda: chapter(1, 0),
+    }[request.param]()
+
+
+def events_of(orbit):
+    """(time, module, wall) of the four impacts, in order."""
+    times = orbit.impact_phases * orbit.system.period
+    return sorted((times[i, k], i + 1, (1, -1)[k]) for i in range(2) for k in range(2))
+
+
+def same(a, b, atol=1e-9):
+    gap = abs(a.impact_phases - b.impact_phases)
+    return np.minimum(gap, 1 - gap).max() < atol and abs(a.ball_speeds - b.ball_speeds).max() < atol
+
+
+def test_the_engine_reproduces_every_admissible_orbit(scene):
+    found = [orbit for orbit in orbits(scene) if orbit.admissible]
+    for orbit in found:
+        run = vi.simulate(scene, orbit.state, 1)
+        times, modules, walls = zip(*events_of(orbit), strict=True)
+        amplification = np.linalg.norm(follow(scene, orbit.state, np.array(times), np.array(modules)).jacobian)
+        rounding = 1e-13 * max(1.0, amplification)
+        np.testing.assert_allclose(run.final, orbit.state, rtol=0, atol=rounding)
+        assert list(run.events["module"]) == list(modules)
+        assert list(run.events["wall"]) == list(walls)
+        assert not run.events["kind"].any()
+        np.testing.assert_allclose(run.events["tau"], times, rtol=0, atol=rounding)
+
+
+def test_residuals_are_rounding(scene):
+    for orbit in orbits(scene):
+        assert orbit.residual < 2e-12
+
+
+def test_admissible_means_within_the_walls(scene, auditor):
+    """Against a plain dense walk with matrix exponentials."""
+    flights = auditor(scene)
+    for orbit in orbits(scene):
+        if (orbit.ball_speeds <= 0).any():
+            assert not orbit.admissible
+            continue
+        state, tau, widest = orbit.state, 0.0, 0.0
+        for time, module, _ in [*events_of(orbit), (scene.period, 0, 0)]:
+            for t in np.linspace(0, time - tau, 100):
+                middle = flights.flow(state, (0, 0), tau, t)
+                widest = max(widest, abs(middle[[0, 2]] - middle[[1, 3]]).max())
+            state, tau = flights.flow(state, (0, 0), tau, time - tau), time
+            if module:
+                box, ball = 2 * module + 2, 2 * module + 3
+                momentum = state[box] + scene.epsilon * state[ball]
+                leaving = -scene.kappa * (state[box] - state[ball])
+                state[ball] = (momentum - leaving) / (1 + scene.epsilon)
+                state[box] = state[ball] + leaving
+        assert orbit.admissible == (widest < 1 + 1e-9)
+
+
+def test_brute_force_finds_no_other_symmetric_orbit(scene):
+    found = symmetric_solutions(scene)
+    rng = np.random.default_rng(5)
+    starts = np.concatenate([rng.uniform(0, scene.period, (1500, 2)), rng.uniform(-6, 6, (1500, 2))], axis=1)
+    forced = newton(SymmetricConditions(scene), starts)
+    forced[:, :2] = wrapped(forced[:, :2], scene.period)
+    assert len(forced) > 100
+    assert len(distinct(np.concatenate([found, forced]), scene.period, 2)[0]) == len(found)
+
+
+def test_eight_times_the_starts_find_no_other_asymmetric_orbit(case):
+    usual, thorough = search(case), search(case, starts=8192)
+    assert len(usual.orbits) == len(thorough.orbits)
+    assert all(same(a, b) for a, b in zip(usual.orbits, thorough.orbits, strict=True))
+    assert thorough.fewest_hits >= usual.fewest_hits
+
+
+def test_symmetric_orbits_repeat_mirrored_after_half_a_period(scene):
+    for orbit in orbits(scene):
+        if orbit.symmetric and orbit.admissible:
+            half = vi.simulate(scene, orbit.state, 1, sample_times=[scene.period / 2]).samples[0]
+            np.testing.assert_allclose(half, -orbit.state, rtol=0, atol=1e-13 * abs(orbit.multipliers[0]))
+            assert orbit.ball_speeds[:, 0] == pytest.approx(orbit.ball_speeds[:, 1], rel=1e-14)
+
+
+def test_asymmetric_orbits_come_in_mirrored_neighbours(scene):
+    asymmetric = [orbit for orbit in orbits(scene) if not orbit.symmetric]
+    assert len(asymmetric) % 2 == 0
+    for one, other in zip(asymmetric[0::2], asymmetric[1::2], strict=True):
+        np.testing.assert_allclose(one.ball_speeds, other.ball_speeds[:, ::-1], rtol=0, atol=1e-8)
+        np.testing.assert_allclose(abs(one.multipliers), abs(other.multipliers), rtol=1e-7, atol=1e-8)
+        if one.admissible:
+            half = vi.simulate(scene, one.state, 1, sample_times=[scene.period / 2]).samples[0]
+            np.testing.assert_allclose(half, -other.state, rtol=0, atol=1e-8)
+
+
+def test_the_average_of_a_free_ball_is_its_flight(case):
+    """Each flight covers what the box moved plus the two units between the walls."""
+    for orbit in orbits(case):
+        durations = np.mod(orbit.impact_phases[:, ::-1] - orbit.impact_phases, 1) * case.period
+        travelled = orbit.ball_speeds * durations
+        np.testing.assert_allclose(travelled[:, 0], travelled[:, 1], rtol=1e-11)
+        np.testing.assert_allclose(orbit.C, orbit.ball_speeds * case.period / 4, rtol=1e-15)
+
+
+def test_identical_modules_swap(chapter):
+    uneven = {"sigma20_hat": 0}
+    plain = orbits(chapter(1.0, 0.7, gamma1_hat=0.1, gamma2_hat=0.4, **uneven))
+    swapped = orbits(chapter(0.7, 1.0, gamma1_hat=0.4, gamma2_hat=0.1, **uneven))
+    assert len(plain) == len(swapped) > 0
+    for orbit in plain:
+        partners = [
+            p
+            for p in swapped
+            if abs(p.ball_speeds[::-1] - orbit.ball_speeds).max() < 1e-8
+            and abs(p.state - orbit.state[[2, 3, 0, 1, 6, 7, 4, 5]]).max() < 1e-8
+        ]
+        assert len(partners) == 1
+        np.testing.assert_allclose(abs(partners[0].multipliers), abs(orbit.multipliers), rtol=1e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize("f20_hat", [1.0, -1.0])
+def test_identical_modules_in_step_do_not_feel_a_spring_between_them(chapter, f20_hat):
+    """In phase the coupling is idle; in anti-phase it acts as 2 alpha12 to ground. Both are a module on its own."""
+    coupled = chapter(1.0, f20_hat, sigma20_hat=0)
+    ground = 0.0 if f20_hat > 0 else 2.0
+    freed = {"alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": ground, "gamma2_hat": 0.2 + 0.2 * ground}
+    alone = [o for o in orbits(chapter(1.0, 1.0, **freed)) if o.symmetric]
+    expected = {round(float(o.ball_speeds[1, 0]), 9) for o in alone}
+    together = [o.ball_speeds for o in orbits(coupled) if o.symmetric]
+    in_step = {round(float(v[1, 0]), 9) for v in together if abs(v[0] - v[1]).max() < 1e-9}
+    assert len(expected) == 2
+    assert in_step == expected
+
+
+def test_uncoupled_modules_are_the_limit_of_weak_coupling(chapter):
+    limit = [o for o in orbits(chapter(alpha12_hat=0, gamma12_hat=0)) if o.symmetric]
+    near = [o for o in orbits(chapter(alpha12_hat=1e-10, gamma12_hat=0)) if o.symmetric]
+    assert len(limit) == len(near) == 4
+    for orbit in near:
+        assert sum(same(orbit, other, atol=1e-7) for other in limit) == 1
+
+
+def test_uncoupled_single_module_in_closed_form(chapter):
+    """The impulse response of one damped oscillator, worked out by hand."""
+    system = chapter(alpha12_hat=0, gamma12_hat=0)
+    h, gamma, epsilon, kappa = system.period / 2, system.gamma1, system.epsilon, system.kappa
+    decay, ringing = gamma / 2, np.sqrt(1 - gamma**2 / 4)
+    denominator = np.cosh(decay * h) + np.cos(ringing * h)
+    x = -np.sin(ringing * h) / (2 * ringing * denominator)
+    v_mean = (np.sinh(decay * h) + decay / ringing * np.sin(ringing * h)) / (2 * denominator)
+    v = v_mean - 0.5  # just before the impulse
+    amplitude = abs(system.forcing[0] / (1 - system.Omega**2 + 1j * gamma * system.Omega))
+    real = (2 / h * (1 + 2 * epsilon - kappa) / (1 + kappa) + 4 * epsilon / h * v) / system.Omega
+    imaginary = 4 * epsilon / h * x - 1
+    C = np.roots([real**2 + imaginary**2, 2 * imaginary, 1 - amplitude**2])
+    found = {round(float(o.C[0, 0]), 10) for o in orbits(system) if o.symmetric}
+    assert found == {round(float(c), 10) for c in C}
+
+
+def test_small_epsilon_leads_to_the_invariant_manifold(chapter):
+    """B^2 = 1 - 2 C + (1 + rho^2) C^2, (10.16), with an error of order epsilon: B from the box at tau = 0."""
+    errors = []
+    for epsilon in (1e-3, 1e-4):
+        system = chapter(epsilon=epsilon)
+        rho = 2 * (1 - system.kappa) / (np.pi * (1 + system.kappa))
+        symmetric = [o for o in orbits(system) if o.symmetric]
+        assert len(symmetric) == 4
+        B2 = np.array([o.state[[0, 2]] ** 2 + o.state[[4, 6]] ** 2 for o in symmetric])
+        C = np.array([o.C[:, 0] for o in symmetric])
+        errors.append(abs(B2 - (1 - 2 * C + (1 + rho**2) * C**2)).max())
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(10, rel=0.2)
+
+
+def test_format_and_order(scene):
+    found = orbits(scene)
+    for orbit in found:
+        assert orbit.impact_phases.shape == orbit.ball_speeds.shape == orbit.C.shape == (2, 2)
+        assert ((orbit.impact_phases >= 0) & (orbit.impact_phases < 1)).all()
+        assert orbit.state.shape == orbit.multipliers.shape == (8,)
+        assert orbit.multipliers.dtype == complex
+        assert (np.diff(abs(orbit.multipliers)) < 1e-9).all()
+    kinds = [orbit.symmetric for orbit in found]
+    assert kinds == sorted(kinds, reverse=True)
+    for kind in (True, False):
+        speeds = [orbit.ball_speeds[0].sum() for orbit in found if orbit.symmetric is kind]
+        assert (np.diff(speeds) > -1e-8).all()
+    again = orbits(scene)
+    assert all(np.array_equal(a.state, b.state) for a, b in zip(found, again, strict=True))
+
+
+def test_nothing_moves_for_ever_without_forcing(chapter):
+    assert orbits(chapter(0, 0)) == []
+    assert orbits(chapter(1, 0, alpha12_hat=0, gamma12_hat=0)) == []
+
+
+@pytest.mark.parametrize("bad", [None, 3, {"epsilon": 0.1}])
+def test_not_a_system(bad):
+    with pytest.raises(ValueError, match=r"^system: .* is not a System"):
+        orbits(bad)
+
+
+@pytest.mark.parametrize("bad", [0, -1, 2.5, "many"])
+def test_bad_number_of_starts(chapter, bad):
+    with pytest.raises(ValueError, match=r"^starts: "):
+        search(chapter(), starts=bad)
+
+
+@pytest.mark.parametrize("harmonic", [2, 3])
+def test_undamped_boxes_in_resonance_with_the_impacts(chapter, harmonic):
+    system = chapter(alpha12_hat=0, gamma1_hat=0, gamma2_hat=0, gamma12_hat=0)
+    with pytest.raises(ValueError, match=r"^system: .*resonance"):
+        orbits(system.with_(sigma20_hat=((harmonic * system.Omega) ** 2 - 1) / system.epsilon))
+
+
+@pytest.mark.parametrize("f20_hat", [1.0, 0.89])
+def test_only_an_asymmetric_pair_is_stable_and_it_attracts(chapter, f20_hat):
+    """By multipliers and by simulation: pushed off, the motion comes back to it and leaves the symmetric orbits."""
+    system = chapter(1.0, f20_hat)
+    rng = np.random.default_rng(8)
+    for orbit in (o for o in orbits(system) if o.admissible):
+        stable = abs(orbit.multipliers[0]) < 1
+        assert not (stable and orbit.symmetric)
+        start = orbit.state + 1e-5 * rng.normal(size=8)
+        distance = abs(vi.simulate(system, start, 2000).final - orbit.state).max()
+        assert (distance < 1e-9) == stable
+    assert sum(abs(o.multipliers[0]) < 1 for o in orbits(system) if o.admissible) == 2
+
+
+@pytest.mark.parametrize("mistuning", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
+def test_almost_identical_modules_keep_their_solutions(chapter, mistuning):
+    """Near the line of solutions at lag 0 that identical modules have, both ends of it are still found."""
+    limit = symmetric_solutions(chapter(sigma20_hat=0))
+    near = symmetric_solutions(chapter(sigma20_hat=mistuning))
+    assert len(near) == len(limit) == 2
+    order = np.argsort(near[:, 2])
+    np.testing.assert_allclose(near[order], limit[np.argsort(limit[:, 2])], rtol=0, atol=20 * mistuning + 1e-12)
