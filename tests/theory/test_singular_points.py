@@ -69,6 +69,34 @@ def test_determinant_is_that_of_the_elimination(C):
     assert 4 * determinant(CHAPTER, C) == pytest.approx(derived(CHAPTER, C), rel=1e-12)
 
 
+def eliminated_equations(system, C):
+    """h_1 and h_2 as docs/derivation.md prints them, from (C_1, C_2) alone."""
+    r, mu = manifold.rho(system.kappa), 8 / np.pi**2
+    C = np.asarray(C)
+    B = manifold.B_of_C(C, r)
+    K = system.alpha12_hat + 1j * system.gamma12_hat
+    own = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
+    a = own + 1j * np.array([system.gamma1_hat, system.gamma2_hat]) + K + mu * C / (1 - (1 + 1j * r) * C)
+    f = np.array([system.f10_hat, system.f20_hat])
+    G = abs(a) ** 2 * B**2 + abs(K) ** 2 * B[::-1] ** 2 - f**2
+    x, s = (a * K.conjugate()).real, (a * K.conjugate()).imag
+    d = x[0] * s[1] + x[1] * s[0]
+    cross, both = a[0].conjugate() * a[1], a[0] * a[1] * K.conjugate() ** 2
+    squares = abs(K) ** 2 * (abs(a[1] * G[0]) ** 2 + abs(a[0] * G[1]) ** 2) - 2 * G[0] * G[1] * both.real
+    h1 = squares / (4 * B.prod() ** 2 * d**2) - 1
+    linear = (cross.real + abs(K) ** 2) * (s[1] * G[0] + s[0] * G[1]) + cross.imag * (x[0] * G[1] - x[1] * G[0])
+    h2 = linear / (2 * d) - x @ B**2 - f.prod()
+    return h1, h2
+
+
+@pytest.mark.parametrize("f20_hat", [1.0, 0.89, 0.6])
+def test_fixed_points_satisfy_10_24_as_documented(f20_hat):
+    system = CHAPTER.with_(f20_hat=f20_hat)
+    for point in vi.fixed_points(system):
+        assert np.abs(eliminated_equations(system, point.C)).max() < 1e-10
+        assert np.abs(eliminated_equations(system, point.C + 0.01)).max() > 1e-4
+
+
 def sign_changes(system, point, module):
     """Zeros of the determinant for C >= 0 by a scan: coarse, but blind to its being a quadratic."""
     C = np.linspace(0, 60, 600_001)
