@@ -1,0 +1,154 @@
+"""Taylor models of the boxes' motion between events, in ball arithmetic from exact rational parameters."""
+
+import math
+from dataclasses import dataclass, fields
+from decimal import Decimal
+from fractions import Fraction
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from vibroimpact.system import System
+
+# Longest step times the norm of the rate matrix: longer steps need more Taylor terms and lose digits to
+# cancellation (e^REACH), shorter ones need more steps between events.
+REACH = 4
+
+
+def exact(name: str, value) -> Fraction:
+    """The rational number a decimal stands for: a float is read as its shortest decimal, 0.1 as 1/10.
+
+    Raises:
+        ValueError: not a finite number.
+    """
+    try:
+        return Fraction(value if isinstance(value, Fraction | int | str | Decimal) else repr(float(value)))
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name}: {value!r} is not a finite number") from None
+
+
+def to_ball(value: Fraction) -> arb:
+    """Enclosure of a rational number at the current precision."""
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+@dataclass(frozen=True)
+class ExactSystem:
+    """Coefficients of (10.2) as rational numbers; matrices are tuples of rows."""
+
+    epsilon: Fraction
+    kappa: Fraction
+    Omega: Fraction
+    stiffness: tuple
+    damping: tuple
+    forcing: tuple
+
+    @classmethod
+    def of(cls, parameters) -> "ExactSystem":
+        """From a System or a mapping of its ten parameters to numbers or decimal strings.
+
+        Raises:
+            ValueError: a parameter is missing, unknown or not admissible (see System).
+        """
+        names = [field.name for field in fields(System)]
+        if isinstance(parameters, System):
+            parameters = {name: getattr(parameters, name) for name in names}
+        if set(parameters) != set(names):
+            raise ValueError(f"system_parameters: got {sorted(parameters)}, needs exactly {names}")
+        System(**{name: float(value) for name, value in parameters.items()})
+        q = {name: exact(name, value) for name, value in parameters.items()}
+        epsilon = q["epsilon"]
+        coupling, coupling_damping = epsilon * q["alpha12_hat"], epsilon * q["gamma12_hat"]
+        ground = (Fraction(1), 1 + epsilon * q["sigma20_hat"])
+        ground_damping = (epsilon * q["gamma1_hat"], epsilon * q["gamma2_hat"])
+        return cls(
+            epsilon=epsilon,
+            kappa=q["kappa"],
+            Omega=1 + epsilon * q["sigma_e_hat"],
+            stiffness=_coupled(ground, coupling),
+            damping=_coupled(ground_damping, coupling_damping),
+            forcing=(epsilon * q["f10_hat"], epsilon * q["f20_hat"]),
+        )
+
+
+def _coupled(ground, coupling):
+    return ((ground[0] + coupling, -coupling), (-coupling, ground[1] + coupling))
+
+
+class Flow:
+    """Power series of X1 and X2 in the time since a start state, for one contact state of the two balls.
+
+    The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th
+    coefficient is the first two rows of A^k s / k!. No spectrum enters, so a repeated, defective, undamped or
+    resonant one needs no special case. The last coefficient is a ball that contains the neglected tail.
+    """
+
+    def __init__(self, system: ExactSystem, stuck, bits: int):
+        self.bits = bits
+        rate = _rate_matrix(system, stuck)
+        weights, self.norm = _weighted_norm(rate)
+        self._weights = [to_ball(weight) for weight in weights]
+        self.terms = _terms(bits)
+        with ctx.workprec(bits):
+            A = arb_mat(6, 6, [to_ball(entry) for row in rate for entry in row])
+            rows = arb_mat(2, 6, [1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0])
+            table = []
+            for k in range(self.terms):
+                table.append(rows.entries())
+                rows = rows * A / (k + 1)
+            self._table = arb_mat(
+                2 * self.terms, 6, [entry for start in (0, 6) for row in table for entry in row[start : start + 6]]
+            )
+            # |A^k s| <= norm^k |s| bounds every neglected coefficient; their sum, and that of its first four
+            # derivatives, is at most twice its first term while norm * t <= (terms - 4) / 2.
+            self._tail = 2 * to_ball(self.norm) ** self.terms / arb.fac_ui(self.terms)
+
+    @property
+    def longest_step(self) -> Fraction:
+        """Time over which the series is accurate to its bits."""
+        return Fraction(REACH) / self.norm
+
+    def size(self, vector) -> arb:
+        """Upper bound of the weighted norm of s; norm times it bounds the accelerations |X1''|, |X2''|."""
+        largest = arb(0)
+        for weight, entry in zip(self._weights, vector, strict=True):
+            largest = largest.max(abs(weight * entry))
+        return largest.upper()
+
+    def series(self, vector) -> tuple[list, list]:
+        """Coefficients of X1 and of X2 as lists of balls, from the six entries of s."""
+        with ctx.workprec(self.bits):
+            entries = (self._table * arb_mat(6, 1, vector)).entries()
+            tail = arb(0, (self._tail * self.size(vector)).upper())
+        return [*entries[: self.terms], tail], [*entries[self.terms :], tail]
+
+
+def _rate_matrix(system: ExactSystem, stuck):
+    rows = [[Fraction(0)] * 6 for _ in range(6)]
+    for i in range(2):
+        mass = 1 + system.epsilon if stuck[i] else Fraction(1)
+        rows[i][2 + i] = Fraction(1)
+        for j in range(2):
+            rows[2 + i][j] = -system.stiffness[i][j] / mass
+            rows[2 + i][2 + j] = -system.damping[i][j] / mass
+        rows[2 + i][4] = system.forcing[i] / mass
+    rows[4][5], rows[5][4] = system.Omega, -system.Omega
+    return rows
+
+
+def _weighted_norm(rate):
+    """Weights >= 1 of the six entries of s and the row-sum norm of the rate matrix in them.
+
+    Weighing displacements by about the highest natural frequency keeps the norm near that frequency.
+    """
+    stiffness = max(sum(abs(entry) for entry in row[:2]) for row in rate[2:4])
+    frequency = Fraction(max(1, math.ceil(8 * math.sqrt(stiffness)) / 8))
+    weights = [frequency, frequency] + [Fraction(1)] * 4
+    norm = max(sum(weights[i] * abs(entry) / weights[j] for j, entry in enumerate(row)) for i, row in enumerate(rate))
+    return weights, norm
+
+
+def _terms(bits):
+    terms = 12
+    while terms * math.log2(REACH) - math.lgamma(terms + 1) / math.log(2) > -bits:
+        terms += 1
+    return terms

@@ -1,0 +1,54 @@
+"""The first root of a power series on an interval, found or excluded with proof in ball arithmetic."""
+
+from flint import arb, ctx
+
+
+class Undecidable(ArithmeticError):
+    """A sign that decides what happens next lies within the error of the working precision."""
+
+
+def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
+    """A ball that contains the first root of the series in (0, end] and no other, or None if there is none.
+
+    series: arb_poly, positive at 0. Every interval before the ball is excluded: there the mean-value
+    enclosure of the series is positive. hint (< end): where to split first, for a root much nearer than end.
+
+    Raises:
+        Undecidable: near-tangent approach that the precision cannot tell from a contact.
+    """
+    if not series(arb(0)) > 0:
+        raise Undecidable("the distance at the start is not positive to working precision")
+    slope = series.derivative()
+    pieces = [(arb(0), end, 0)] if hint is None else [(hint, end, 0), (arb(0), hint, 0)]
+    while pieces:
+        start, stop, depth = pieces.pop()
+        middle = ((start + stop) / 2).mid()
+        interval = start.union(stop)
+        steepness = slope(interval)
+        if series(middle) + steepness * (interval - middle) > 0 or steepness > 0:
+            continue
+        if steepness < 0:
+            last = series(stop)
+            if last > 0:
+                continue
+            if last < 0:
+                return interval
+            stop = (stop + (stop - start) / 8).mid()  # the root is at the end itself: look just beyond
+        if depth > 0.6 * ctx.prec:
+            raise Undecidable(f"approach within {float(abs(series(middle)).upper()):.1e} not told from a contact")
+        pieces += [(middle, stop, depth + 1), (start, middle, depth + 1)]
+    return None
+
+
+def refine(series, ball: arb) -> arb:
+    """The single root inside the ball, a falling one, to working precision: interval Newton, else bisection."""
+    slope = series.derivative()
+    while True:
+        middle = ball.mid()
+        height = series(middle)
+        narrower = (middle - height / slope(ball)).intersection(ball)
+        if narrower.rad() > ball.rad() / 2:
+            if height.contains(0):
+                return narrower
+            narrower = (ball.upper() if height > 0 else ball.lower()).union(middle).intersection(ball)
+        ball = narrower

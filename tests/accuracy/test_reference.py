@@ -1,0 +1,417 @@
+"""The arbitrary-precision reference against closed forms, mpmath, SciPy and symmetries."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+pytest.importorskip("flint")
+
+from vibroimpact.accuracy.reference import (
+    IMPACT,
+    RELEASE,
+    STICK,
+    departure,
+    proven_run,
+    reference_run,
+)
+from vibroimpact.accuracy.reference_roots import Undecidable
+
+MODULATED = {
+    "epsilon": "0.1",
+    "kappa": "0.65",
+    "alpha12_hat": "1",
+    "gamma1_hat": "0.2",
+    "gamma2_hat": "0.2",
+    "gamma12_hat": "0.2",
+    "sigma20_hat": "0.5",
+    "sigma_e_hat": "0.2",
+    "f10_hat": "0.5",
+    "f20_hat": "0.5",
+}
+# Box 1 alone, a unit oscillator without damping or forcing; box 2 at rest with its ball.
+BARE = MODULATED | dict.fromkeys(
+    ("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat", "sigma_e_hat", "f10_hat", "f20_hat"),
+    "0",
+)
+BUSY = ["0.1", "0.3", "0", "-0.2", "0", "0", "1.4", "0.1"]  # both balls impact from here
+TO_CHATTER = ["-1.9", "-2.88", "0", "0", "0", "-0.05", "0", "0"]
+
+
+def mp(value):
+    """A reference number as an mpf with all its digits."""
+    return mpmath.mpf(value.str(200, radius=False)) if hasattr(value, "mid") else mpmath.mpf(value)
+
+
+def relative_rates(run):
+    """W1', W2' after each event, shape (n, 2)."""
+    return run.events["state"][:, [4, 6]] - run.events["state"][:, [5, 7]]
+
+
+def boxes(parameters, masses=(1, 1)):
+    """Rate matrix of [X1, X2, X1', X2', sin, cos] as an mpmath matrix, written out from (10.2)."""
+    p = {name: mpmath.mpf(value) for name, value in parameters.items()}
+    e, a, g = p["epsilon"], p["epsilon"] * p["alpha12_hat"], p["epsilon"] * p["gamma12_hat"]
+    omega, k2 = 1 + e * p["sigma_e_hat"], 1 + e * p["sigma20_hat"]
+    m1, m2 = masses
+    return mpmath.matrix(
+        [
+            [0, 0, 1, 0, 0, 0],
+            [0, 0, 0, 1, 0, 0],
+            [-(1 + a) / m1, a / m1, -(e * p["gamma1_hat"] + g) / m1, g / m1, e * p["f10_hat"] / m1, 0],
+            [a / m2, -(k2 + a) / m2, g / m2, -(e * p["gamma2_hat"] + g) / m2, e * p["f20_hat"] / m2, 0],
+            [0, 0, 0, 0, 0, omega],
+            [0, 0, 0, 0, -omega, 0],
+        ]
+    )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"alpha12_hat": "0", "gamma12_hat": "0", "sigma20_hat": "0"},  # repeated
+        {"alpha12_hat": "0", "gamma12_hat": "0", "gamma1_hat": "20"},  # defective: box 1 critically damped
+        {"gamma1_hat": "0", "gamma2_hat": "0", "gamma12_hat": "0"},  # undamped
+        {"epsilon": "1", "alpha12_hat": "50", "gamma12_hat": "30"},  # stiff coupling
+    ],
+    ids=["chapter", "repeated", "defective", "undamped", "stiff"],
+)
+def test_free_flight_is_the_matrix_exponential(changes):
+    parameters = MODULATED | changes
+    state = ["0.3", "0.2", "-0.1", "-0.2", "0.05", "0.02", "0.1", "-0.01"]
+    tau0, sample = Fraction(7, 10), Fraction(11, 10)
+    run = reference_run(parameters, state, "0.2", 50, tau0=tau0, sample_times=[sample])
+    assert len(run.events) == 0
+    with mpmath.workdps(70):
+        rate = boxes(parameters)
+        omega = rate[4, 5]
+        x1, y1, x2, y2, v1, u1, v2, u2 = map(mpmath.mpf, state)
+        start = mpmath.matrix([x1, x2, v1, v2, mpmath.sin(omega * 7 / 10), mpmath.cos(omega * 7 / 10)])
+
+        def after(time):
+            box = mpmath.expm(rate * time) * start
+            return [box[0], y1 + u1 * time, box[1], y2 + u2 * time, box[2], u1, box[3], u2]
+
+        wanted = after(2 * mpmath.pi / omega / 5)
+        worst = max(abs(mp(value) - other) for value, other in zip(run.final_exact, wanted, strict=True))
+        assert worst < mpmath.mpf(10) ** -50
+        np.testing.assert_allclose(run.samples[0], [float(v) for v in after(mpmath.mpf(4) / 10)], rtol=0, atol=2e-16)
+
+
+@pytest.mark.parametrize("stuck", [(True, False), (False, True), (True, True)])
+def test_stuck_balls_move_with_their_boxes(stuck):
+    """Box 1 pushes its ball with wall +1, box 2 with wall -1; a ball that does not stick is in mid-cavity."""
+    x, walls = (mpmath.mpf(-1), mpmath.mpf("0.8")), (1, -1)
+    y = [x[i] - walls[i] if stuck[i] else x[i] for i in range(2)]
+    state = [mpmath.nstr(value, 15) for value in (x[0], y[0], x[1], y[1])] + [0] * 4
+    run = reference_run(MODULATED, state, "0.1", 50)
+    with mpmath.workdps(70):
+        rate = boxes(MODULATED, [mpmath.mpf(11) / 10 if s else 1 for s in stuck])
+        time = mpmath.pi / 5 / rate[4, 5]
+        box = mpmath.expm(rate * time) * mpmath.matrix([-1, mpmath.mpf(8) / 10, 0, 0, 0, 1])
+        final = [mp(value) for value in run.final_exact]
+        tiny = mpmath.mpf(10) ** -50
+        assert all(abs(final[k] - box[j]) < tiny for j, k in enumerate((0, 2, 4, 6)))
+        for i, wall in enumerate(walls):
+            gap, speed = final[2 * i] - final[2 * i + 1], final[5 + 2 * i]
+            assert abs(gap - wall) < tiny if stuck[i] else abs(gap) < 1
+            assert speed == (final[4 + 2 * i] if stuck[i] else 0)
+    assert len(run.events) == 0
+
+
+def test_impact_time_and_law_for_one_oscillator():
+    """X1 = sin tau, ball at Y1 = 1/5 - tau/2: first impact where sin tau + tau/2 = 6/5."""
+    run = reference_run(BARE, [0, "0.2", 0, 0, 1, "-0.5", 0, 0], "0.2", 60)
+    assert [tuple(e) for e in run.events[["module", "wall", "kind"]]] == [(1, 1, IMPACT)]
+    with mpmath.workdps(80):
+        epsilon, kappa = mpmath.mpf(1) / 10, mpmath.mpf(65) / 100
+        tau = mpmath.findroot(lambda t: mpmath.sin(t) + t / 2 - mpmath.mpf(6) / 5, 0.9)
+        v, u = mpmath.cos(tau), -mpmath.mpf(1) / 2
+        state = [mp(value) for value in run.event_states[0]]
+        tiny = mpmath.mpf(10) ** -60
+        assert abs(mp(run.event_taus[0]) - tau) < tiny
+        assert abs(state[0] - state[1] - 1) < tiny
+        assert abs(state[4] - state[5] + kappa * (v - u)) < tiny
+        assert abs(state[4] + epsilon * state[5] - v - epsilon * u) < tiny
+
+
+@pytest.mark.parametrize("exponent", [2, 10, 20, 30])
+def test_grazing_is_told_from_contact(exponent):
+    """X1 = sin tau and a ball at rest at Y1 = delta: W1 peaks at 1 - delta."""
+    delta = Fraction(1, 10**exponent)
+    clears = reference_run(BARE, [0, delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
+    hits = reference_run(BARE, [0, -delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
+    assert len(clears.events) == 0
+    assert tuple(hits.events[["module", "wall", "kind"]][0]) == (1, 1, IMPACT)
+    with mpmath.workdps(100):
+        expected = mpmath.asin(1 - mpmath.mpf(10) ** -exponent)
+        assert abs(mp(hits.event_taus[0]) - expected) < mpmath.mpf(10) ** -80
+
+
+def test_exact_grazing_is_undecidable():
+    with pytest.raises(Undecidable, match="not told from a contact"):
+        reference_run(BARE, [0, 0, 0, 0, 1, 0, 0, 0], "0.45", 40)
+
+
+def test_release_from_rest_on_the_wall():
+    """Ball stuck at wall +1: mass 1 + epsilon swings from -1/2 at rest, lets go at X1 = 0, then X1 = V sin t."""
+    run = reference_run(BARE, ["-0.5", "-1.5", 0, 0, 0, 0, 0, 0], "1.2", 50)
+    assert [tuple(e) for e in run.events[["module", "wall", "kind"]]][:2] == [(1, 1, RELEASE), (1, -1, IMPACT)]
+    with mpmath.workdps(70):
+        frequency = 1 / mpmath.sqrt(mpmath.mpf(11) / 10)
+        release, speed = mpmath.pi / 2 / frequency, frequency / 2
+        flight = mpmath.findroot(lambda t: speed * (t - mpmath.sin(t)) - 2, 4.7)
+        assert abs(mp(run.event_taus[0]) - release) < mpmath.mpf(10) ** -50
+        assert abs(mp(run.event_taus[1]) - release - flight) < mpmath.mpf(10) ** -49
+        assert abs(mp(run.event_states[0][4]) - speed) < mpmath.mpf(10) ** -50
+
+
+@pytest.mark.parametrize(("wall", "kinds"), [(1, []), (-1, [])])
+def test_start_on_a_wall_without_force_is_decided_by_its_derivative(wall, kinds):
+    """Everything at rest under f sin(Omega tau): the wall force starts as wall f Omega tau."""
+    run = reference_run(MODULATED, [0, -wall, 0, 0, 0, 0, 0, 0], "0.1", 40)
+    assert list(run.events["kind"]) == kinds
+    moves_along = run.final[1] != -wall
+    assert moves_along == (wall == 1)
+
+
+def chatter_by_hand(kappa, epsilon, x, v, gap, rate, wall, slowest):
+    """Impacts of BARE's module 1 one by one with the closed form of its flight: times, and the last state."""
+    tau, times = mpmath.mpf(0), []
+    while True:
+        ball = v - rate
+
+        def relative(t, x=x, v=v, gap=gap, ball=ball):
+            return gap - x + x * mpmath.cos(t) + v * mpmath.sin(t) - ball * t
+
+        flight = _first_contact(relative, gap, rate, x, wall, times)
+        tau += flight
+        x, v = x * mpmath.cos(flight) + v * mpmath.sin(flight), v * mpmath.cos(flight) - x * mpmath.sin(flight)
+        closing = v - ball
+        v -= epsilon * (1 + kappa) / (1 + epsilon) * closing
+        gap, rate = mpmath.mpf(wall), -kappa * closing
+        times.append(tau)
+        if abs(rate) < slowest:
+            return times, x, v
+
+
+def _first_contact(relative, gap, rate, x, wall, times):
+    if times:  # flight over a parabola of acceleration -x, corrected by Newton
+        guess = 2 * abs(rate) / abs(x)
+    else:
+        guess = next(mpmath.mpf(k) / 100 for k in range(1, 10**4) if wall * relative(mpmath.mpf(k) / 100) > 1)
+    return mpmath.findroot(lambda t: relative(t) - wall, guess)
+
+
+def test_chatter_completes_where_its_impacts_accumulate():
+    run = reference_run(BARE, TO_CHATTER, "0.15", 30)
+    kinds = list(run.events["kind"])
+    last = kinds.index(STICK)
+    assert set(kinds[:last]) == {IMPACT}
+    with mpmath.workdps(100):  # a flight of 1e-32 rises above the wall by 1e-64
+        kappa, epsilon = mpmath.mpf(65) / 100, mpmath.mpf(1) / 10
+        times, x, v = chatter_by_hand(
+            kappa,
+            epsilon,
+            mpmath.mpf("-1.9"),
+            mpmath.mpf(0),
+            mpmath.mpf("0.98"),
+            mpmath.mpf("0.05"),
+            1,
+            mpmath.mpf(10) ** -32,
+        )
+        assert all(abs(mp(t) - other) < 1e-30 for t, other in zip(run.event_taus[:last], times, strict=False))
+        stick, state = mp(run.event_taus[last]), [mp(value) for value in run.event_states[last]]
+        assert abs(stick - times[-1]) < mpmath.mpf(10) ** -30
+        assert abs(state[0] - x) < mpmath.mpf(10) ** -30
+        assert abs(state[4] - v) < mpmath.mpf(10) ** -30
+        assert state[4] == state[5]
+        assert state[0] - state[1] == 1
+
+
+def test_chatter_follows_its_asymptotic_law():
+    run = reference_run(BARE, TO_CHATTER, "0.15", 40)
+    last = list(run.events["kind"]).index(STICK)
+    with mpmath.workdps(60):
+        times = [mp(tau) for tau in run.event_taus[: last + 1]]  # impacts and, last, the stick
+        kappa = mpmath.mpf(65) / 100
+        flights = [b - a for a, b in pairwise(times[:-1])]
+        ratio_error = [abs(b / a - kappa) for a, b in pairwise(flights)]
+        remainder = [abs(times[i + 1] + f * kappa / (1 - kappa) - times[-1]) for i, f in enumerate(flights)]
+        assert flights[-1] < 1e-11
+        assert ratio_error[-1] < 10 * flights[-1]
+        assert all(r < 10 * f**2 for r, f in zip(remainder, flights, strict=True))
+        assert relative_rates(run)[last - 1, 0] == pytest.approx(-flights[-1] * kappa * 1.9 / 2, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("kappa", "gap", "cycles"),
+    [("0.05", "0.02", "0.7"), ("0.3", "0.02", "0.7"), ("0.9", "0.0001", "0.7"), ("0.99", "0.0000001", "0.1")],
+)
+def test_chatter_does_not_depend_on_the_digits(kappa, gap, cycles):
+    parameters = MODULATED | {"kappa": kappa, "f10_hat": "2"}
+    ball = Fraction("-1.9") - 1 + Fraction(gap)
+    state = ["-1.9", ball, 0, 0, 0, 0, 0, "0.01"]
+    coarse, fine = (reference_run(parameters, state, cycles, digits) for digits in (30, 60))
+    assert STICK in fine.events["kind"]
+    assert np.array_equal(coarse.events["kind"], fine.events["kind"])
+    assert departure(coarse, fine)[1].max() < 1e-27
+
+
+def test_stuck_ball_is_released_by_an_impact_in_the_other_module():
+    parameters = BARE | {"epsilon": "0.5", "gamma12_hat": "5"}
+    run = reference_run(parameters, [0, "-0.9", "-0.2", "-1.2", 0, -2, 0, 0], "0.02", 40)
+    assert [tuple(e) for e in run.events[["module", "wall", "kind"]]] == [(1, 1, IMPACT), (2, 1, RELEASE)]
+    assert run.event_taus[0].overlaps(run.event_taus[1])
+    x2, v1, v2 = run.events["state"][0][[2, 4, 6]]
+    before = v1 + 0.5 * 1.65 / 1.5 * (-(run.events["state"][0][4] - run.events["state"][0][5]) / 0.65)
+    assert -x2 + 2.5 * (before - v2) > 0 > -x2 + 2.5 * (v1 - v2)
+
+
+def test_coincident_chatter_of_identical_modules():
+    """Equal modules in equal states move as one alone: the coupling never acts, both balls do everything together."""
+    twins = BARE | {"alpha12_hat": "3", "gamma12_hat": "1", "gamma1_hat": "0.4", "gamma2_hat": "0.4"}
+    single = twins | {"alpha12_hat": "0", "gamma12_hat": "0"}
+    x, y, v, u = TO_CHATTER[0], TO_CHATTER[1], TO_CHATTER[4], TO_CHATTER[5]
+    both = reference_run(twins, [x, y, x, y, v, u, v, u], "0.9", 40)
+    alone = reference_run(single, TO_CHATTER, "0.9", 40)
+    first, second = (both.events[both.events["module"] == module] for module in (1, 2))
+    assert set(alone.events["kind"]) == {IMPACT, STICK, RELEASE}
+    for part in (first, second):
+        assert np.array_equal(part["kind"], alone.events["kind"])
+        np.testing.assert_allclose(part["tau"], alone.events["tau"], rtol=1e-15)
+    taus = [both.event_taus[i] for i in range(len(both.events))]
+    pairs = [taus[i] for i in np.flatnonzero(both.events["module"] == 2)]
+    singles = list(alone.event_taus)
+    assert max(float(abs(a - b).upper()) for a, b in zip(pairs, singles, strict=True)) < 1e-36
+
+
+def test_energy_is_lost_in_impacts_only():
+    """Without damping and forcing the energy falls by (1 - kappa^2) epsilon / (1 + epsilon) W'^2 / 2 per impact.
+
+    Sticking conserves it, and impacts of a chatter slower than 1e-12 are too weak to count.
+    """
+    parameters = BARE | {"alpha12_hat": "2", "sigma20_hat": "1.5"}
+    run = reference_run(parameters, ["-1.9", "-2.88", "1", "0.5", 0, "-0.05", "0.3", 0], 6, 40)
+
+    def energy(state):
+        x1, _, x2, _, v1, u1, v2, u2 = state
+        kinetic = v1**2 + v2**2 + (u1**2 + u2**2) / 10
+        return (kinetic + x1**2 + x2**2 * 115 / 100 + (x2 - x1) ** 2 / 5) / 2
+
+    with mpmath.workdps(60):
+        start = [mpmath.mpf(value) for value in ("-1.9", "-2.88", 1, "0.5", 0, "-0.05", "0.3", 0)]
+        kappa, lost = mpmath.mpf(65) / 100, mpmath.mpf(0)
+        for event, exact_state in zip(run.events, run.event_states, strict=True):
+            if event["kind"] == IMPACT:
+                v = 2 + 2 * int(event["module"])
+                arriving = (mp(exact_state[v]) - mp(exact_state[v + 1])) / kappa
+                lost += (1 - kappa**2) / 22 * arriving**2
+        assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
+        assert abs(energy(start) - lost - energy([mp(value) for value in run.final_exact])) < 1e-23
+
+
+def test_impact_at_the_start_comes_before_a_sample_there():
+    run = reference_run(BARE, [0, -1, 0, 0, 1, 0, 0, 0], 0, 30, sample_times=[0])
+    assert tuple(run.events[["module", "wall", "kind"]][0]) == (1, 1, IMPACT)
+    np.testing.assert_allclose(run.samples[0][[4, 5]], [1 - 0.15, 1.5], rtol=1e-15)
+    np.testing.assert_array_equal(run.samples[0], run.final)
+
+
+def test_mirror_symmetry():
+    """Minus the state under minus the forcing, which is the forcing half a period later."""
+    run = reference_run(MODULATED, BUSY, 6, 40)
+    mirrored = [-Fraction(value) for value in BUSY]
+    other = reference_run(MODULATED | {"f10_hat": "-0.5", "f20_hat": "-0.5"}, mirrored, 6, 40)
+    assert np.array_equal(run.events["wall"], -other.events["wall"])
+    assert max(float(abs(a + b).upper()) for a, b in zip(run.final_exact, other.final_exact, strict=True)) < 1e-38
+
+
+def test_module_swap():
+    one = MODULATED | {"sigma20_hat": "0", "f10_hat": "1", "gamma1_hat": "0.4"}
+    other = one | {"f10_hat": "0.5", "f20_hat": "1", "gamma1_hat": "0.2", "gamma2_hat": "0.4"}
+    order = [2, 3, 0, 1, 6, 7, 4, 5]
+    run, swapped = reference_run(one, BUSY, 6, 40), reference_run(other, [BUSY[i] for i in order], 6, 40)
+    assert len(run.events) > 10
+    assert np.array_equal(run.events["module"], 3 - swapped.events["module"])
+    final = [swapped.final_exact[i] for i in order]
+    assert max(float(abs(a - b).upper()) for a, b in zip(run.final_exact, final, strict=True)) < 1e-38
+
+
+def test_doubled_digits_prove_the_modulated_case_through_chatter():
+    start = ["0.1", "0.3", "0", "-0.2", "0", "0", "0.4", "0"]
+    proven = proven_run(MODULATED, start, 160, accuracy=1e-18, digits=60)
+    assert proven.agreement < 1e-18
+    assert proven.run.digits == 2 * proven.coarse.digits
+    assert proven.run.chatters == np.sum(proven.run.events["kind"] == STICK) > 0
+    # A perturbation far below float64's resolution of the start is amplified, so digits are really needed.
+    nudged = [Fraction(start[0]) + Fraction(1, 10**20), *start[1:]]
+    apart = departure(reference_run(MODULATED, nudged, 160, 60), proven.run)[1]
+    assert apart.max() > 1e-10
+
+
+def test_samples_and_final_state_agree_with_a_shorter_run():
+    run = reference_run(MODULATED, BUSY, 5, 30, sample_times=[Fraction(5), 12.5, "20.25"])
+    period = Fraction(2 * np.pi / 1.02)
+    for time, sample in zip((Fraction(5), Fraction(25, 2), Fraction(81, 4)), run.samples, strict=True):
+        shorter = reference_run(MODULATED, BUSY, time / period, 30)
+        np.testing.assert_allclose(sample, shorter.final, rtol=0, atol=2e-14)  # period is rounded to float64
+
+
+def test_against_a_general_purpose_integrator():
+    """DOP853 with terminal events and restarts, over the first ten impacts of both modules."""
+    run = reference_run(MODULATED, BUSY, 6, 30)
+    rate = np.array(boxes(MODULATED).tolist(), dtype=float)
+
+    def motion(tau, s):
+        x1, _, x2, _, v1, u1, v2, u2 = s
+        box = rate @ [x1, x2, v1, v2, np.sin(1.02 * tau), np.cos(1.02 * tau)]
+        return [v1, u1, v2, u2, box[2], 0.0, box[3], 0.0]
+
+    def event(module, wall):
+        def distance(tau, s):
+            return 1 - wall * (s[2 * module] - s[2 * module + 1])
+
+        distance.terminal, distance.direction = True, -1
+        return distance
+
+    events = [event(module, wall) for module in (0, 1) for wall in (1, -1)]
+    tau, state = 0.0, np.array(BUSY, dtype=float)
+    assert set(run.events["module"][:10]) == {1, 2}
+    for expected in run.events[:10]:
+        flight = solve_ivp(
+            motion, (tau, tau + 20), state, "DOP853", events=events, rtol=1e-13, atol=1e-14, max_step=0.2
+        )
+        which = next(i for i, times in enumerate(flight.t_events) if len(times))
+        tau, state = flight.t[-1], flight.y[:, -1].copy()
+        v, u = 4 + 2 * (which // 2), 5 + 2 * (which // 2)
+        impulse = 1.65 / 1.1 * (state[v] - state[u])
+        state[[v, u]] += [-0.1 * impulse, impulse]
+        assert (expected["module"], expected["wall"]) == (which // 2 + 1, (1, -1)[which % 2])
+        assert tau == pytest.approx(expected["tau"], abs=1e-9)
+        np.testing.assert_allclose(state, expected["state"], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"state": [2, 0, 0, 0, 0, 0, 0, 0]}, "state: .W1. = 2"),
+        ({"state": [0, 0, 0, "1.0000000000000000001", 0, 0, 0, 0]}, "state: .W2. "),
+        ({"state": [0] * 7}, "state: 7 entries"),
+        ({"state": [float("nan")] + [0] * 7}, "state: nan"),
+        ({"digits": 10}, "digits: 10"),
+        ({"cycles": -1}, "cycles: -1"),
+        ({"sample_times": [3, 2]}, "sample_times: not ascending"),
+        ({"sample_times": [7]}, "sample_times: leave the window"),
+        ({"system_parameters": MODULATED | {"kappa": "1.2"}}, "kappa: 1.2"),
+        ({"system_parameters": {"kappa": "0.5"}}, "system_parameters: got"),
+    ],
+)
+def test_bad_input(changes, message):
+    arguments = {"system_parameters": MODULATED, "state": [0] * 8, "cycles": 1, "digits": 30} | changes
+    with pytest.raises(ValueError, match=message):
+        reference_run(**arguments)
