@@ -54,8 +54,8 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
             "module": module,
             "C": C,
             "B": B,
-            "arm": "right" if C > C_min(r) else "left",
-            "branch": "stable" if C > printed_limit(r) else "unstable",
+            "arm": "right" if C_min(r) < C else "left",
+            "branch": "stable" if printed_limit(r) < C else "unstable",
             "overshoot": float(overshoot(C, r)),
         }
         for point in labelled_points(table)

@@ -40,8 +40,7 @@ def write(table: pd.DataFrame, path) -> None:
 
 def read(path) -> pd.DataFrame:
     """Read a table that `write` wrote, equal to the last digit."""
-    texts = dict.fromkeys(TEXT, str)
-    table = pd.read_csv(path, float_precision="round_trip", dtype=texts)
+    table = pd.read_csv(path, dtype=dict.fromkeys(TEXT, str))
     text = [name for name in TEXT if name in table]
     table[text] = table[text].fillna("")
     return table

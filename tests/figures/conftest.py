@@ -1,0 +1,121 @@
+"""Every figure once, at the chapter's parameters: its table (None for a drawing) and its draw function."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.figures import (
+    fig10_01,
+    fig10_02,
+    fig10_03,
+    fig10_04,
+    fig10_05,
+    fig10_06,
+    fig10_07,
+    fig10_08,
+    fig10_10,
+)
+
+CHAPTER = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+}
+FORCING = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
+STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
+FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
+
+
+def system_of(case):
+    f10_hat, f20_hat = FORCING[case]
+    return vi.System(**CHAPTER, f10_hat=f10_hat, f20_hat=f20_hat)
+
+
+def table_of_points(system):
+    """Fixed points in the form of the pipeline's table."""
+    return pd.DataFrame(
+        {
+            "label": label,
+            **{f"{name}{i}": getattr(point, name)[i - 1] for name in ("C", "B", "psi") for i in (1, 2)},
+        }
+        for label, point in zip("abcde", vi.fixed_points(system), strict=False)
+    )
+
+
+def tables_of_run(system, start, transient, window, per_cycle):
+    """Samples and events of a simulation in the form of the pipeline's tables."""
+    times = (transient + np.arange(window * per_cycle + 1) / per_cycle) * system.period
+    run = vi.simulate(system, start, transient + window, sample_times=times)
+    samples = pd.DataFrame({"tau": times, **dict(zip(STATE, run.samples.T, strict=True))})
+    events = pd.DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
+    events[STATE] = run.events["state"]
+    events["kind"] = np.array(["impact", "stick", "release"])[run.events["kind"]]
+    return samples, events
+
+
+@pytest.fixture
+def system():
+    """The chapter's parameters with equal forcing."""
+    return system_of("equal")
+
+
+@pytest.fixture
+def points_of():
+    return table_of_points
+
+
+@pytest.fixture
+def run_of():
+    return tables_of_run
+
+
+@pytest.fixture(params=FIGURES)
+def name(request):
+    return request.param
+
+
+@pytest.fixture(params=FIGURES[2:])
+def name_with_table(request):
+    return request.param
+
+
+@pytest.fixture(scope="session")
+def scenes():
+    equal, unequal, weak = (system_of(case) for case in FORCING)
+    made = {
+        "fig10_01": (None, lambda table: fig10_01.draw()),
+        "fig10_02": (None, lambda table: fig10_02.draw()),
+        "fig10_03": (fig10_03.compute(amplitude=1.0, theta=0.8, tau0_max=12.0), fig10_03.draw),
+        "fig10_04": (fig10_04.compute(kappa=0.65, C_max=2.0), fig10_04.draw),
+        "fig10_05": (fig10_05.compute(C_range=(0.5, 1.1)), fig10_05.draw),
+        "fig10_06": (fig10_06.compute(equal, table_of_points(equal), (2.0, 3.5)), fig10_06.draw),
+        "fig10_07": (fig10_07.compute(equal, table_of_points(equal), "c", 2), fig10_07.draw),
+        "fig10_08": (fig10_08.compute(*tables_of_run(equal, np.zeros(8), 1000, 6, 200)), fig10_08.draw),
+        "fig10_09": (fig10_06.compute(unequal, table_of_points(unequal), (2.0, 3.5)), fig10_06.draw),
+        "fig10_10": (fig10_10.compute(weak, table_of_points(weak), "a", 2, (2.0, 2.0)), fig10_10.draw),
+        "fig10_11": (
+            fig10_08.compute(*tables_of_run(weak, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 1000, 120, 40)),
+            fig10_08.draw,
+        ),
+    }
+    assert list(made) == FIGURES
+    return {
+        name: SimpleNamespace(table=table, draw=lambda t, draw=draw: draw(t)) for name, (table, draw) in made.items()
+    }
+
+
+@pytest.fixture(scope="session")
+def drawn(scenes):
+    """The figures, laid out."""
+    figures = {name: scene.draw(scene.table) for name, scene in scenes.items()}
+    for figure in figures.values():
+        figure.draw_without_rendering()
+    return figures
