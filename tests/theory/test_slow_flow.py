@@ -51,7 +51,7 @@ def test_rates_agree_with_the_complex_form(C, psi, B):
     assert np.array(rates(CHAPTER, np.array(B), np.array(psi), np.array(C))) == pytest.approx(expected, abs=1e-12)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.tuples(C_values, C_values), st.tuples(angles, angles))
 def test_jacobian_against_high_precision_differences(C, psi):
     """At any point of the manifold, C following B on its arm."""

@@ -37,7 +37,7 @@ def next_impact(phase, speed, B, kappa):
     return later, -(-kappa * before + B * mpmath.cos(later))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.floats(0.05, 0.95), st.floats(0.1, 4))
 def test_multipliers_are_those_of_the_impact_map(kappa, C):
     with mpmath.workdps(40):

@@ -7,6 +7,7 @@ import numpy as np
 from vibroimpact.theory.balance import Balance
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.real_zeros import real_zeros
+from vibroimpact.theory.refinement import mirrored_pair, refine, same
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, slow_eigenvalues
 
 
@@ -18,7 +19,8 @@ class FixedPoint:
         C, B: saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
         psi: phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
         slow_eigenvalues: of the slow flow, per unit of tau_1, shape (4,), complex; infinite at a fold of the manifold.
-        multiple: several fixed points coincide here to rounding (a fold or branch point in the parameters).
+        multiple: rounding leaves open whether several fixed points coincide here (a fold or branch point in the
+            parameters); C and psi are then known to about the square root of rounding.
     """
 
     C: np.ndarray
@@ -55,7 +57,8 @@ def search(system) -> FixedPointSearch:
     _refuse_resonance(system, balance)
     radius = search_radius(system)
     zeros, multiple = real_zeros(*balance.polynomials(), radius)
-    points = [_fixed_point(system, balance, C, bool(m)) for C, m in zip(zeros, multiple, strict=True)]
+    points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
+    points.sort(key=lambda point: tuple(point.C))
     inside = [bool(np.all(point.C >= 0)) for point in points]
     return FixedPointSearch(
         points=[point for point, ok in zip(points, inside, strict=True) if ok],
@@ -77,9 +80,25 @@ def search_radius(system) -> float:
     return float((grow + np.sqrt(grow**2 + 4 * lose * f.sum())) / (2 * lose))
 
 
-def _fixed_point(system, balance, C, multiple):
+def _solutions(system, balance, zeros, multiple):
+    """(C, psi, multiple) of every fixed point."""
+    simple = [(C, _phases(balance, C)) for C in zeros[~multiple]]
+    simple = [refine(system, *solution) or solution for solution in simple]
+    unresolved = []
+    for C in zeros[multiple]:
+        pair = mirrored_pair(system, balance, C)
+        # Two zeros that rounding blurs can lead to the same pair.
+        simple += [solution for solution in pair if not any(same(solution, known) for known in simple)]
+        unresolved += [] if pair else [(C, _phases(balance, C))]
+    return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
+
+
+def _phases(balance, C):
     numerators, denominator = balance.solve(C)
-    psi = -np.angle(balance.at(C)[0] * numerators / denominator)
+    return -np.angle(balance.at(C)[0] * numerators / denominator)
+
+
+def _fixed_point(system, C, psi, multiple):
     return FixedPoint(
         C=C,
         B=B_of_C(C, rho(system.kappa)),
