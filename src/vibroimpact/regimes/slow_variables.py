@@ -36,12 +36,9 @@ def phase_in_cycle(tau, period: float):
     return np.remainder(np.asarray(tau) / period, 1.0)
 
 
-def mean_phase(phases) -> tuple[float, float]:
-    """Mean of phases (fractions of a period) on the circle, in [0, 1), and the largest distance from it."""
-    turns = np.asarray(phases)
-    mean = np.angle(np.mean(np.exp(2j * np.pi * turns))) / (2 * np.pi) % 1.0
-    distance = np.abs((turns - mean + 0.5) % 1.0 - 0.5)
-    return float(mean), float(np.max(distance))
+def mean_phase(phases) -> float:
+    """Mean of phases (fractions of a period) on the circle, in [0, 1)."""
+    return float(np.angle(np.mean(np.exp(2j * np.pi * np.asarray(phases)))) / (2 * np.pi) % 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +82,6 @@ def measure(system, tau, displacements, impacts) -> SlowVariables:
             here = (module == i) & (wall == side)
             if not here.any():
                 raise ValueError(f"impacts: none of module {i} at the wall {side:+d}")
-            phases[i - 1, column] = mean_phase(phase[here])[0]
+            phases[i - 1, column] = mean_phase(phase[here])
         C[i - 1] = np.mean(sawtooth_amplitude(speed, system.epsilon, system.Omega))
     return SlowVariables(B=B, psi=psi, C=C, impact_phases=phases)

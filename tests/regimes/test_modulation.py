@@ -1,0 +1,44 @@
+"""Modulation measures on signals whose envelope is known."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.regimes.modulation import cycle_amplitudes, modulation_depth, swells
+
+PER_CYCLE = 40
+
+
+def beating(cycles, length, depth):
+    cycle = np.arange(cycles * PER_CYCLE) / PER_CYCLE
+    return (1 - depth * np.cos(2 * np.pi * cycle / length)) * np.sin(2 * np.pi * cycle)
+
+
+def test_a_steady_response_is_not_modulated():
+    amplitudes = cycle_amplitudes(0.3 * np.sin(2 * np.pi * np.arange(400) / PER_CYCLE), PER_CYCLE)
+    assert amplitudes == pytest.approx(np.full(10, 0.3), rel=1e-12)
+    assert modulation_depth(amplitudes) == pytest.approx(0, abs=1e-12)
+    assert len(swells(np.ones(10))) == 0
+    assert modulation_depth(np.zeros(3)) == 0
+
+
+def test_an_unfinished_cycle_is_left_out():
+    assert len(cycle_amplitudes(np.zeros(10 * PER_CYCLE + 7), PER_CYCLE)) == 10
+
+
+@pytest.mark.parametrize("length", [12, 20, 33])
+def test_swells_are_one_modulation_period_apart(length):
+    amplitudes = cycle_amplitudes(beating(10 * length, length, 0.5), PER_CYCLE)
+    assert modulation_depth(amplitudes) == pytest.approx(0.5, abs=0.05)
+    found = swells(amplitudes)
+    assert len(found) == 10
+    assert np.diff(found).mean() == pytest.approx(length, abs=0.2)
+
+
+def test_ripples_on_a_swell_are_not_counted():
+    slow = 1 - 0.5 * np.cos(2 * np.pi * np.arange(100) / 25)
+    ripples = 0.08 * (-1.0) ** np.arange(100)
+    assert len(swells(slow + ripples)) == 4
+
+
+def test_a_window_that_begins_high_counts_from_the_next_swell():
+    assert swells([1.0, 0.9, 0.1, 0.5, 1.0, 0.9, 0.0, 1.0]).tolist() == [4, 7]
