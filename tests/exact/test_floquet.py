@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.exact.floquet import contraction, follow, multipliers
-from vibroimpact.exact.orbits import orbits
+from vibroimpact.exact.orbits import half_period_multipliers, orbits, search
 from vibroimpact.exact.symmetric import symmetric_solutions
 
 DIGITS = 40
@@ -99,7 +99,7 @@ def test_monodromy_matrix_and_multipliers_in_extended_precision(case):
             impacts = impacts_of(orbit)
             expected = reference.jacobian(orbit.state, impacts, reference.period)
             times, modules, _ = zip(*impacts, strict=True)
-            jacobian = follow(case, orbit.state, np.array(times), np.array(modules)).jacobian
+            jacobian = follow(case, orbit.state, np.array(times), np.array(modules), case.period).jacobian
             error = max(abs(expected[i, k] - jacobian[i, k]) for i in range(8) for k in range(8))
             assert error < 1e-9
             values = mp.eig(expected, left=False, right=False)
@@ -121,7 +121,7 @@ def test_one_impact_in_extended_precision(chapter, module, wall):
         exact = [mp.mpf(float(z)) for z in state]
         _, tau = reference.impact(exact, mp.mpf(0), module, wall, 0.5)
         expected = reference.jacobian(state, [(tau, module, wall)], reference.period)
-        jacobian = follow(system, state, np.array([float(tau)]), np.array([module])).jacobian
+        jacobian = follow(system, state, np.array([float(tau)]), np.array([module]), system.period).jacobian
         assert max(abs(expected[i, k] - jacobian[i, k]) for i in range(8) for k in range(8)) < 1e-12
 
 
@@ -170,7 +170,41 @@ def test_a_multiplier_is_one_at_a_fold(chapter):
     meeting = min(gaps, key=gaps.get)
     assert gaps[meeting] < 1e-4
     for k in meeting:
-        assert abs(found[k].multipliers - 1).min() < 1e-3
+        assert abs(half_period_multipliers(found[k]) - 1).min() < 1e-3
+
+
+def test_symmetry_breaks_where_a_half_period_multiplier_is_minus_one(chapter):
+    """A pair of asymmetric orbits leaves the symmetric one there, as the root of the distance in the parameter."""
+
+    def lowest(f):
+        symmetric = [o for o in search(chapter(f, f), starts=1).orbits if o.symmetric and o.admissible]
+        return half_period_multipliers(max(symmetric, key=lambda o: o.C[0, 0])).real.min()
+
+    def inequality(f):
+        """Distance of the flight fractions from one half, for the most nearly symmetric asymmetric pair."""
+        found = [o for o in orbits(chapter(f, f)) if not o.symmetric and o.admissible]
+        fractions = [np.mod(o.impact_phases[:, 1] - o.impact_phases[:, 0], 1) for o in found]
+        return min(abs(u - 0.5).max() for u in fractions)
+
+    low, high = 1.2, 1.25
+    assert lowest(low) > -1 > lowest(high)
+    for _ in range(25):
+        middle = (low + high) / 2
+        low, high = (middle, high) if lowest(middle) > -1 else (low, middle)
+    near, far = inequality(low - 1e-5), inequality(low - 4e-5)
+    assert near < 0.01
+    assert far / near == pytest.approx(2, rel=0.01)
+
+
+def test_half_period_multipliers_square_to_the_multipliers(case):
+    for orbit in orbits(case):
+        if orbit.symmetric:
+            squares = half_period_multipliers(orbit) ** 2
+            for mu in orbit.multipliers:
+                assert abs(squares - mu).min() < 1e-9 * max(1.0, abs(mu))
+        else:
+            with pytest.raises(ValueError, match="not symmetric"):
+                half_period_multipliers(orbit)
 
 
 def test_order_of_multipliers():
@@ -183,7 +217,7 @@ def test_perturbed_motion_is_carried_by_the_monodromy_matrix(case):
     """The event-driven engine moves a small perturbation as the matrix says."""
     orbit = distinct_kinds(case)[0]
     times, modules, _ = zip(*impacts_of(orbit), strict=True)
-    jacobian = follow(case, orbit.state, np.array(times), np.array(modules)).jacobian
+    jacobian = follow(case, orbit.state, np.array(times), np.array(modules), case.period).jacobian
     push = 1e-6 * np.random.default_rng(1).normal(size=8)
     ends = [vi.simulate(case, orbit.state + side * push, 1).final for side in (1, -1)]
     np.testing.assert_allclose((ends[0] - ends[1]) / 2, jacobian @ push, rtol=0, atol=1e-11 * abs(jacobian).max())

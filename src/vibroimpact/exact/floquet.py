@@ -37,8 +37,10 @@ def free_flight(system, state: np.ndarray, tau: float, duration: float):
     return final, jacobian
 
 
-def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray) -> Passage:
-    """Follow one forcing period from `state` (8,) at tau = 0 through impacts of `modules` (1, 2) at ascending `times`.
+def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
+    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts of `modules` (1, 2) at given times.
+
+    times: ascending in [0, end], one for each entry of modules.
 
     The impacts are taken as given: that a ball is at its wall at that time is the caller's business.
 
@@ -52,7 +54,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray) ->
         after[k] = impact_matrix(system, module) @ before[k]
         jacobian = impact_saltation(system, before[k], time, module) @ flight @ jacobian
         state, tau = after[k], time
-    final, flight = free_flight(system, state, tau, system.period - tau)
+    final, flight = free_flight(system, state, tau, end - tau)
     return Passage(before, after, final, flight @ jacobian)
 
 

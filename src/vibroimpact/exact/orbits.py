@@ -95,6 +95,28 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
     return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
 
 
+def half_period_multipliers(orbit: Orbit) -> np.ndarray:
+    """Multipliers (8,) complex of a symmetric orbit over half a period and mirroring: the roots of its multipliers.
+
+    They tell apart what the full ones do not: +1 is a fold, -1 is symmetry breaking.
+
+    Raises:
+        ValueError: the orbit is not symmetric.
+    """
+    if not orbit.symmetric:
+        raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
+    system = orbit.system
+    impacts = _after_zero(orbit.impact_phases * system.period, system.period)
+    order = np.argsort(impacts, kind="stable")[:2]
+    passage = follow(system, orbit.state, impacts[order], _MODULES[order], system.period / 2)
+    return multipliers(-passage.jacobian)
+
+
+def _after_zero(times, period):
+    """Impact times (4,) in (0, T]: the state at tau = 0 is the one after an impact there."""
+    return np.where(times == 0, period, times).ravel()
+
+
 def _order(orbit):
     """Sorting key; phases break ties between modules that do not feel each other."""
     speeds = orbit.ball_speeds.sum(axis=1).round(9)
@@ -121,9 +143,9 @@ def _orbit(system, times, changes, fractions, sign):
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)
-    impacts = np.where(times == 0, system.period, times).ravel()  # the state at tau = 0 is after an impact there
+    impacts = _after_zero(times, system.period)
     order = np.argsort(impacts, kind="stable")
-    passage = follow(system, state, impacts[order], _MODULES[order])
+    passage = follow(system, state, impacts[order], _MODULES[order], system.period)
     gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
     at_wall = gaps[range(4), _MODULES[order] - 1] - _WALLS[order]
     return Orbit(
