@@ -282,9 +282,29 @@ def test_without_forces_there_is_no_response():
     assert (found.points, found.outside, found.radius) == ([], [], 0.0)
 
 
-def test_the_undamped_resonance_of_the_slow_flow_is_refused():
-    with pytest.raises(ValueError, match=r"^sigma_e_hat: 0\.0 drives the undamped slow flow at its resonance"):
-        vi.fixed_points(build(UNDAMPED | IDENTICAL | {"sigma_e_hat": 0.0, "f20_hat": -1.0}))
+RESONANT = UNDAMPED | IDENTICAL
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        RESONANT | {"sigma_e_hat": 0.0, "f20_hat": -1.0},  # boxes in phase, forces opposed
+        RESONANT | {"sigma_e_hat": 1.0},  # boxes opposed, forces in phase
+        UNDAMPED | UNCOUPLED | {"sigma_e_hat": 0.0, "f10_hat": 0.0},
+        RESONANT | {"sigma_e_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
+    ],
+)
+def test_a_free_motion_at_the_driving_frequency_is_refused(changes):
+    with pytest.raises(ValueError, match=r"^sigma_e_hat: .* drives the undamped slow flow at a resonance"):
+        vi.fixed_points(build(changes))
+
+
+def test_a_loaded_resonance_of_the_slow_flow_is_served():
+    """The boxes' own resonance is elsewhere by order epsilon, so the system itself is admissible."""
+    system = build(RESONANT | {"sigma_e_hat": 1.0, "f20_hat": -1.0})
+    found = everything(system)
+    assert (len(vi.fixed_points(system)), len(found)) == (1, 4)
+    assert max(residual(system, point) for point in found) < 1e-13
 
 
 def fold_in_f20(inside=0.70, outside=0.65):

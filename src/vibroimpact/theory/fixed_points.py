@@ -51,10 +51,11 @@ def search(system) -> FixedPointSearch:
     """All fixed points, admissible or not.
 
     Raises:
-        ValueError: the undamped slow flow without balls is at resonance, where fixed points need not be isolated.
+        ValueError: the undamped slow flow without balls is at a resonance that the forces do not load: a free motion
+            of any phase may then touch the walls, and fixed points need not be isolated.
     """
     balance = Balance.of(system)
-    _refuse_resonance(system, balance)
+    _refuse_free_motion(system, balance)
     radius = search_radius(system)
     zeros, multiple = real_zeros(*balance.polynomials(), radius)
     points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
@@ -108,11 +109,12 @@ def _fixed_point(system, C, psi, multiple):
     )
 
 
-def _refuse_resonance(system, balance):
-    own = np.abs(balance.q[:, 0])
-    size = own.prod() + abs(balance.K) * own.sum()
-    if abs(balance.solve((0.0, 0.0))[1]) <= 1e-12 * size:
+def _refuse_free_motion(system, balance):
+    numerators, denominator = balance.solve((0.0, 0.0))
+    own, force = np.abs(balance.q[:, 0]).max(), np.abs(balance.forcing).max()
+    scale = own + abs(balance.K)
+    if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
-            f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at its resonance; "
-            "add damping or change the frequency"
+            f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at a resonance that the forces do not "
+            "load, so that fixed points need not be isolated; add damping or change the frequency"
         )
