@@ -89,7 +89,7 @@ def module_time(q, mode, i, boxes, balls, wall, touching, d, horizon, short):
     time, crossing, undecided = horizon, False, False
     for w in (1, -1):
         if w != touching:
-            t, c, u = _time_of(1.0 - w * relative, w * velocity, (w * a, w * j, w * s, w * r), bound, margin, horizon)
+            t, c, u = _time_of(1.0 - w * relative, w * velocity, (w * a, w * j, w * s, w * r), bound, margin, time)
         elif velocity == 0.0:
             outwards = w * a if w * a < -acceleration_rounding(q, boxes) else 0.0
             t = leaving_time(outwards, w * j, derivative_bound(q, mode, d, 4, horizon), horizon)

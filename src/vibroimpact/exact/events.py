@@ -31,7 +31,9 @@ from vibroimpact.system.restitution import after_impact
 
 IMPACT, STICK, RELEASE = 0, 1, 2
 FINISHED, PENETRATED, STALLED = 0, 1, 2
-FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = 0, 1, 2, 3, 4, 5
+FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, CLEARED, PIERCED = range(8)
+"""Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact, the sum of what completed chatters
+neglect, the smallest gap at a turn before a wall, and the smallest depth that an impact cut off."""
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
@@ -177,6 +179,11 @@ def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rem
         if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
             balls = _with_velocity(balls, i, boxes[2 + i])
         elif wall * velocity > 0.0:
+            brake = -wall * derivatives(q, mode_of(walls), boxes, sine, cosine)[i]
+            if brake > 0.0:
+                depth = velocity * velocity / (2.0 * brake)
+                ledger[PIERCED] = min(ledger[PIERCED], depth)
+                ledger[UNDECIDED] += depth <= gap_rounding(boxes, balls, i)
             box, ball = _impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = _with_velocity(boxes, i, box), _with_velocity(balls, i, ball)
             events, count = _record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
@@ -212,35 +219,64 @@ def _taylor(boxes, d, t):
 
 
 @njit(cache=True)
+def _note_turns(speeds, boxes, balls, walls, d, step, ledger):
+    """Relative speeds now; where one changed sign within the last step, the gap left at the turn goes to the ledger.
+
+    The turn is traced back by the Taylor series at its end, the more accurately the shorter the step, and steps shorten
+    before a near miss.
+    """
+    now = (boxes[2] - balls[2], boxes[3] - balls[3])
+    for i in range(2):
+        if walls[i] == 0 and now[i] * speeds[i] < 0.0:
+            u, a, j, s, r = now[i], d[i], d[2 + i], d[4 + i], d[6 + i]
+            t = -step * abs(u) / (abs(u) + abs(speeds[i]))
+            for _ in range(3):
+                slope = a + t * (j + t * (s / 2 + t * r / 6))
+                t -= (u + t * (a + t * (j / 2 + t * (s / 6 + t * r / 24)))) / slope if slope != 0.0 else 0.0
+            t = min(max(t, -step), 0.0)
+            rise = t * (u + t * (a / 2 + t * (j / 6 + t * (s / 24 + t * r / 120))))
+            gap = 1.0 - abs(boxes[i] - balls[i] + rise)
+            wall = 1.0 if speeds[i] > 0.0 else -1.0
+            if wall * (boxes[i] - balls[i]) > 0.0:
+                ledger[CLEARED] = min(ledger[CLEARED], gap)
+                ledger[UNDECIDED] += gap <= gap_rounding(boxes, balls, i)
+    return now
+
+
+@njit(cache=True)
 def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
     """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls)."""
     q = flow.coefficients
     mode = mode_of(walls)
     reach = min(remaining, flow.longest)
-    now, there, s, c, t = boxes, balls, sine, cosine, 0.0
+    now, there, s, c, t, before = boxes, balls, sine, cosine, 0.0, 0.0
     ledger[FLIGHTS] += 1
+    speeds = (now[2] - there[2], now[3] - there[3])
     while True:
         ledger[EVALUATIONS] += 1
         d = derivatives(q, mode, now, s, c)
+        speeds = _note_turns(speeds, now, there, walls, d, t - before, ledger)
+        if t >= reach:
+            return t, -1, now, there
         horizon = min(reach - t, LOOKAHEAD * flow.spacing)
         short = SHORT * flow.spacing
         step, due, doubt = horizon, -1, False
         for i in range(2):
-            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, horizon, short)
+            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, step, short)
             if time < step:
                 step, due, doubt = time, (i if crossing else -1), undecided
         if due >= 0 and abs(step) <= short:
-            ledger[UNDECIDED] += doubt
+            ledger[UNDECIDED] += doubt and walls[due] != 0
             later = _taylor(now, d, step)
             t = max(t + step, 0.0)
-            return t, due, later, carry(balls, walls, later, t)
-        t = min(t + step, reach)
+            there = carry(balls, walls, later, t)
+            _note_turns(speeds, later, there, walls, d, abs(step), ledger)
+            return t, due, later, there
+        before, t = t, min(t + step, reach)
         x1, x2, v1, v2, s, c = advance(flow, mode, boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
         now = (x1, x2, v1, v2)
         there = carry(balls, walls, now, t)
         touching = (0, 0)
-        if t >= reach:
-            return t, -1, now, there
 
 
 @njit(cache=True)
@@ -253,7 +289,8 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
     """
     q = flow.coefficients
     events, count = np.empty((64, 12)), 0
-    ledger = np.zeros(6)
+    ledger = np.zeros(8)
+    ledger[CLEARED] = ledger[PIERCED] = math.inf
     walls, touching, due = (0, 0), (0, 0), -1
     phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
     sampled, stalled = 0, 0

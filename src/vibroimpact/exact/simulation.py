@@ -1,12 +1,15 @@
 """Direct integration of the equations of motion, (10.1) in the form (10.2)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from vibroimpact.exact import events as kernel
+from vibroimpact.exact.certificate import KNOWN, Certificate, certify
 from vibroimpact.exact.flow import flow_of
+from vibroimpact.exact.variation import PUBLIC_ORDER, propagate
 from vibroimpact.system import System
 
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
@@ -16,7 +19,7 @@ IMPACT, STICK, RELEASE = kernel.IMPACT, kernel.STICK, kernel.RELEASE
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """A simulated motion.
 
@@ -24,9 +27,31 @@ class Run:
     the state after it; final: (8,) state at the end. States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
     """
 
+    system: System
+    tau0: float
+    cycles: int
     events: np.ndarray
     samples: np.ndarray
     final: np.ndarray
+    _rows: np.ndarray = field(repr=False)
+    _ledger: np.ndarray = field(repr=False)
+
+    @cached_property
+    def _variation(self):
+        flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
+        duration = self.cycles * self.system.period
+        return propagate(flow, self._rows, _phase(self.system, self.tau0), duration, limit)
+
+    @property
+    def jacobian(self) -> np.ndarray:
+        """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
+        return self._variation[0][np.ix_(PUBLIC_ORDER, PUBLIC_ORDER)]
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """What the run can vouch for."""
+        _, covariance, horizon = self._variation
+        return certify(self._ledger, covariance, self.tau0 + horizon)
 
 
 def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times=None) -> Run:
@@ -50,23 +75,27 @@ def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times
         raise ValueError(f"tau0: {tau0!r} is not finite")
     times = _checked_times(sample_times, tau0, tau0 + cycles * system.period)
     samples = np.empty((len(times), 8))
-    phase = math.fmod(system.Omega * tau0, kernel.TWO_PI)
-    boxes, balls, events, status, _ = kernel.integrate(
+    boxes, balls, rows, status, ledger = kernel.integrate(
         flow_of(system),
         tuple(state[0::2]),
         tuple(state[1::2]),
-        phase + kernel.TWO_PI if phase < 0.0 else phase,
+        _phase(system, tau0),
         int(cycles),
         times - tau0,
         samples,
     )
-    if status == kernel.PENETRATED:
-        raise ArithmeticError(f"a ball went through a wall at tau = {tau0 + events[-1, 0] if len(events) else tau0}")
-    if status == kernel.STALLED:
-        raise ArithmeticError(f"time stands still at tau = {tau0 + events[-1, 0]}")
+    if status != kernel.FINISHED:
+        what = {kernel.PENETRATED: "a ball went through a wall", kernel.STALLED: "time stands still"}[status]
+        raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
-    return Run(_table(events, tau0), samples, final)
+    return Run(system, tau0, int(cycles), _table(rows, tau0), samples, final, rows, ledger)
+
+
+def _phase(system, tau):
+    """Forcing phase Omega tau in [0, 2 pi)."""
+    phase = math.fmod(system.Omega * tau, kernel.TWO_PI)
+    return phase + kernel.TWO_PI if phase < 0.0 else phase
 
 
 def _table(rows, tau0):
