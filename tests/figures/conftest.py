@@ -18,6 +18,7 @@ from vibroimpact.figures import (
     fig10_08,
     fig10_10,
 )
+from vibroimpact.theory.labels import labels
 
 CHAPTER = {
     "epsilon": 0.1,
@@ -41,13 +42,15 @@ def system_of(case):
 
 def table_of_points(system):
     """Fixed points in the form of the pipeline's table."""
-    return pd.DataFrame(
+    points = vi.fixed_points(system)
+    table = pd.DataFrame(
         {
             "label": label,
             **{f"{name}{i}": getattr(point, name)[i - 1] for name in ("C", "B", "psi") for i in (1, 2)},
         }
-        for label, point in zip("abcde", vi.fixed_points(system), strict=False)
+        for label, point in zip(labels(system, points), points, strict=True)
     )
+    return table.sort_values("label", ignore_index=True)
 
 
 def tables_of_run(system, start, transient, window, per_cycle):
