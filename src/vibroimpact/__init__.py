@@ -9,7 +9,9 @@ _PUBLIC = {
     "System": "vibroimpact.system",
     "PhysicalSystem": "vibroimpact.system",
     "fixed_points": "vibroimpact.theory.fixed_points",
+    "orbits": "vibroimpact.exact.orbits",
     "simulate": "vibroimpact.exact.simulation",
+    "simulate_many": "vibroimpact.exact.simulation",
 }
 __all__ = [*_PUBLIC, "__version__"]
 

@@ -279,7 +279,7 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
         touching = (0, 0)
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
     """Run a state over a number of forcing cycles.
 
