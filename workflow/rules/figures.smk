@@ -55,11 +55,11 @@ for figure, scene in config["figures"].items():
         params:
             figure=figure,
             notebook=f"notebooks/{scene['notebook']}.ipynb",
+            executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),
             code=figure_code(figure, scene),
         log:
-            text=f"results/logs/figures/{figure}.log",
-            notebook=f"results/logs/figures/{figure}.ipynb",
+            f"results/logs/figures/{figure}.log",
         benchmark:
             f"results/benchmarks/figures/{figure}.tsv"
         script:

@@ -1,8 +1,8 @@
 """What the adapters share: a log file for each job, and CSV files."""
 
 import contextlib
+import os
 import sys
-import traceback
 from pathlib import Path
 
 import pandas as pd
@@ -12,14 +12,13 @@ from vibroimpact.figures.atomic import replacing
 
 @contextlib.contextmanager
 def logging_to(path):
-    """Send everything printed to a log file, a traceback included, and fail then without repeating it."""
+    """Send everything that this process and its children print to a log file."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", encoding="utf-8") as log, contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
-        try:
-            yield
-        except Exception:
-            traceback.print_exc()
-            sys.exit(1)
+    with open(path, "w", encoding="utf-8") as log:
+        for stream in (sys.stdout, sys.stderr):
+            stream.flush()
+            os.dup2(log.fileno(), stream.fileno())
+        yield
 
 
 def write_csv(table: pd.DataFrame, path) -> None:

@@ -1,22 +1,23 @@
-"""All fixed points of one case -> CSV: case, label, C1, C2, B1, B2, psi1, psi2; labels a, b, c, ... ascend in C1."""
-
-from string import ascii_lowercase
+"""All fixed points of one case -> CSV: case, label, C1, C2, B1, B2, psi1, psi2, a row per point, by label."""
 
 import pandas as pd
 from adapter import logging_to, write_csv
 
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.labels import labels
 
 COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 
 
 def main(case: str, parameters: dict, output) -> None:
-    points = fixed_points(System(**parameters))
+    system = System(**parameters)
+    points = fixed_points(system)
     rows = [
-        [case, label, *point.C, *point.B, *point.psi] for label, point in zip(ascii_lowercase, points, strict=False)
+        [case, label, *point.C, *point.B, *point.psi]
+        for label, point in zip(labels(system, points), points, strict=True)
     ]
-    write_csv(pd.DataFrame(rows, columns=COLUMNS), output)
+    write_csv(pd.DataFrame(rows, columns=COLUMNS).sort_values("label"), output)
 
 
 if "snakemake" in globals():

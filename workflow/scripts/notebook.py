@@ -29,6 +29,7 @@ def main(notebook, executed, html, figure: str, settings: dict, inputs: dict, ou
         raise ValueError(f"notebook: {notebook} has the parameters {sorted(declared)}, needs {sorted(PARAMETERS)}")
     parameters = {"figure": figure, "settings": settings, "inputs": inputs, "outputs": outputs}
     Path(executed).parent.mkdir(parents=True, exist_ok=True)
+    print(f"{notebook} as it was executed: {executed}")
     with replacing(html) as partial:
         partial.write_text(page(execute(notebook, executed, parameters), title=figure), encoding="utf-8")
 
@@ -43,16 +44,16 @@ def execute(notebook, executed, parameters: dict):
             parameters,
             kernel_name="python3",
             progress_bar=False,
-            config=Config({"KernelManager": {"transport": "ipc"}}),
+            config=Config({"KernelManager": {"transport": "ipc", "ip": f"{sockets}/socket"}}),
         )
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log.text):
+    with logging_to(snakemake.log[0]):
         outputs = dict(snakemake.output.items())
         main(
             snakemake.params.notebook,
-            snakemake.log.notebook,
+            snakemake.params.executed,
             outputs.pop("html"),
             snakemake.params.figure,
             snakemake.params.settings,
