@@ -1,0 +1,46 @@
+"""Masri's perturbation analysis of two impacts per cycle, B and phi held: multipliers, limits, verdict.
+
+Derived in docs/stability.md. Perturbations of impact time and ball speed pass from each impact to the next by a map
+with determinant kappa^2 and trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), seen mirrored. A multiplier leaves the
+unit circle through +1 at C_min, where the two arms of the manifold merge, and through -1 at pi^2 / (pi^2 - 4), where
+the symmetric motion gives way to two asymmetric ones; nothing else can happen, because the determinant is below 1.
+"""
+
+import numpy as np
+
+from vibroimpact.system.verdict import verdict
+from vibroimpact.theory.manifold import C_min, rho
+from vibroimpact.theory.stability import SYMMETRY_BREAKING_C, impact_multipliers
+
+ROUNDING = 16 * np.finfo(float).eps
+
+
+def multipliers(C: float, kappa: float) -> np.ndarray:
+    """Multipliers, shape (2,), of small perturbations over one cycle (two impacts), B and phi held.
+
+    The squares of `impact_multipliers`: half a cycle and mirroring, done twice, is a cycle. Their product is kappa^4.
+
+    Raises:
+        ValueError: C is 0 (grazing).
+    """
+    return impact_multipliers(C, kappa) ** 2
+
+
+def lower_limit(kappa):
+    """C below which a multiplier is above +1: the fold C_min of the manifold, (10.25), for every kappa."""
+    return C_min(rho(kappa))
+
+
+def upper_limit(kappa):
+    """C above which a multiplier of the mirrored map is below -1: pi^2 / (pi^2 - 4), for every kappa (its shape)."""
+    return np.full(np.shape(kappa), SYMMETRY_BREAKING_C)[()]
+
+
+def stable(C: float, kappa: float, error: float = 0.0) -> str:
+    """ "stable", "unstable" or "undecided": whether C lies between both limits.
+
+    Args:
+        error: bound on the error of C; rounding is added to it.
+    """
+    margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
+    return verdict(margin, error + ROUNDING * max(1.0, abs(C)))

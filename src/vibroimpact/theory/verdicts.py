@@ -1,0 +1,100 @@
+"""What the criteria of the theory say of a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
+
+Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
+threshold. Both modules must be stable.
+"""
+
+import numpy as np
+from scipy.linalg import eig
+
+from vibroimpact.system.verdict import all_stable, verdict
+from vibroimpact.theory import masri
+from vibroimpact.theory.manifold import B_of_C, impact_phase, rho
+from vibroimpact.theory.slow_flow import linearisation, rates
+from vibroimpact.theory.stability import printed_limit
+
+CRITERIA = ("printed_10_26", "masri_derived", "slow_flow")
+_STEP = 1e-6
+_ULPS = 16 * np.finfo(float).eps
+
+
+def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
+    """(10.26) as printed, for C of both modules, shape (2,), known to within `error`."""
+    limit = printed_limit(rho(kappa))
+    return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C)
+
+
+def masri_derived(C, kappa: float, error: float = 0.0) -> str:
+    """Masri's analysis derived anew (docs/stability.md), for C of both modules, shape (2,), known to within `error`."""
+    return all_stable(masri.stable(c, kappa, error) for c in C)
+
+
+def slow_flow(system, psi, C, error: float = 0.0) -> str:
+    """Signs of the real parts of the slow flow's eigenvalues at phases psi [rad] and C, each (2,), within `error`.
+
+    The error of each eigenvalue is of first order: rounding and the error of psi and C, through the left and right
+    eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, nothing is decided.
+    """
+    values, errors = _eigenvalues(system, np.asarray(psi, dtype=float), np.asarray(C, dtype=float), error)
+    return all_stable(verdict(-value.real, bound) for value, bound in zip(values, errors, strict=True))
+
+
+def of_fixed_point(system, point) -> dict[str, str]:
+    """The verdict of each of CRITERIA on a fixed point of the slow flow."""
+    return _of(system, point.psi, point.C, fixed_point_error(system, point))
+
+
+def of_orbit(orbit) -> dict[str, str]:
+    """The verdict of each of CRITERIA on an exact orbit (its system, impact_phases, C, multipliers and residual).
+
+    The criteria assume a symmetric motion; an asymmetric one is judged as `slow_variables` describes it.
+    """
+    psi, C = slow_variables(orbit)
+    error = (orbit.residual + _ULPS) / np.min(np.abs(orbit.multipliers - 1))
+    return _of(orbit.system, psi, C, error)
+
+
+def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
+    """(psi, C) of an exact orbit, each (2,): C_i is ball speed times a quarter period, psi_i follows by (10.17).
+
+    Where the flights from both walls differ, their mean speed and the mean of their impact phases are taken.
+    """
+    C = orbit.C.mean(axis=1)
+    around = np.exp(2j * np.pi * orbit.impact_phases)
+    return np.angle(around[:, 0] - around[:, 1]) - impact_phase(C, rho(orbit.system.kappa)), C
+
+
+def fixed_point_error(system, point) -> float:
+    """Estimate of the largest error of psi and C of a computed fixed point: its Newton step and rounding.
+
+    Infinite at a point where several fixed points coincide.
+    """
+    if point.multiple:
+        return np.inf
+    J, _ = linearisation(system, point.psi, point.C)
+    residual = np.ravel(rates(system, B_of_C(point.C, rho(system.kappa)), point.psi, point.C), order="F")
+    noise = _ULPS * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * np.abs(np.column_stack([point.C, point.psi]).ravel()))
+    return float((np.abs(np.linalg.inv(J)) @ (np.abs(residual) + noise)).max())
+
+
+def _of(system, psi, C, error):
+    verdicts = printed_10_26(C, system.kappa, error), masri_derived(C, system.kappa, error)
+    return dict(zip(CRITERIA, (*verdicts, slow_flow(system, psi, C, error)), strict=True))
+
+
+def _eigenvalues(system, psi, C, error):
+    """Eigenvalues (4,) of the slow flow and bounds (4,) on their errors."""
+    J, M = linearisation(system, psi, C)
+    values, left, right = eig(J, M, left=True, right=True)
+    if not np.isfinite(values).all() or not np.isfinite(error):
+        return values, np.full(4, np.inf)
+    changes = [(_ULPS * np.linalg.norm(J), _ULPS * np.linalg.norm(M))]
+    for k in range(4):
+        shift = _STEP * np.eye(4)[k].reshape(2, 2)
+        ahead = linearisation(system, psi + shift[:, 1], C + shift[:, 0])
+        behind = linearisation(system, psi - shift[:, 1], C - shift[:, 0])
+        scale = error / (2 * _STEP)
+        changes.append([scale * np.linalg.norm(a - b) for a, b in zip(ahead, behind, strict=True)])
+    dJ, dM = np.sum(changes, axis=0)
+    lengths = np.linalg.norm(left, axis=0) * np.linalg.norm(right, axis=0)
+    return values, lengths * (dJ + np.abs(values) * dM) / np.abs(np.einsum("ij,ij->j", left.conj(), M @ right))

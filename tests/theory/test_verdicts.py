@@ -1,0 +1,160 @@
+"""Verdicts of the theory's criteria on fixed points and orbits."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vibroimpact as vi
+from vibroimpact.exact.orbits import orbits
+from vibroimpact.theory import verdicts
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact.theory.slow_flow import jacobian, rates
+
+CHAPTER = dict(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1,
+    gamma1_hat=0.2,
+    gamma2_hat=0.2,
+    gamma12_hat=0.2,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+)
+CASES = {"equal": (1, 1), "unequal": (1, 0.89), "weak": (0.5, 0.5)}
+PRINTED, FOLD, BREAKING = 3.3 / 3.65, 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
+
+
+def case(name):
+    return vi.System(**CHAPTER, f10_hat=CASES[name][0], f20_hat=CASES[name][1])
+
+
+@pytest.mark.parametrize(
+    ("C", "printed", "derived"),
+    [
+        ((1.2, 1.3), "stable", "stable"),
+        ((1.2, 1.7), "stable", "unstable"),
+        ((0.93, 1.2), "stable", "unstable"),
+        ((0.5, 1.2), "unstable", "unstable"),
+        ((1.2, -0.5), "unstable", "unstable"),
+        ((1.2, PRINTED), "undecided", "unstable"),
+        ((1.2, FOLD), "stable", "undecided"),
+        ((BREAKING, 1.2), "stable", "undecided"),
+        ((BREAKING, 0.3), "unstable", "unstable"),
+    ],
+)
+def test_both_modules_must_satisfy_the_limits(C, printed, derived):
+    assert verdicts.printed_10_26(C, 0.65) == verdicts.printed_10_26(C[::-1], 0.65) == printed
+    assert verdicts.masri_derived(C, 0.65) == verdicts.masri_derived(C[::-1], 0.65) == derived
+
+
+def test_a_large_error_leaves_a_limit_undecided():
+    assert verdicts.printed_10_26((1.2, 0.91), 0.65, error=0.01) == "undecided"
+    assert verdicts.masri_derived((1.2, 1.0), 0.65, error=0.01) == "stable"
+    assert verdicts.masri_derived((1.2, 1.0), 0.65, error=0.02) == "undecided"
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_slow_flow_is_the_sign_of_the_jacobian_s_eigenvalues(name):
+    system = case(name)
+    for point in vi.fixed_points(system):
+        growth = np.linalg.eigvals(jacobian(system, point.psi, point.C)).real.max()
+        assert verdicts.of_fixed_point(system, point)["slow_flow"] == ("stable" if growth < 0 else "unstable")
+        assert verdicts.fixed_point_error(system, point) < 1e-11
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.sampled_from(list(CASES)), st.integers(0, 2), st.integers(0, 2**32 - 1))
+def test_eigenvalues_stay_within_their_error(name, k, seed):
+    """psi and C shifted at random by at most the error."""
+    system = case(name)
+    listed = vi.fixed_points(system)
+    point, error = listed[k % len(listed)], 1e-7
+    shift = np.random.default_rng(seed).uniform(-error, error, (2, 2))
+    values, errors = verdicts._eigenvalues(system, point.psi, point.C, error)
+    shifted = np.linalg.eigvals(jacobian(system, point.psi + shift[0], point.C + shift[1]))
+    for value, bound in zip(values, errors, strict=True):
+        assert np.abs(shifted - value).min() <= 1.001 * bound
+
+
+def test_error_of_a_fixed_point_covers_its_distance_from_the_exact_one():
+    """A point moved off by hand: the estimate finds how far."""
+    system = case("equal")
+    point = vi.fixed_points(system)[1]
+    away = {"C": point.C + np.array([3e-8, 0]), "psi": point.psi - np.array([0, 2e-8])}
+    moved = type(point)(**{**vars(point), **away})
+    assert 3e-8 <= 1.01 * verdicts.fixed_point_error(system, moved) < 3e-7
+
+
+def test_nothing_is_decided_where_fixed_points_coincide():
+    system = case("equal")
+    point = vi.fixed_points(system)[0]
+    double = type(point)(**{**vars(point), "multiple": True})
+    assert set(verdicts.of_fixed_point(system, double).values()) == {"undecided"}
+
+
+def test_close_to_a_fold_the_slow_flow_is_undecided_and_beyond_not():
+    """Two fixed points merge as f20 falls; where they last exist, an eigenvalue vanishes to within its error."""
+    low, high = 0.65, 0.75
+    base = case("equal")
+    while high - low > 1e-15:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            break
+        low, high = (low, middle) if len(vi.fixed_points(base.with_(f20_hat=middle))) == 3 else (middle, high)
+    near = base.with_(f20_hat=high)
+    assert "undecided" in [verdicts.of_fixed_point(near, point)["slow_flow"] for point in vi.fixed_points(near)]
+    clear = base.with_(f20_hat=high + 1e-4)
+    assert "undecided" not in [verdicts.of_fixed_point(clear, point)["slow_flow"] for point in vi.fixed_points(clear)]
+
+
+def test_at_the_fold_of_the_manifold_the_slow_flow_is_undecided():
+    """Where the slope rounds to 0 exactly, and an eigenvalue is infinite."""
+    for kappa in np.linspace(0.4, 0.8, 401):
+        r = rho(kappa)
+        if (1 + r**2) * (1 / (1 + r**2)) - 1 == 0:
+            break
+    system = case("equal").with_(kappa=kappa)
+    assert verdicts.slow_flow(system, np.array([0.3, 0.4]), np.array([1 / (1 + r**2), 1.2])) == "undecided"
+
+
+def test_an_orbit_of_small_epsilon_is_judged_as_its_fixed_point():
+    """Phases and C of the exact orbit come close to those of the fixed point, and so do the verdicts."""
+    system = case("unequal").with_(epsilon=1e-4)
+    symmetric = [orbit for orbit in orbits(system) if orbit.symmetric]
+    for point in vi.fixed_points(system):
+        orbit = min(symmetric, key=lambda o: np.abs(o.C[:, 0] - point.C).max())
+        assert verdicts.of_orbit(orbit) == verdicts.of_fixed_point(system, point)
+
+
+def test_psi_of_an_orbit_solves_the_slow_flow_to_leading_order():
+    """The rates of (10.22) at the orbit's phases are O(epsilon)."""
+    rest = []
+    for epsilon in (2e-4, 1e-4):
+        system = case("equal").with_(epsilon=epsilon)
+        orbit = min((o for o in orbits(system) if o.symmetric), key=lambda o: np.abs(o.C[:, 0] - [1.191, 1.119]).max())
+        psi, C = verdicts.slow_variables(orbit)
+        rest.append(np.abs(np.concatenate(rates(system, B_of_C(C, rho(0.65)), psi, C))).max())
+    assert rest[1] < 1e-3
+    assert rest[0] / rest[1] == pytest.approx(2, rel=0.02)
+
+
+def test_mirror_images_are_judged_alike():
+    pairs = [orbit for orbit in orbits(case("equal")) if not orbit.symmetric]
+    assert pairs
+    for first, second in zip(pairs[::2], pairs[1::2], strict=True):
+        assert verdicts.of_orbit(first) == verdicts.of_orbit(second)
+
+
+def test_the_chapter_s_cases():
+    """Signs of the eigenvalues and limits as listed, computed above by other routes."""
+    found = {
+        name: [tuple(verdicts.of_fixed_point(case(name), p).values()) for p in vi.fixed_points(case(name))]
+        for name in CASES
+    }
+    s, u = "stable", "unstable"
+    assert found == {
+        "equal": [(u, u, s), (s, s, s), (s, s, u)],
+        "unequal": [(u, u, s), (s, u, u), (s, s, u)],
+        "weak": [(u, u, u)],
+    }
