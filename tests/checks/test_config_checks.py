@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from vibroimpact.checks.config import case_parameters, complaints, parse, problems
+from vibroimpact.checks.config import case_parameters, complaints, parse, problems, typed
 
 ROOT = Path(__file__).parents[2]
 GOOD = parse((ROOT / "config/config.yaml").read_text())
@@ -131,7 +131,7 @@ def test_an_undamped_system_driven_at_its_resonance_is_refused():
     ],
 )
 def test_text_that_is_no_config_is_refused_with_its_place(text, message):
-    with pytest.raises(ValueError, match=".") as refusal:
+    with pytest.raises(ValueError, match=r".") as refusal:
         parse(text)
     assert str(refusal.value) == message
 
@@ -150,3 +150,9 @@ def test_a_case_has_the_shared_parameters_and_its_own_amplitudes():
     assert parameters["f20_hat"] == 0.89
     assert parameters["kappa"] == 0.65
     assert len(parameters) == 10
+
+
+def test_overrides_get_their_types_from_their_text():
+    given = {"system": {"kappa": "0.6"}, "cases": {"weak": {"simulation": {"initial_state": ["0", "0.5"]}}}}
+    assert typed(given) == {"system": {"kappa": 0.6}, "cases": {"weak": {"simulation": {"initial_state": [0, 0.5]}}}}
+    assert typed({"figures": {"fig10_06": {"case": "equal"}}}) == {"figures": {"fig10_06": {"case": "equal"}}}

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import yaml
+from snakemake.utils import update_config
 
 from vibroimpact.checks import config as config_checks
 from vibroimpact.checks.sources import Sources
@@ -14,7 +15,7 @@ sys.path.append(str(ROOT / "workflow/scripts"))
 from environment import settle
 
 CONFIG_FILE = "config/config.yaml"
-OVERRIDES = dict(config)
+OVERRIDES = config_checks.typed(config)
 SOURCES = Sources()
 settle(ROOT, SOURCES)
 
@@ -37,6 +38,8 @@ def one_build_at_a_time():
 
 
 def check_config():
+    """Apply what the command line overrides, and go on only with a config that is right."""
+    update_config(config, OVERRIDES)
     schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
     found = config_checks.problems(config, schema)
     if found:

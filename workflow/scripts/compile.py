@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from environment import settle
-
 from vibroimpact.checks.sources import Sources
 
 settle(Path.cwd(), Sources())

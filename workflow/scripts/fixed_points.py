@@ -1,8 +1,8 @@
 """All fixed points of one case -> CSV: case, label, C1, C2, B1, B2, psi1, psi2, a row per point, by label."""
 
 import pandas as pd
-from adapter import logging_to, write_csv
 
+from adapter import logging_to, write_csv
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points import fixed_points
 from vibroimpact.theory.labels import labels

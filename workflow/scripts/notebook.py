@@ -8,10 +8,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import papermill
-from adapter import logging_to
-from offline import page
 from traitlets.config import Config
 
+from adapter import logging_to
+from offline import page
 from vibroimpact.figures.atomic import replacing
 
 PARAMETERS = {"figure", "settings", "inputs", "outputs"}

@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pandas as pd
-from adapter import logging_to, write_csv
 
+from adapter import logging_to, write_csv
 from vibroimpact.exact.simulation import KINDS, Run, simulate
 from vibroimpact.figures.atomic import replacing
 from vibroimpact.system import System

@@ -33,6 +33,15 @@ def parse(text: str) -> dict:
     return config
 
 
+def typed(overrides):
+    """Overrides with numbers as numbers: inside a mapping, the command line of Snakemake hands over text only."""
+    if isinstance(overrides, dict):
+        return {key: typed(value) for key, value in overrides.items()}
+    if isinstance(overrides, list):
+        return [typed(value) for value in overrides]
+    return yaml.safe_load(overrides) if isinstance(overrides, str) else overrides
+
+
 def case_parameters(config: dict, case: str) -> dict:
     """Parameters of System for one case: those shared by all cases and its excitation amplitudes."""
     excitation = config["cases"][case]

@@ -1,0 +1,91 @@
+"""A copy of the project to build in, and the same copy built once for all tests."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+NOT_COPIED = shutil.ignore_patterns(
+    ".git", ".venv", ".cache", ".snakemake", "results", "__pycache__", ".*_cache", ".hypothesis", "*.egg-info", "tests"
+)
+SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), "--cores", "2"]
+
+
+class Tree:
+    """A directory with everything that a build needs."""
+
+    def __init__(self, path: Path):
+        self.path = path
+
+    def __truediv__(self, name):
+        return self.path / name
+
+    def snakemake(self, *arguments, check=True, **environment) -> str:
+        """Output of one Snakemake call."""
+        run = subprocess.run(
+            [*SNAKEMAKE, *arguments],
+            cwd=self.path,
+            env={**os.environ, **environment},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+        assert not check or run.returncode == 0, run.stdout
+        self.returncode = run.returncode
+        return run.stdout
+
+    def start(self, *arguments) -> subprocess.Popen:
+        """A Snakemake call in the background, in a process group of its own."""
+        return subprocess.Popen(
+            [*SNAKEMAKE, *arguments],
+            cwd=self.path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+
+    def planned(self, *arguments) -> set[str]:
+        """Rules that a build with the library of the tree would run, but for the targets that only gather."""
+        output = self.snakemake(*arguments, "--dry-run", "--quiet", "host", PYTHONPATH=str(self.path / "src"))
+        rules = {
+            line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
+        }
+        return rules - {"all", "figures"}
+
+    def edit(self, name, old, new):
+        """Replace a text that must be there in a file of the tree."""
+        text = (self / name).read_text(encoding="utf-8")
+        assert old in text
+        (self / name).write_text(text.replace(old, new), encoding="utf-8")
+
+
+def copied(source: Path, path: Path) -> Tree:
+    shutil.copytree(source, path, symlinks=True, ignore=NOT_COPIED)
+    return Tree(path)
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory) -> Tree:
+    """The project after a build. Read it, do not change it."""
+    tree = copied(ROOT, tmp_path_factory.mktemp("built") / "tree")
+    tree.snakemake()
+    return tree
+
+
+@pytest.fixture
+def tree(tmp_path) -> Tree:
+    """The project before a build."""
+    return copied(ROOT, tmp_path / "tree")
+
+
+@pytest.fixture
+def rebuilt(built, tmp_path) -> Tree:
+    """A built tree that a test may change."""
+    shutil.copytree(built.path, tmp_path / "tree", symlinks=True)
+    return Tree(tmp_path / "tree")

@@ -1,0 +1,98 @@
+"""One real run of the pipeline: every file of the contract is there, whole, and says what it should."""
+
+import time
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pandas as pd
+import pytest
+from PIL import Image
+
+pytestmark = pytest.mark.xdist_group("build")
+
+FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
+WITH_TABLE = FIGURES[2:]
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_figure_comes_as_png_pdf_and_svg(built, figure):
+    files = built / "results/figures"
+    with Image.open(files / f"{figure}.png") as picture:
+        picture.load()
+        assert picture.width >= 84 / 25.4 * 300  # a column at print resolution
+        assert len(picture.convert("L").getcolors()) > 2
+    pdf = (files / f"{figure}.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF")
+    assert pdf.rstrip().endswith(b"%%EOF")
+    assert ElementTree.parse(files / f"{figure}.svg").getroot().tag.endswith("svg")
+
+
+@pytest.mark.parametrize("figure", WITH_TABLE)
+def test_a_figure_comes_with_the_numbers_it_plots(built, figure):
+    table = pd.read_csv(built / f"results/figures/{figure}.csv")
+    assert {"panel", "series"} <= set(table.columns)
+    numbers = table.select_dtypes("number")
+    assert len(table) > 5
+    assert numbers.notna().any(axis=1).all()
+
+
+def test_drawings_have_no_table(built):
+    assert {path.stem for path in (built / "results/figures").glob("*.csv")} == set(WITH_TABLE)
+
+
+def test_fixed_points_of_all_cases_are_gathered(built):
+    table = pd.read_csv(built / "results/fixed_points.csv")
+    assert list(table.columns) == ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2"]
+    labels = table.groupby("case")["label"].agg("".join).to_dict()
+    assert labels == {"equal": "abc", "unequal": "abc", "weak": "a"}  # three, three and one, section 10.4
+
+
+def test_only_simulations_that_a_figure_shows_are_run(built):
+    assert {path.name for path in (built / "results/simulations").iterdir()} == {"equal", "weak"}
+
+
+class Resources(HTMLParser):
+    """Everything that a page would fetch."""
+
+    def __init__(self):
+        super().__init__()
+        self.fetched, self.tags = [], set()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+        wanted = {"src", "srcset", "data", "poster", "action", "background"} | ({"href"} if tag == "link" else set())
+        self.fetched += [value for name, value in attrs if name in wanted and not value.startswith("data:")]
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_page_reads_offline_with_its_formulas_and_its_figure(built, figure):
+    html = (built / f"results/notebooks/{figure}.html").read_text(encoding="utf-8")
+    page = Resources()
+    page.feed(html)
+    assert page.fetched == []
+    assert "script" not in page.tags
+    assert "@import" not in html
+    assert "url(http" not in html
+    assert {"h1", "math", "img"} <= page.tags
+    assert "$$" not in html
+
+
+def test_every_job_leaves_a_log_and_a_benchmark(built):
+    jobs = {f"figures/{figure}" for figure in FIGURES} | {
+        f"fixed_points/{case}" for case in ("equal", "unequal", "weak")
+    }
+    jobs |= {"simulations/equal", "simulations/weak", "gather_fixed_points"}
+    for folder, suffix in (("logs", ".log"), ("benchmarks", ".tsv")):
+        found = (built / f"results/{folder}").rglob(f"*{suffix}")
+        assert {str(path.relative_to(built / f"results/{folder}").with_suffix("")) for path in found} == jobs
+
+
+def test_nothing_half_written_is_left(built):
+    assert not [path for path in (built / "results").rglob("*") if "partial" in path.name or path.name.startswith(".")]
+
+
+def test_a_build_with_nothing_to_do_takes_at_most_four_seconds(built):
+    start = time.monotonic()
+    output = built.snakemake()
+    assert "Nothing to be done" in output
+    assert time.monotonic() - start < 4.0

@@ -1,0 +1,88 @@
+"""A rule reruns when its slice of the config, its script, or the code it uses changes, and not otherwise."""
+
+import os
+
+import pytest
+
+pytestmark = pytest.mark.xdist_group("build")
+
+CLOSED_FORM = {"fig10_03", "fig10_04", "fig10_05"}
+OF_CASE = {
+    "equal": {"fig10_06", "fig10_07", "fig10_08"},
+    "unequal": {"fig10_09"},
+    "weak": {"fig10_10", "fig10_11"},
+}
+STAGES = {"fixed_points", "gather_fixed_points", "simulation"}
+
+
+def test_with_nothing_changed_nothing_is_planned(rebuilt):
+    assert rebuilt.planned() == set()
+
+
+def test_touched_files_rebuild_nothing(rebuilt):
+    for name in ("src", "workflow", "notebooks", "config", "Snakefile", "results"):
+        for path in [rebuilt / name, *(rebuilt / name).rglob("*")]:
+            os.utime(path)
+    assert rebuilt.planned() == set()
+
+
+@pytest.mark.parametrize("case", OF_CASE)
+def test_the_amplitude_of_a_case_rebuilds_the_figures_of_this_case(rebuilt, case):
+    config = (rebuilt / "config/config.yaml").read_text()
+    before, after = config.split(f"  {case}:\n")
+    amplitude = after.split("f20_hat: ")[1].split("\n")[0]
+    (rebuilt / "config/config.yaml").write_text(
+        f"{before}  {case}:\n" + after.replace(f"f20_hat: {amplitude}", "f20_hat: 0.7", 1)
+    )
+    figures = {rule for rule in rebuilt.planned() if rule.startswith("fig")}
+    assert figures == OF_CASE[case]
+
+
+def test_the_scene_of_a_figure_rebuilds_this_figure(rebuilt):
+    rebuilt.edit("config/config.yaml", "fixed_point: c, periods: 2", "fixed_point: c, periods: 3")
+    assert rebuilt.planned() == {"fig10_07"}
+
+
+def test_a_longer_simulation_rebuilds_no_algebra(rebuilt):
+    assert rebuilt.planned("--config", "cases={weak: {simulation: {transient_cycles: 7}}}") == {
+        "simulation",
+        "fig10_11",
+    }
+
+
+def test_an_edited_library_module_rebuilds_what_uses_it(rebuilt):
+    with open(rebuilt / "src/vibroimpact/exact/simulation.py", "a") as module:
+        module.write("\n# edited\n")
+    assert rebuilt.planned() == {"simulation", "fig10_08", "fig10_11"}
+
+
+def test_an_edited_figure_module_rebuilds_the_figures_it_draws(rebuilt):
+    with open(rebuilt / "src/vibroimpact/figures/fig10_04.py", "a") as module:
+        module.write("\n# edited\n")
+    assert rebuilt.planned() == {"fig10_04"}
+
+
+def test_an_edited_notebook_rebuilds_its_figures(rebuilt):
+    rebuilt.edit("notebooks/closed_form.ipynb", "What follows in closed form", "What follows")
+    assert rebuilt.planned() == CLOSED_FORM
+
+
+def test_an_edited_script_rebuilds_what_it_makes(rebuilt):
+    rebuilt.edit("workflow/scripts/gather.py", "one table", "a single table")
+    assert rebuilt.planned() == {"gather_fixed_points"}
+
+
+def test_a_deleted_figure_is_made_again_alone(rebuilt):
+    (rebuilt / "results/figures/fig10_05.svg").unlink()
+    assert rebuilt.planned() == {"fig10_05"}
+
+
+def test_a_figure_is_a_target(rebuilt):
+    assert rebuilt.planned("--forceall", "fig10_06") == {"fixed_points", "fig10_06"}
+
+
+def test_a_changed_lock_or_test_or_document_rebuilds_nothing(rebuilt):
+    for name in ("environment.lock", "README.md", "src/vibroimpact/checks/config.py"):
+        with open(rebuilt / name, "a") as file:
+            file.write("\n# edited\n")
+    assert rebuilt.planned() == set()

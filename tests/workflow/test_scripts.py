@@ -1,0 +1,118 @@
+"""The adapters, called as functions."""
+
+import json
+
+import nbformat
+import numpy as np
+import pandas as pd
+import pytest
+from papermill import PapermillExecutionError
+
+import fixed_points
+import gather
+import simulate
+from notebook import main as notebook
+from offline import markdown_to_html
+from vibroimpact.exact.simulation import simulate as integrate
+from vibroimpact.system import System
+
+SYSTEM = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+    "f10_hat": 1.0,
+    "f20_hat": 1.0,
+}
+SETTINGS = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "samples_per_cycle": 16}
+
+
+def test_fixed_points_of_cases_are_gathered_as_they_are(tmp_path):
+    paths = [tmp_path / "one.csv", tmp_path / "two.csv"]
+    fixed_points.main("one", SYSTEM, paths[0])
+    fixed_points.main("two", SYSTEM | {"f20_hat": 0.89}, paths[1])
+    gather.main(paths, tmp_path / "all.csv")
+    first, rest = paths[0].read_text(), paths[1].read_text().split("\n", 1)[1]
+    assert (tmp_path / "all.csv").read_text() == first + rest
+
+
+def test_a_simulation_leaves_its_window_only(tmp_path):
+    outputs = {name: tmp_path / name for name in ("samples", "events", "summary")}
+    simulate.main("equal", SYSTEM, SETTINGS, outputs)
+    samples, events = pd.read_csv(outputs["samples"]), pd.read_csv(outputs["events"])
+    summary = json.loads(outputs["summary"].read_text())
+    period = System(**SYSTEM).period
+    np.testing.assert_allclose(samples["tau"].iloc[[0, -1]], [20 * period, 23 * period], rtol=1e-15)
+    assert len(samples) == 3 * 16 + 1
+    assert events["tau"].between(20 * period, 23 * period).all()
+    assert sum(sum(by_module.values()) for by_module in summary["events"].values()) == len(events)
+    run = integrate(System(**SYSTEM), SETTINGS["initial_state"], 23)
+    np.testing.assert_allclose(samples.iloc[-1, 1:].to_numpy(float), run.final, atol=1e-9)
+    assert set(events["kind"]) <= {"impact", "stick", "release"}
+    at_wall = events["X1"] - events["Y1"] - events["wall"]
+    np.testing.assert_allclose(at_wall[events["module"] == 1], 0, atol=1e-12)
+
+
+def write(path, parameters, *code):
+    """A small notebook with the given names in its parameters cell."""
+    cell = nbformat.v4.new_code_cell(
+        "\n".join(f"{name} = {{}}" for name in parameters), metadata={"tags": ["parameters"]}
+    )
+    cells = [nbformat.v4.new_markdown_cell("# Title\n\n$x$"), cell, *map(nbformat.v4.new_code_cell, code)]
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), path)
+    return path
+
+
+AGREED = ["figure", "settings", "inputs", "outputs"]
+
+
+@pytest.mark.parametrize("names", [AGREED[:3], [*AGREED, "colour"]])
+def test_a_notebook_with_other_parameters_is_refused(tmp_path, names):
+    source = write(tmp_path / "source.ipynb", names)
+    with pytest.raises(ValueError, match="parameters"):
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {}, {}, {})
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
+    source = write(tmp_path / "source.ipynb", AGREED, "print(figure, settings['kappa'] + 1)")
+    notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {"kappa": 0.5}, {}, {})
+    html = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "fig10_03 1.5" in html
+    assert "<math>" in html
+
+
+def test_a_failed_notebook_can_be_read(tmp_path):
+    source = write(tmp_path / "source.ipynb", AGREED, "print('before')", "1 / 0", "print('after')")
+    with pytest.raises(PapermillExecutionError, match="ZeroDivisionError"):
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {}, {}, {})
+    assert not (tmp_path / "page.html").exists()
+    outputs = str([cell.get("outputs") for cell in nbformat.read(tmp_path / "executed.ipynb", 4).cells])
+    assert "before" in outputs
+    assert "ZeroDivisionError" in outputs
+    assert "after" not in outputs
+
+
+@pytest.mark.parametrize(
+    ("markdown", "parts"),
+    [
+        (r"$\hat f_{10} = 1$", ["<math>", "<mn>10</mn>"]),
+        (r"$$B_{\min} \tag{10.25}$$", ['<math display="block">', "(10.25)"]),
+        ("$$\n\\begin{aligned} a &= b \\\\ c &< d \\end{aligned}\n$$", ["<mtable", "<mo>&lt;</mo>"]),
+        (r"\begin{equation} \dot X \end{equation}", ['<math display="block">', "˙"]),
+        ("a `$x$` b", ["<code>$x$</code>"]),
+    ],
+)
+def test_formulas_become_mathml(markdown, parts):
+    html = markdown_to_html(markdown)
+    assert not [part for part in parts if part not in html], html
+
+
+def test_an_unknown_command_in_a_formula_is_an_error():
+    with pytest.raises(Exception, match="nosuchcommand"):
+        markdown_to_html(r"$\nosuchcommand$")
