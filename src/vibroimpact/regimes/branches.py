@@ -1,0 +1,175 @@
+"""Branches of 1:1 responses along a path through the parameters, with stability and special points."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from vibroimpact.regimes.continuation import Curve
+from vibroimpact.regimes.families import SPEED_ZERO, AsymmetricOrbits, flight_fractions
+
+_SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Path:
+    """A line through the parameters: every named one has the value p, the others those of the system."""
+
+    system: object
+    names: tuple[str, ...]
+
+    def __call__(self, p: float):
+        """The system at p."""
+        return self.system.with_(**dict.fromkeys(self.names, p))
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A point of a branch.
+
+    p, x: parameter and root. amplitudes: C_1, C_2, shape (2,). kind: what is special about it, or "".
+    stable, admissible: of the member there, None at a special point.
+    """
+
+    p: float
+    x: np.ndarray
+    amplitudes: np.ndarray
+    kind: str
+    stable: bool | None
+    admissible: bool | None
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A piece of a solution curve: its nodes in their order along it."""
+
+    family: object
+    nodes: list[Node]
+
+    @property
+    def special(self) -> list[Node]:
+        """The special points."""
+        return [node for node in self.nodes if node.kind]
+
+    def pieces(self) -> list[tuple[Node, list[Node]]]:
+        """Pieces between special points, both included, each with a node from its inside, which speaks for all."""
+        cuts = [k for k, node in enumerate(self.nodes) if node.kind]
+        found, inner = [], None
+        for a, b in pairwise([0, *cuts, len(self.nodes) - 1]):
+            piece = self.nodes[a : b + 1]
+            inner = next((node for node in piece if not node.kind), inner)
+            if len(piece) > 1 and inner is not None:
+                found.append((inner, piece))
+        return found
+
+
+def branches(family, path: Path, interval, seeds: Iterable[float], longest: float) -> list[Branch]:
+    """All branches of a family within an interval of p that pass one of the seeds (values of p).
+
+    A branch ends at the ends of the interval, where a ball speed vanishes, and, for asymmetric orbits, where it meets
+    its mirror image on a symmetric one; of two mirror images one is followed. A closed branch without a root at a seed
+    is missed.
+
+    Args:
+        longest: longest step along the curve.
+    """
+    found = []
+    for p in seeds:
+        system = path(p)
+        for root in family.roots(system):
+            known = any(_passes(branch, path, p, image) for branch in found for image in family.images(system, root))
+            if family.speed(root) > 0 and not known:
+                found.append(_branch(family, path, interval, np.append(root, p), longest))
+    return found
+
+
+def _branch(family, path, interval, start, longest):
+    """The branch through a root, followed both ways."""
+    ahead = np.eye(len(start))[-1]
+    there, back = (_half(family, path, interval, start, sign * ahead, longest) for sign in (1, -1))
+    return Branch(family, back[:0:-1] + there)
+
+
+def _half(family, path, interval, start, ahead, longest):
+    """Nodes on one side of the start."""
+    low, high = interval
+    curve = Curve(lambda x, p: family.equations(path(p), x))
+    nodes, before = [], None
+    for z, tangent in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
+        system = path(z[-1])
+        if family.speed(z[:-1]) <= 0:
+            end = curve.zero(lambda at: family.speed(at[:-1]), *before[:2], z)
+            return [*nodes, _node(family, path, end, kind=SPEED_ZERO)]
+        member = family.member(system, z[:-1])
+        tests = family.tests(system, member)
+        if before is not None:
+            if family is AsymmetricOrbits and _meets_mirror_image(path, before[0], z):
+                return nodes
+            nodes += _crossings(family, path, curve, before, (z, tests))
+        nodes.append(_node(family, path, z, member=member))
+        before = z, tangent, tests
+    return nodes
+
+
+def _node(family, path, z, kind="", member=None):
+    system, x = path(z[-1]), z[:-1]
+    plain = member is not None
+    return Node(
+        p=float(z[-1]),
+        x=x,
+        amplitudes=family.amplitudes(system, x),
+        kind=kind,
+        stable=family.stable(system, member) if plain else None,
+        admissible=family.admissible(member) if plain else None,
+    )
+
+
+def _meets_mirror_image(path, before, after):
+    """Whether an asymmetric branch has just passed the symmetric orbit that it springs from."""
+    lean = [flight_fractions(path(z[-1]), z[:-1]) - 0.5 for z in (before, after)]
+    return lean[0] @ lean[1] < 0
+
+
+def _crossings(family, path, curve, before, after):
+    """Special points between two neighbouring points of the curve, in their order."""
+    z, tangent, tests = before
+    end, values = after
+
+    def test(at, kind):
+        system = path(at[-1])
+        return family.tests(system, family.member(system, at[:-1]))[kind]
+
+    found = []
+    for kind in tests:
+        if tests[kind] * values[kind] < 0:
+            zero = curve.zero(lambda at, kind=kind: test(at, kind), z, tangent, end)
+            if family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
+                found.append((tangent @ (zero - z), _node(family, path, zero, kind=kind)))
+    return [node for _, node in sorted(found, key=lambda pair: pair[0])]
+
+
+def _passes(branch, path, p, root):
+    """Whether a root at p lies on the branch."""
+    for (p0, x0), (p1, x1) in pairwise((node.p, node.x) for node in branch.nodes):
+        if p0 != p1 and min(p0, p1) <= p <= max(p0, p1):
+            chord = x1 - x0
+            x = _polished(branch.family, path(p), x0 + (p - p0) / (p1 - p0) * chord)
+            if np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) and _same(branch.family, path(p), x, root):
+                return True
+    return False
+
+
+def _polished(family, system, x):
+    """The root that Newton's method finds from a point next to a branch."""
+    for _ in range(8):
+        residual, jacobian = family.equations(system, x)
+        x = x - np.linalg.solve(jacobian, residual)
+    return x
+
+
+def _same(family, system, x, root):
+    """Whether two roots are one, times compared on their circle."""
+    gap, turn = x - root, family.turn(system)
+    gap[family.angles] -= turn * np.rint(gap[family.angles] / turn)
+    return bool(np.abs(gap).max() < _SAME)

@@ -1,0 +1,245 @@
+"""Families of 1:1 responses as continuation sees them: equations, members, functions whose zeros are special points.
+
+The functions are polynomials in the entries of a monodromy matrix, written in its multipliers, so that they pass
+through their zeros: prod (1 - mu) at a fold, prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a
+pair meets the unit circle (Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half
+a period and mirroring, and -1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld
+1984).
+"""
+
+from itertools import combinations
+
+import numpy as np
+
+from vibroimpact.exact.asymmetric import AsymmetricConditions, asymmetric_solutions
+from vibroimpact.exact.orbits import _asymmetric_orbit as asymmetric_orbit
+from vibroimpact.exact.orbits import _symmetric_orbit as symmetric_orbit
+from vibroimpact.exact.orbits import half_period_multipliers
+from vibroimpact.exact.symmetric import SymmetricConditions, symmetric_solutions, wrapped
+from vibroimpact.regimes.clearance import largest_excursion
+from vibroimpact.theory.fixed_points import FixedPoint, search
+from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
+from vibroimpact.theory.slow_flow import linearisation, rates, slow_eigenvalues
+from vibroimpact.theory.stability import SYMMETRY_BREAKING_C
+
+FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
+NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
+GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
+_PAIR = 1e-6
+
+
+class SymmetricOrbits:
+    """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
+
+    name, angles = "symmetric orbit", slice(0, 2)
+
+    @staticmethod
+    def turn(system) -> float:
+        """A full turn of the angles among the unknowns."""
+        return system.period
+
+    @staticmethod
+    def roots(system) -> np.ndarray:
+        """All roots, shape (n, 4)."""
+        return symmetric_solutions(system)
+
+    @staticmethod
+    def images(system, x) -> list[np.ndarray]:
+        """Roots that are the same motion or its mirror image."""
+        return [x]
+
+    @staticmethod
+    def equations(system, x):
+        """Residual (4,) and Jacobian (4, 4)."""
+        residual, jacobian = SymmetricConditions(system)(x[None])
+        return residual[0], jacobian[0]
+
+    @staticmethod
+    def speed(x) -> float:
+        """What vanishes with the least ball speed."""
+        return x[2:].min()
+
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
+        """C_i, shape (2,)."""
+        return x[2:]
+
+    @staticmethod
+    def member(system, x):
+        """The Orbit that a root stands for."""
+        return symmetric_orbit(system, _in_first_period(x, system.period, 2))
+
+    @staticmethod
+    def tests(system, orbit) -> dict[str, float]:
+        """Functions that vanish at special points, by name."""
+        half = half_period_multipliers(orbit)
+        return {
+            FOLD: _product(1 - half),
+            SYMMETRY_BREAKING: _product(1 + half),
+            NEIMARK_SACKER: _pairs(half),
+            GRAZING: 1 - largest_excursion(orbit),
+        }
+
+    @staticmethod
+    def stable(system, orbit) -> bool:
+        """Whether all multipliers are inside the unit circle."""
+        return bool(abs(orbit.multipliers[0]) < 1)
+
+    @staticmethod
+    def admissible(orbit) -> bool:
+        """Whether it is a motion of the system."""
+        return orbit.admissible
+
+    @staticmethod
+    def genuine(kind, orbit) -> bool:
+        """Whether a zero is what its name says: a pair on the unit circle must be complex."""
+        mu = orbit.multipliers
+        return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
+
+
+class AsymmetricOrbits(SymmetricOrbits):
+    """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
+
+    name, angles = "asymmetric orbit", slice(0, 4)
+
+    @staticmethod
+    def roots(system) -> np.ndarray:
+        """Roots found, shape (n, 6)."""
+        return asymmetric_solutions(system)[0]
+
+    @staticmethod
+    def images(system, x) -> list[np.ndarray]:
+        """Roots that are the same motion or its mirror image."""
+        return [x, np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])]
+
+    @staticmethod
+    def equations(system, x):
+        """Residual (6,) and Jacobian (6, 6)."""
+        residual, jacobian = AsymmetricConditions(system)(x[None])
+        return residual[0], jacobian[0]
+
+    @staticmethod
+    def speed(x) -> float:
+        """What vanishes with the least ball speed."""
+        return x[4:].min()
+
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
+        """A quarter of the balls' path per cycle, shape (2,): on a symmetric orbit C_i."""
+        u = flight_fractions(system, x)
+        return x[4:] * u * (1 - u) * system.period / 2
+
+    @staticmethod
+    def member(system, x):
+        """The Orbit that a root stands for."""
+        return asymmetric_orbit(system, _in_first_period(x, system.period, 4))
+
+    @staticmethod
+    def tests(system, orbit) -> dict[str, float]:
+        """Functions that vanish at special points, by name."""
+        mu = orbit.multipliers
+        return {
+            FOLD: _product(1 - mu),
+            PERIOD_DOUBLING: _product(1 + mu),
+            NEIMARK_SACKER: _pairs(mu),
+            GRAZING: 1 - largest_excursion(orbit),
+        }
+
+
+class FixedPoints:
+    """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
+
+    name, angles = "fixed point", slice(1, 4, 2)
+
+    @staticmethod
+    def turn(system) -> float:
+        """A full turn of the angles among the unknowns."""
+        return 2 * np.pi
+
+    @staticmethod
+    def roots(system) -> np.ndarray:
+        """All fixed points with C_1, C_2 >= 0, shape (n, 4)."""
+        return np.array([np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]).reshape(-1, 4)
+
+    @staticmethod
+    def images(system, x) -> list[np.ndarray]:
+        """Roots that are the same motion or its mirror image."""
+        return [x]
+
+    @staticmethod
+    def equations(system, x):
+        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4)."""
+        C, psi = x[0::2], x[1::2]
+        residual = np.stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C), axis=1).ravel()
+        return residual, linearisation(system, psi, C)[0]
+
+    @staticmethod
+    def speed(x) -> float:
+        """What vanishes with the least ball speed."""
+        return x[0::2].min()
+
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
+        """C_i, shape (2,)."""
+        return x[0::2]
+
+    @staticmethod
+    def member(system, x):
+        """The FixedPoint that a root stands for."""
+        C, psi = x[0::2], x[1::2]
+        values = slow_eigenvalues(system, psi, C)
+        return FixedPoint(C=C, B=B_of_C(C, rho(system.kappa)), psi=psi, slow_eigenvalues=values, multiple=False)
+
+    @staticmethod
+    def tests(system, point) -> dict[str, float]:
+        """Functions that vanish at special points, by name.
+
+        Where the manifold folds, one eigenvalue of the slow flow is infinite; its pole is multiplied away.
+        """
+        r = rho(system.kappa)
+        J, M = linearisation(system, point.psi, point.C)
+        finite = np.isfinite(point.slow_eigenvalues).all()
+        sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
+        return {
+            FOLD: np.linalg.det(J),
+            HOPF: float(np.prod(sums).real * np.linalg.det(M) ** 3),
+            **{f"{MANIFOLD_FOLD}, module {i + 1}": slope(point.C[i], r) for i in range(2)},
+            **{f"{SYMMETRY_BREAKING}, module {i + 1}": SYMMETRY_BREAKING_C - point.C[i] for i in range(2)},
+        }
+
+    @staticmethod
+    def stable(system, point) -> bool:
+        """Whether slow flow and impact map both say so."""
+        fast = (C_min(rho(system.kappa)) < point.C) & (point.C < SYMMETRY_BREAKING_C)
+        return bool(fast.all() and (point.slow_eigenvalues.real < 0).all())
+
+    @staticmethod
+    def admissible(point) -> bool:
+        """All of them are shown."""
+        return True
+
+    @staticmethod
+    def genuine(kind, point) -> bool:
+        """Whether a zero is what its name says: a pair on the imaginary axis must be complex."""
+        values = point.slow_eigenvalues
+        return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
+
+
+FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits, FixedPoints)}
+
+
+def flight_fractions(system, x) -> np.ndarray:
+    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,)."""
+    return wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
+
+
+def _in_first_period(x, period, count):
+    return np.concatenate([wrapped(x[:count], period), x[count:]])
+
+
+def _product(factors):
+    return float(np.prod(factors).real)
+
+
+def _pairs(multipliers):
+    return _product(np.array([1 - a * b for a, b in combinations(multipliers, 2)]))
