@@ -1,0 +1,61 @@
+"""Four criteria on every fixed point and orbit of a case: (10.26), Masri's analysis, slow flow, multipliers."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.exact.verdict import floquet
+from vibroimpact.theory import verdicts
+from vibroimpact.theory.penetration import stays_within_walls
+
+CRITERIA = (*verdicts.CRITERIA, "floquet")
+NO_ORBIT = "no orbit"
+
+
+def orbit_rows(case: str, orbits) -> pd.DataFrame:
+    """A row per exact orbit, in order: what it is and what the criteria say.
+
+    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (mean ball speed
+    times a quarter period), one column per criterion.
+    """
+    counts = {True: 0, False: 0}
+    rows = []
+    for orbit in orbits:
+        counts[orbit.symmetric] += 1
+        label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
+        C = verdicts.slow_variables(orbit)[1]
+        says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
+        kind = {"symmetric": orbit.symmetric, "admissible": orbit.admissible}
+        rows.append({"case": case, "label": label, **kind, "C1": C[0], "C2": C[1], **says})
+    return pd.DataFrame(rows, columns=["case", "label", "symmetric", "admissible", "C1", "C2", *CRITERIA])
+
+
+def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
+    """A row per fixed point, by label: what the criteria say, the multipliers being those of its exact orbit.
+
+    Args:
+        labelled: pairs (label, fixed point).
+        orbits: `orbit_rows` of the same case.
+
+    Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
+    orbit that is nearest in C, and to which no other fixed point is nearer; "" if there is none), one per criterion.
+    """
+    labelled = sorted(labelled, key=lambda pair: pair[0])
+    partners = _partners(np.array([point.C for _, point in labelled]).reshape(-1, 2), orbits[orbits["symmetric"]])
+    rows = []
+    for (label, point), partner in zip(labelled, partners, strict=True):
+        exact = NO_ORBIT if partner is None else partner["floquet"]
+        within = all(stays_within_walls(C, system.kappa) for C in point.C)
+        says = {**verdicts.of_fixed_point(system, point), "floquet": exact}
+        known_as = "" if partner is None else partner["label"]
+        row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
+        rows.append({**row, "orbit": known_as, **says})
+    return pd.DataFrame(rows, columns=["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA])
+
+
+def _partners(points, orbits):
+    """For each point (n, 2) the row of the orbit that is nearest and has no nearer point, or None."""
+    if not len(points) or orbits.empty:
+        return [None] * len(points)
+    gaps = np.linalg.norm(points[:, None] - orbits[["C1", "C2"]].to_numpy()[None], axis=2)
+    nearest = gaps.argmin(axis=1)
+    return [orbits.iloc[k] if gaps[:, k].argmin() == n else None for n, k in enumerate(nearest)]
