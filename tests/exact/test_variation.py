@@ -32,7 +32,8 @@ SCENES = {
         {"gamma12_hat": 2.0}, (0.3, 0.2), [-1.5, -2.499, 0.4, 0.1, 0.0, 0.05, 0.1, -0.2], 1, {IMPACT, STICK, RELEASE},
     ),
     "chatter in both modules": (
-        {"gamma12_hat": 1.0}, (0.3, 0.2), [-1.5, -2.499, 1.4, 2.398, 0.0, 0.05, 0.0, -0.04], 1, {IMPACT, STICK, RELEASE},
+        {"gamma12_hat": 1.0}, (0.3, 0.2),
+        [-1.5, -2.499, 1.4, 2.398, 0.0, 0.05, 0.0, -0.04], 1, {IMPACT, STICK, RELEASE},
     ),
     "release forced by an impact": (
         {"epsilon": 0.5, "gamma12_hat": 4.0, "alpha12_hat": 0.3}, (0.0, 0.0),

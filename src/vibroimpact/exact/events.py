@@ -15,18 +15,19 @@ Boxes are tuples (X1, X2, X1', X2'), balls (Y1, Y2, Y1', Y2'), walls the wall th
 import math
 
 import numpy as np
-from numba import njit
 
+from vibroimpact.exact.compiled import compiled
 from vibroimpact.exact.constraints import (
     RESOLUTION,
     SHORT,
     acceleration_rounding,
-    derivative_bound,
     derivatives,
+    fifth_bound,
     gap_rounding,
     module_time,
+    wall_time,
 )
-from vibroimpact.exact.flow import advance
+from vibroimpact.exact.flow import acceleration, advance, inverse_masses
 from vibroimpact.system.restitution import after_impact
 
 IMPACT, STICK, RELEASE = 0, 1, 2
@@ -37,38 +38,46 @@ neglect, the smallest gap at a turn before a wall, and the smallest depth that a
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
-LOOKAHEAD = 64.0  # in steps of the flow table
+LOOKAHEAD = 2.0  # in units of the flow
 NEGLIGIBLE = 1e-18
+MOST_AT_ONCE = 6  # events of one instant: an impact, the end of its chatter and a release in each module
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 
-_impact = njit(cache=True)(after_impact)
+_impact = compiled(after_impact)
 
 
-@njit(cache=True)
+@compiled
 def mode_of(walls):
     """Index of the contact state in the flow tables."""
     return (1 if walls[0] != 0 else 0) + (2 if walls[1] != 0 else 0)
 
 
-@njit(cache=True)
+@compiled
+def _acceleration(q, walls, boxes, sine):
+    """Accelerations of both boxes."""
+    i1, i2 = inverse_masses(q, mode_of(walls))
+    return acceleration(q, i1, i2, boxes[0], boxes[1], boxes[2], boxes[3], q.f1 * sine, q.f2 * sine)
+
+
+@compiled
 def _pair(values, i, value):
     """The pair with its i-th entry replaced."""
     return (value, values[1]) if i == 0 else (values[0], value)
 
 
-@njit(cache=True)
+@compiled
 def _with_velocity(values, i, velocity):
     """Boxes or balls with the velocity of module i replaced."""
     return (values[0], values[1], velocity, values[3]) if i == 0 else (values[0], values[1], values[2], velocity)
 
 
-@njit(cache=True)
+@compiled
 def _with_position(values, i, position):
     """Boxes or balls with the position of module i replaced."""
     return (position, values[1], values[2], values[3]) if i == 0 else (values[0], position, values[2], values[3])
 
 
-@njit(cache=True)
+@compiled
 def carry(balls, walls, boxes, t):
     """Balls a time t after the start of a flight, the boxes being there already."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
@@ -79,7 +88,7 @@ def carry(balls, walls, boxes, t):
     return y1, y2, v1, v2
 
 
-@njit(cache=True)
+@compiled
 def glide(flow, boxes, balls, walls, sine, cosine, t):
     """Boxes and balls a time t later, no event in between."""
     x1, x2, v1, v2, _, _ = advance(flow, mode_of(walls), boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
@@ -87,7 +96,7 @@ def glide(flow, boxes, balls, walls, sine, cosine, t):
     return later, carry(balls, walls, later, t)
 
 
-@njit(cache=True)
+@compiled
 def pack(boxes, balls, state):
     """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
     for i in range(4):
@@ -95,20 +104,17 @@ def pack(boxes, balls, state):
         state[2 * i + 1] = balls[i]
 
 
-@njit(cache=True)
+@compiled
 def _record(events, count, time, i, wall, kind, boxes, balls):
-    """Append an event; the table doubles when it is full."""
-    if count == len(events):
-        larger = np.empty((2 * count, 12))
-        larger[:count] = events
-        events = larger
-    row = events[count]
-    row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
-    pack(boxes, balls, row[4:])
-    return events, count + 1
+    """Write an event to its row of the table; returns the number of events."""
+    events[count, 0], events[count, 1], events[count, 2], events[count, 3] = time, i + 1, wall, kind
+    for k in range(4):
+        events[count, 4 + 2 * k] = boxes[k]
+        events[count, 5 + 2 * k] = balls[k]
+    return count + 1
 
 
-@njit(cache=True)
+@compiled
 def _push(q, d, boxes, i, wall, sticking):
     """Sign of the force between ball i and the wall that it is at rest on: > 0 holds it there, < 0 would have to pull.
 
@@ -124,8 +130,8 @@ def _push(q, d, boxes, i, wall, sticking):
     return force
 
 
-@njit(cache=True)
-def _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger):
+@compiled
+def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, remaining, i, ledger):
     """(whether the chatter of ball i may be completed now, time to its end).
 
     After an impact with inward speed u under the push a the flights shrink by kappa each and end after
@@ -135,29 +141,32 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger
     q = flow.coefficients
     mode = mode_of(walls)
     wall = touching[i]
-    a, j = wall * d[i], wall * d[2 + i]
+    a = wall * _acceleration(q, walls, boxes, sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
     if a <= acceleration_rounding(q, boxes):
         return False, 0.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
-    if window > min(remaining, LOOKAHEAD * flow.spacing):
+    if window > min(remaining, LOOKAHEAD * flow.unit):
         return False, 0.0
-    if window * derivative_bound(q, mode, d, 3, window) > 0.25 * a:
+    d = derivatives(q, mode, boxes, sine, cosine)
+    j, bound = wall * d[2 + i], fifth_bound(q, mode, d, window)
+    change = abs(j) + window * (abs(d[4 + i]) / 2 + window * bound / 6)
+    if window * change > 0.25 * a:
         return False, 0.0
     neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
     unresolved = u * u <= 2.0 * a * gap_rounding(boxes, balls, i)
     if neglected > NEGLIGIBLE and not unresolved:
         return False, 0.0
     other = 1 - i
-    t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, window, 0.0)
+    t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, bound, sine, window, 0.0)
     if t < window:
         return unresolved, 0.0
     ledger[NEGLECTED] += neglected
     return True, total * (1.0 - j * total / (3.0 * a))
 
 
-@njit(cache=True)
+@compiled
 def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
     """Everything that happens at one instant: impacts, completed chatters, balls at rest that stick, releases.
 
@@ -179,36 +188,37 @@ def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rem
         if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
             balls = _with_velocity(balls, i, boxes[2 + i])
         elif wall * velocity > 0.0:
-            brake = -wall * derivatives(q, mode_of(walls), boxes, sine, cosine)[i]
+            brake = -wall * _acceleration(q, walls, boxes, sine)[i]
             if brake > 0.0:
                 depth = velocity * velocity / (2.0 * brake)
                 ledger[PIERCED] = min(ledger[PIERCED], depth)
                 ledger[UNDECIDED] += depth <= gap_rounding(boxes, balls, i)
             box, ball = _impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = _with_velocity(boxes, i, box), _with_velocity(balls, i, ball)
-            events, count = _record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
-            d = derivatives(q, mode_of(walls), boxes, sine, cosine)
-            done, end = _end_of_chatter(flow, boxes, balls, walls, touching, d, remaining, i, ledger)
+            count = _record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
+            done, end = _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, remaining, i, ledger)
             if done:
                 common = (boxes[2 + i] + q.epsilon * balls[2 + i]) / (1.0 + q.epsilon)
                 boxes, balls = _with_velocity(boxes, i, common), _with_velocity(balls, i, common)
                 walls, touching = _pair(walls, i, wall), _pair(touching, i, 0)
                 ledger[CHATTERS] += 1
                 later, there = glide(flow, boxes, balls, walls, sine, cosine, end)
-                events, count = _record(events, count, elapsed + end, i, wall, STICK, later, there)
+                count = _record(events, count, elapsed + end, i, wall, STICK, later, there)
     for i in range(2):
+        if walls[i] == 0 and (touching[i] == 0 or boxes[2 + i] != balls[2 + i]):
+            continue
         d = derivatives(q, mode_of(walls), boxes, sine, cosine)
         if walls[i] != 0:
             if i == pulled or _push(q, d, boxes, i, walls[i], True) < 0.0:
                 touching, walls = _pair(touching, i, walls[i]), _pair(walls, i, 0)
-                events, count = _record(events, count, elapsed, i, touching[i], RELEASE, boxes, balls)
-        elif touching[i] != 0 and boxes[2 + i] == balls[2 + i] and _push(q, d, boxes, i, touching[i], False) > 0.0:
+                count = _record(events, count, elapsed, i, touching[i], RELEASE, boxes, balls)
+        elif _push(q, d, boxes, i, touching[i], False) > 0.0:
             walls, touching = _pair(walls, i, touching[i]), _pair(touching, i, 0)
-            events, count = _record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
-    return boxes, balls, walls, touching, events, count
+            count = _record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
+    return boxes, balls, walls, touching, count
 
 
-@njit(cache=True)
+@compiled
 def _taylor(boxes, d, t):
     """The boxes a very short time t (of either sign) later."""
     x1 = boxes[0] + t * (boxes[2] + t * (d[0] / 2 + t * (d[2] / 6 + t * (d[4] / 24 + t * d[6] / 120))))
@@ -218,7 +228,7 @@ def _taylor(boxes, d, t):
     return x1, x2, v1, v2
 
 
-@njit(cache=True)
+@compiled
 def _note_turns(speeds, boxes, balls, walls, d, step, ledger):
     """Relative speeds now; where one changed sign within the last step, the gap left at the turn goes to the ledger.
 
@@ -243,7 +253,7 @@ def _note_turns(speeds, boxes, balls, walls, d, step, ledger):
     return now
 
 
-@njit(cache=True)
+@compiled
 def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
     """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls)."""
     q = flow.coefficients
@@ -252,26 +262,35 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
     now, there, s, c, t, before = boxes, balls, sine, cosine, 0.0, 0.0
     ledger[FLIGHTS] += 1
     speeds = (now[2] - there[2], now[3] - there[3])
+    short = SHORT * flow.unit
+    aimed = -1
     while True:
-        ledger[EVALUATIONS] += 1
         d = derivatives(q, mode, now, s, c)
         speeds = _note_turns(speeds, now, there, walls, d, t - before, ledger)
         if t >= reach:
             return t, -1, now, there
-        horizon = min(reach - t, LOOKAHEAD * flow.spacing)
-        short = SHORT * flow.spacing
-        step, due, doubt = horizon, -1, False
+        if aimed >= 0:
+            step = wall_time(aimed, now, there, d)
+            if abs(step) <= short:
+                return _meet(t, step, aimed, balls, walls, now, d, speeds, ledger)
+        ledger[EVALUATIONS] += 1
+        horizon = min(reach - t, LOOKAHEAD * flow.unit)
+        bound = fifth_bound(q, mode, d, horizon)
+        step, due, doubt, first = horizon, -1, False, horizon
         for i in range(2):
-            time, crossing, undecided = module_time(q, mode, i, now, there, walls[i], touching[i], d, step, short)
+            # the second module is asked a little further, so that it cannot interfere where the first one is due
+            asked = horizon if i == 0 else min(step + short, horizon)
+            time, crossing, undecided = module_time(
+                q, mode, i, now, there, walls[i], touching[i], d, bound, s, asked, short
+            )
+            first = time if i == 0 else first
             if time < step:
                 step, due, doubt = time, (i if crossing else -1), undecided
+        clear = (time if due == 0 else first) >= step + short
         if due >= 0 and abs(step) <= short:
             ledger[UNDECIDED] += doubt and walls[due] != 0
-            later = _taylor(now, d, step)
-            t = max(t + step, 0.0)
-            there = carry(balls, walls, later, t)
-            _note_turns(speeds, later, there, walls, d, abs(step), ledger)
-            return t, due, later, there
+            return _meet(t, step, due, balls, walls, now, d, speeds, ledger)
+        aimed = due if due >= 0 and clear and walls[due] == 0 and t + step + short < reach else -1
         before, t = t, min(t + step, reach)
         x1, x2, v1, v2, s, c = advance(flow, mode, boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
         now = (x1, x2, v1, v2)
@@ -279,7 +298,17 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
         touching = (0, 0)
 
 
-@njit(cache=True, nogil=True)
+@compiled
+def _meet(t, step, due, balls, walls, now, d, speeds, ledger):
+    """The end of a flight at an event a very short step away: what _fly returns."""
+    later = _taylor(now, d, step)
+    t = max(t + step, 0.0)
+    there = carry(balls, walls, later, t)
+    _note_turns(speeds, later, there, walls, d, abs(step), ledger)
+    return t, due, later, there
+
+
+@compiled
 def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
     """Run a state over a number of forcing cycles.
 
@@ -297,8 +326,10 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
     while True:
         sine, cosine = math.sin(phase), math.cos(phase)
         sine, cosine = sine + cosine * tail, cosine - sine * tail
+        if count + MOST_AT_ONCE > len(events):
+            events = np.concatenate((events, np.empty_like(events)))
         remaining = max(((cycles - revolutions) * TWO_PI - (phase - start_phase) - tail) / q.omega, 0.0)
-        boxes, balls, walls, touching, events, count = _settle(
+        boxes, balls, walls, touching, count = _settle(
             flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
         )
         if remaining == 0.0:

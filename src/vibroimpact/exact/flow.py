@@ -9,20 +9,21 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from vibroimpact.exact.compiled import compiled
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
 """Which balls stick, in the order of the tables: index = stuck_1 + 2 stuck_2."""
 
-TAYLOR_ORDER = 9
-STEPS_PER_UNIT = 16
-LONGEST_TABLE = 4096
+TAYLOR_ORDER = 6
+RECIPROCALS = tuple(1.0 / max(k, 1) for k in range(TAYLOR_ORDER + 1))
+STEPS_PER_UNIT = 32
+LONGEST_TABLE = 8192
 
 
 class Coefficients(NamedTuple):
-    """The scalars of (10.2) as the compiled loops read them."""
+    """The scalars of (10.2) as the compiled loops read them; drive: |(f1, f2)|; mass: that of box and ball together."""
 
     k11: float
     k12: float
@@ -35,16 +36,23 @@ class Coefficients(NamedTuple):
     omega: float
     epsilon: float
     kappa: float
+    drive: float
+    mass: float
+    inverse_mass: float
 
 
 class Flow(NamedTuple):
-    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing and count."""
+    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing and longest time.
+
+    unit: a time over which nothing in the system changes much, 1 / its fastest rate.
+    """
 
     coefficients: Coefficients
     propagators: np.ndarray
     rotations: np.ndarray
     spacing: float
     longest: float
+    unit: float
 
 
 @lru_cache(maxsize=64)
@@ -59,6 +67,9 @@ def flow_of(system) -> Flow:
         system.Omega,
         system.epsilon,
         system.kappa,
+        float(np.hypot(*force)),
+        1.0 + system.epsilon,
+        1.0 / (1.0 + system.epsilon),
     )
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
@@ -72,6 +83,7 @@ def flow_of(system) -> Flow:
         rotations,
         spacing,
         spacing * (count - 1),
+        1.0 / fastest,
     )
 
 
@@ -90,7 +102,7 @@ def _powers(rate, spacing, count):
     return table[:count].astype(float)
 
 
-@njit(cache=True)
+@compiled
 def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
     """Box accelerations for inverse masses i1, i2 under the forces s1, s2 (also: next derivative of a derivative)."""
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
@@ -98,14 +110,13 @@ def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
     return a1, a2
 
 
-@njit(cache=True)
+@compiled
 def inverse_masses(q, mode):
     """1 / moving mass of each module in a contact state."""
-    stuck = 1.0 / (1.0 + q.epsilon)
-    return (stuck if mode & 1 else 1.0), (stuck if mode & 2 else 1.0)
+    return (q.inverse_mass if mode & 1 else 1.0), (q.inverse_mass if mode & 2 else 1.0)
 
 
-@njit(cache=True)
+@compiled
 def advance(flow, mode, x1, x2, v1, v2, sine, cosine, t):
     """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: X1, X2, X1', X2', sin, cos."""
     q = flow.coefficients
@@ -123,7 +134,7 @@ def advance(flow, mode, x1, x2, v1, v2, sine, cosine, t):
     i1, i2 = inverse_masses(q, mode)
     d1, d2, e1, e2, ds, dc = x1, x2, v1, v2, sine, cosine  # r^k / k! times the k-th derivatives
     for k in range(1, TAYLOR_ORDER + 1):
-        b = r / k
+        b = r * RECIPROCALS[k]
         n1, n2 = acceleration(q, i1, i2, d1, d2, e1, e2, q.f1 * ds, q.f2 * ds)
         d1, d2, e1, e2 = b * e1, b * e2, b * n1, b * n2
         ds, dc = b * q.omega * dc, -b * q.omega * ds

@@ -8,8 +8,8 @@ the infinitely many saltations it stands for are never multiplied out. Inside, s
 import math
 
 import numpy as np
-from numba import njit
 
+from vibroimpact.exact.compiled import compiled
 from vibroimpact.exact.events import IMPACT, RELEASE, STICK, mode_of
 from vibroimpact.exact.flow import acceleration, advance, inverse_masses
 from vibroimpact.system.restitution import after_impact
@@ -17,10 +17,10 @@ from vibroimpact.system.restitution import after_impact
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
 
-_impact = njit(cache=True)(after_impact)
+_impact = compiled(after_impact)
 
 
-@njit(cache=True)
+@compiled
 def _flight(flow, walls, t, matrix):
     """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
     matrix[:] = 0.0
@@ -39,7 +39,7 @@ def _flight(flow, walls, t, matrix):
             matrix[4 + i, 6 + i] = t
 
 
-@njit(cache=True)
+@compiled
 def _field(q, walls, state, phase, field):
     """Fill the rate of change (8,) of a state (8,) in a contact state."""
     i1, i2 = inverse_masses(q, mode_of(walls))
@@ -51,7 +51,7 @@ def _field(q, walls, state, phase, field):
     field[7] = a2 if walls[1] != 0 else 0.0
 
 
-@njit(cache=True)
+@compiled
 def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the state (8,) after it.
 
@@ -76,7 +76,7 @@ def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     matrix[:, 4 + i] -= jump
 
 
-@njit(cache=True)
+@compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     """Fill the derivative (8, 8) of completing a chatter of ball i that starts with an inward speed under a push.
 
@@ -111,7 +111,7 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
             matrix[ball, :] = matrix[box, :]
 
 
-@njit(cache=True)
+@compiled
 def propagate(flow, events, start_phase, duration, limit):
     """Carry perturbations along a run, given as events (m, 12) of the kernel.
 
@@ -172,13 +172,13 @@ def propagate(flow, events, start_phase, duration, limit):
     return jacobian, covariance, horizon
 
 
-@njit(cache=True)
+@compiled
 def _same_chatter(impact, stick):
     """Whether a stick completes the chatter that the row before it belongs to."""
     return impact[3] == IMPACT and impact[1] == stick[1] and impact[2] == stick[2]
 
 
-@njit(cache=True)
+@compiled
 def _internal(row):
     """The state of an event's row, ordered [boxes, balls]."""
     state = np.empty(8)
