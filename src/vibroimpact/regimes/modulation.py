@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from vibroimpact.exact.simulation import IMPACT, STICK, simulate
+
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
     """Half the peak-to-peak value in each whole forcing period, shape (cycles,), of evenly sampled values (n,)."""
@@ -33,3 +35,63 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
             starts.append(cycle)
         armed = height < low or (armed and height <= high)
     return np.array(starts, dtype=int)
+
+
+def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
+    """Resonant bursts of one ball: start and end time of each, shape (b, 2), from its impacts in order.
+
+    A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
+    period; a burst is an unbroken sequence of at least so many resonant flights.
+
+    Args:
+        tau, wall: time and wall of each impact, shape (m,).
+    """
+    tau, wall = np.asarray(tau), np.asarray(wall)
+    duration = np.diff(tau)
+    resonant = (np.diff(wall) != 0) & (0.25 * period <= duration) & (duration <= 0.75 * period)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], resonant, [False]]).astype(int)))
+    first, last = edges[0::2], edges[1::2]
+    long = last - first >= least
+    return np.stack([tau[first[long]], tau[last[long]]], axis=1)
+
+
+def measures(system, state, cycles: int, per_cycle: int = 24) -> dict[tuple[str, int], float]:
+    """What a modulated motion is like, by (quantity, module), over so many cycles from a state at a cycle's start.
+
+    modulation depth: of the box amplitudes cycle by cycle. modulation period [cycles]: mean distance of swells.
+    impacts per cycle; sticks per 1000 cycles. resonant share: part of the time within bursts (see `bursts`).
+    burst length [cycles]: mean. A quantity that a motion does not have (no swells, no bursts) is nan.
+    """
+    times = np.arange(cycles * per_cycle + 1) * (system.period / per_cycle)
+    run = simulate(system, state, cycles, sample_times=times)
+    found = {}
+    for module in (1, 2):
+        mine = run.events[run.events["module"] == module]
+        impacts, sticks = mine[mine["kind"] == IMPACT], mine[mine["kind"] == STICK]
+        amplitudes = cycle_amplitudes(run.samples[:, 2 * module - 2], per_cycle)
+        lengths = np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
+        gaps = np.diff(swells(amplitudes))
+        found |= {
+            ("modulation depth", module): modulation_depth(amplitudes),
+            ("modulation period", module): float(gaps.mean()) if len(gaps) else np.nan,
+            ("impacts per cycle", module): len(impacts) / cycles,
+            ("sticks per 1000 cycles", module): 1000 * len(sticks) / cycles,
+            ("resonant share", module): float(lengths.sum() / cycles),
+            ("burst length", module): float(lengths.mean()) if len(lengths) else np.nan,
+        }
+    return found
+
+
+def burst_lengths(system, state, cycles: int, module: int) -> np.ndarray:
+    """Lengths in cycles of the bursts of one ball over so many cycles from a state at a cycle's start, shape (b,)."""
+    events = simulate(system, state, cycles).events
+    impacts = events[(events["module"] == module) & (events["kind"] == IMPACT)]
+    return np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
+
+
+def mean_and_error(values) -> tuple[float, float, int]:
+    """Mean over starts, its standard error (nan for one start), and the number of starts that have the quantity."""
+    values = np.asarray(values, dtype=float)
+    values = values[np.isfinite(values)]
+    error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
+    return (float(values.mean()) if len(values) else np.nan), float(error), len(values)
