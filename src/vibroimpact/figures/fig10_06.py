@@ -85,7 +85,8 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> None:
     stable = select(table, panel, "SIM stable")
     end, fold = stable.iloc[-1], stable["C"].loc[stable["B"].idxmin()]
     top = max(end["B"], select(table, panel, "SIM unstable")["B"].iloc[0])
-    axes.set(xlim=(0.0, end["C"]), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
+    # Rounded, because Matplotlib's choice of ticks would change with the last digit of an end such as 2.
+    axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
     shown = {kind: select(table, panel, f"{kind}_{module}") for kind in MARKERS}
     for kind, marker in MARKERS.items():

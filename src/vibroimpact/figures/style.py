@@ -1,11 +1,13 @@
 """The look shared by all figures, and how a figure becomes files."""
 
 import functools
+import json
 from pathlib import Path
 
 import matplotlib.style
 from matplotlib.figure import Figure
 
+from vibroimpact.figures.artists import describe, drawn_with
 from vibroimpact.figures.atomic import replacing
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
@@ -21,6 +23,8 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
+"""The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
 
 
 def styled(function):
@@ -45,8 +49,19 @@ def letter_panel(axes, letter: str) -> None:
 
 
 @styled
-def save(figure: Figure, outputs: dict) -> None:
-    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all."""
+def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all.
+
+    Args:
+        outputs: also ["artists"], if present: what the figure shows, as JSON (see `artists.describe`), with the
+            versions that drew it.
+        provenance: where the figure comes from, JSON data that goes into the metadata of each file.
+    """
     for kind in _METADATA.keys() & outputs.keys():
+        metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
         with replacing(outputs[kind]) as path:
-            figure.savefig(path, format=kind, metadata=_METADATA[kind])
+            figure.savefig(path, format=kind, metadata=metadata)
+    if "artists" in outputs:
+        with replacing(outputs["artists"]) as path:
+            content = {"drawn with": drawn_with(), **describe(figure)}
+            path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

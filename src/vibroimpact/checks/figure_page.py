@@ -1,0 +1,44 @@
+"""The figure check as one HTML page that reads offline: reference, new, difference and numbers of every figure."""
+
+import base64
+from pathlib import Path
+
+from jinja2 import Environment
+
+from vibroimpact.checks import picture_difference
+from vibroimpact.checks.figure_check import UNREADABLE, largest, lines
+
+TEMPLATE = Path(__file__).with_name("figure_page.html.j2")
+SHRINK = 2
+"""The page shows squares of 2 by 2 pixels as one: 300 dots per inch of the printed figure."""
+
+
+def page(verdicts: list[dict], reference, new, limits: dict) -> str:
+    """The page for the verdicts of `figure_check.check_all` on the same folders."""
+    template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(
+        TEMPLATE.read_text(encoding="utf-8")
+    )
+    return template.render(
+        verdicts=verdicts,
+        summary=lines(verdicts)[-1],
+        pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
+        largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
+        limits=limits,
+    )
+
+
+def _pictures(figure, reference, new):
+    """The pictures there are, as data: addresses, by what they show."""
+    found = {}
+    for name, folder in (("reference", reference), ("new", new)):
+        try:
+            found[name] = picture_difference.squares(picture_difference.grey(Path(folder) / f"{figure}.png"), SHRINK)
+        except UNREADABLE:
+            continue  # the verdict says so
+    if len(found) == 2 and found["reference"].shape == found["new"].shape:
+        found["difference"] = picture_difference.overlay(found["reference"], found["new"])
+    return {name: _address(picture) for name, picture in found.items()}
+
+
+def _address(picture):
+    return "data:image/png;base64," + base64.b64encode(picture_difference.png(picture)).decode()
