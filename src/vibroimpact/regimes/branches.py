@@ -96,19 +96,20 @@ def _half(family, path, interval, start, ahead, longest):
     low, high = interval
     curve = Curve(lambda x, p: family.equations(path(p), x))
     nodes, before = [], None
-    for z, tangent in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
+    for place in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
+        z = place.z
         system = path(z[-1])
         if family.speed(z[:-1]) <= 0:
-            end = curve.zero(lambda at: family.speed(at[:-1]), *before[:2], z)
+            end = curve.zero(lambda at: family.speed(at[:-1]), before[0], z)
             return [*nodes, _node(family, path, end, kind=SPEED_ZERO)]
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
         if before is not None:
-            if family is AsymmetricOrbits and _meets_mirror_image(path, before[0], z):
+            if family is AsymmetricOrbits and _meets_mirror_image(path, before[0].z, z):
                 return nodes
             nodes += _crossings(family, path, curve, before, (z, tests))
         nodes.append(_node(family, path, z, member=member))
-        before = z, tangent, tests
+        before = place, tests
     return nodes
 
 
@@ -133,7 +134,7 @@ def _meets_mirror_image(path, before, after):
 
 def _crossings(family, path, curve, before, after):
     """Special points between two neighbouring points of the curve, in their order."""
-    z, tangent, tests = before
+    place, tests = before
     end, values = after
 
     def test(at, kind):
@@ -143,9 +144,9 @@ def _crossings(family, path, curve, before, after):
     found = []
     for kind in tests:
         if tests[kind] * values[kind] < 0:
-            zero = curve.zero(lambda at, kind=kind: test(at, kind), z, tangent, end)
+            zero = curve.zero(lambda at, kind=kind: test(at, kind), place, end)
             if family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
-                found.append((tangent @ (zero - z), _node(family, path, zero, kind=kind)))
+                found.append((place.tangent @ zero, _node(family, path, zero, kind=kind)))
     return [node for _, node in sorted(found, key=lambda pair: pair[0])]
 
 
