@@ -1,0 +1,75 @@
+"""The distance between a method's run and the reference: final state and impact times, missed and spurious impacts."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+IMPACT = 0
+FAINT = 1e-3
+"""Rebound speed |W'| at and below which an impact belongs to the tail of a chatter, which every method cuts short
+somewhere: such impacts are neither required nor counted as spurious."""
+WINDOW = 0.05
+"""How far apart, in forcing periods, two impacts may be and still be the same one."""
+
+
+@dataclass(frozen=True)
+class Errors:
+    """final: largest difference of a coordinate of the final state (inf without one); times: largest difference of the
+    times [tau] of impacts that both have (0 if there are none); missed, spurious: impacts that only one of them has."""
+
+    final: float
+    times: float
+    missed: int
+    spurious: int
+
+
+def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
+    """Errors of a RivalRun against a reference run (events and final as in exact.simulation) of the same motion.
+
+    events: False where the reference covers the same final state but not all the events before it.
+    """
+    if run.final is None:
+        return Errors(np.inf, np.inf, 0, 0)
+    times, missed, spurious = 0.0, 0, 0
+    speeds = rebound_speeds(reference.events)
+    hits = reference.events["kind"] == IMPACT
+    for module in (1, 2) if events else ():
+        for wall in (1, -1):
+            here = hits & (reference.events["module"] == module) & (reference.events["wall"] == wall)
+            taus = reference.events["tau"][here]
+            plain = speeds[here] > faint
+            theirs = run.impacts[(run.impacts["module"] == module) & (run.impacts["wall"] == wall)]
+            theirs = theirs[(theirs["speed"] > faint) | _near(theirs["tau"], taus[plain], WINDOW * period)]
+            apart, lost, extra = _align(taus[plain], theirs["tau"], WINDOW * period)
+            in_tail = _near(extra, taus[~plain], WINDOW * period)
+            times, missed, spurious = max(times, apart), missed + lost, spurious + int(np.sum(~in_tail))
+    return Errors(float(np.abs(run.final - reference.final).max()), times, missed, spurious)
+
+
+def rebound_speeds(events) -> np.ndarray:
+    """|W'| just after each event, in its own module, shape (n,)."""
+    box = 4 + 2 * (events["module"].astype(int) - 1)
+    rows = np.arange(len(events))
+    return np.abs(events["state"][rows, box] - events["state"][rows, box + 1])
+
+
+def _near(times, others, window) -> np.ndarray:
+    """For each time whether another one is within the window."""
+    apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
+    return apart.min(axis=1, initial=np.inf) <= window
+
+
+def _align(expected, found, window):
+    """Pair two ascending sequences in order: (largest distance in a pair, expected without pair, found without pair)."""
+    apart, lost, extra = 0.0, 0, []
+    i = j = 0
+    while i < len(expected) and j < len(found):
+        distance = found[j] - expected[i]
+        if abs(distance) <= window:
+            apart, i, j = max(apart, abs(distance)), i + 1, j + 1
+        elif distance > 0:
+            lost, i = lost + 1, i + 1
+        else:
+            extra.append(found[j])
+            j += 1
+    return apart, lost + len(expected) - i, [*extra, *found[j:]]

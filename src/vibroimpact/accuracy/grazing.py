@@ -1,0 +1,51 @@
+"""Starts whose ball comes as near to a wall as wished, computed with many digits from the exact parameters."""
+
+from fractions import Fraction
+
+from flint import arb, arb_mat, ctx
+
+from vibroimpact.accuracy.reference_flow import ExactSystem, to_ball
+
+BITS = 256
+NEWTON_STEPS = 12
+
+
+def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
+    """A start (8,) at tau = 0 from which ball 1 clears the wall +1 by `clearance` at its first near approach.
+
+    Before the first impact the boxes do not feel the ball, so W_1 = X_1 - Y_1 is stationary where X_1' is the velocity
+    of the ball, and its value there is moved by moving the ball's start. A negative clearance is the depth to which it
+    would go beyond the wall if there were none. Rounding to float64 changes it by up to 1e-16.
+
+    Args:
+        boxes: X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its box, with its velocity.
+        ball_velocity: of ball 1.
+        guess: tau near which W_1 is at its maximum.
+    """
+    exact_system = ExactSystem.of(system)
+    with ctx.workprec(BITS):
+        start = arb_mat(6, 1, [*(to_ball(Fraction(str(value))) for value in boxes), arb(0), arb(1)])
+        rate = arb_mat(6, 6, [to_ball(entry) for row in _rate(exact_system) for entry in row])
+        speed, tau = to_ball(Fraction(str(ball_velocity))), arb(str(guess))
+        for _ in range(NEWTON_STEPS):
+            there = (rate * tau).exp() * start
+            acceleration = (rate * there)[2, 0]
+            tau = (tau - (there[2, 0] - speed) / acceleration).mid()
+        if not acceleration < 0:
+            raise ValueError(f"guess: W_1 has no maximum near tau = {guess}")
+        highest = ((rate * tau).exp() * start)[0, 0] - speed * tau
+        ball = float(highest - 1 + to_ball(Fraction(str(clearance))))
+    x1, x2, v1, v2 = (float(value) for value in boxes)
+    return x1, ball, x2, x2, v1, float(ball_velocity), v2, v2
+
+
+def _rate(system: ExactSystem):
+    """Exact rate matrix of [X1, X2, X1', X2', sin, cos], balls in flight."""
+    rows = [[Fraction(0)] * 6 for _ in range(6)]
+    for i in range(2):
+        rows[i][2 + i] = Fraction(1)
+        rows[2 + i][:2] = [-k for k in system.stiffness[i]]
+        rows[2 + i][2:4] = [-c for c in system.damping[i]]
+        rows[2 + i][4] = system.forcing[i]
+    rows[4][5], rows[5][4] = system.Omega, -system.Omega
+    return rows

@@ -1,0 +1,157 @@
+"""Where methods fail: scenes that are hard for a known reason, and the verdict on every method in each of them.
+
+Adding a hazard is adding a few lines to `hazards`.
+"""
+
+from dataclasses import dataclass
+
+from vibroimpact.accuracy.errors import FAINT, compare
+from vibroimpact.accuracy.grazing import grazing_start
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.system import System
+
+VISIBLE = 1e-2
+"""Error of the final state that a reader of a figure would see: half a percent of the gap."""
+
+SETTLED_CHANGE = 1e-6
+"""A motion has settled if one more cycle changes it by less, far below what is visible."""
+
+RIGHT, UNDECIDABLE, ERROR, ENDLESS, WRONG, UNAVAILABLE = (
+    "right",
+    "reported undecidable",
+    "refused with an error",
+    "did not finish",
+    "wrong without a word",
+    "unavailable",
+)
+FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}
+
+CHAPTER = dict(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1.0,
+    gamma1_hat=0.2,
+    gamma2_hat=0.2,
+    gamma12_hat=0.2,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+    f10_hat=1.0,
+    f20_hat=1.0,
+)
+"""Section 10.4 with equal forces."""
+
+
+@dataclass(frozen=True)
+class Hazard:
+    """A scene: group (what is hard), name, system, start (8,) at tau = 0, forcing cycles.
+
+    faint: impacts with a slower rebound need not be found (0: every one counts); reference_cycles: how many of the
+    cycles the reference computes, where the motion is known to have settled by then (see settled); quick: in the
+    reduced set.
+    """
+
+    group: str
+    name: str
+    system: System
+    state: tuple[float, ...]
+    cycles: int
+    faint: float = FAINT
+    reference_cycles: int | None = None
+    quick: bool = True
+
+
+REST = (0.0,) * 8
+SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869)
+MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
+PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact, its box pushing
+RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on its wall, its box pushing
+TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules do the same
+MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # what module 1 does, module 2 does the other way
+FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
+
+
+def hazards() -> list[Hazard]:
+    """All hazards, in the order of the table."""
+    system = System(**CHAPTER)
+    weak = system.with_(f10_hat=0.5, f20_hat=0.5)
+    twins = system.with_(sigma20_hat=0.0)
+    still = system.with_(f10_hat=0.0, f20_hat=0.0)
+    scenes = [_grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
+    scenes += [Hazard("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
+    scenes += [
+        Hazard("sticking", "stick and release", system, RESTING, 2),
+        Hazard("sticking", "modulated response", weak, MODULATED, 8),
+        Hazard("coincidence", "both balls, same wall", twins, TOGETHER, 3),
+        Hazard("coincidence", "both balls, opposite walls", twins.with_(f20_hat=-1.0), MIRRORED, 3),
+        Hazard("coincidence", "impact on a step boundary", still, _crossing(still), 1),
+        Hazard("long run", "100 000 cycles", system, SETTLED, 100_000, reference_cycles=6_000, quick=False),
+        Hazard("extreme parameters", "kappa = 1e-6", system.with_(kappa=1e-6), SETTLED, 3),
+        Hazard("extreme parameters", "kappa = 0.999", system.with_(kappa=0.999), SETTLED, 5),
+        Hazard("extreme parameters", "epsilon = 0.5", system.with_(epsilon=0.5), SETTLED, 5),
+        Hazard("extreme parameters", "epsilon = 1", system.with_(epsilon=1.0), SETTLED, 5),
+        Hazard("slow manifold", "near the fold", weak, FOLD, 10),
+        Hazard("chaos", "within the horizon", weak, REST, 20),
+        Hazard("chaos", "far beyond the horizon", weak, REST, 120, quick=False),
+    ]
+    return scenes
+
+
+def judge(hazard: Hazard, methods) -> list[dict]:
+    """One row per method: the verdict on its careful setting in this scene, and the numbers behind it."""
+    reference = reference_of(hazard)
+    return [_row(hazard, method, reference) for method in methods]
+
+
+def reference_of(hazard: Hazard):
+    """The reference run of a hazard.
+
+    Raises:
+        ArithmeticError: the motion was claimed to have settled after reference_cycles, but changes in the last of them.
+    """
+    if hazard.reference_cycles is None:
+        return proven_run(hazard.system, hazard.state, hazard.cycles).run
+    before = hazard.reference_cycles - 1
+    period = hazard.system.period
+    run = proven_run(hazard.system, hazard.state, hazard.reference_cycles, sample_times=[before * period]).run
+    change = abs(run.samples[0] - run.final).max()
+    if change > SETTLED_CHANGE:
+        raise ArithmeticError(f"{hazard.name}: still changes by {change:.1e} in cycle {before}")
+    return run
+
+
+def _row(hazard, method, reference):
+    row = {"group": hazard.group, "hazard": hazard.name, "method": method.name, "family": method.family}
+    missing = method.available()
+    if missing:
+        return {**row, "verdict": UNAVAILABLE, "says": missing}
+    row["setting"] = str(method.careful)
+    run = method.run(hazard.system, hazard.state, hazard.cycles, 0.0, method.careful)
+    row["steps"] = run.steps
+    if run.failure:
+        return {**row, "verdict": FAILURES[run.failure.kind], "says": run.failure.reason}
+    whole = hazard.reference_cycles is None
+    errors = compare(run, reference, hazard.system.period, hazard.faint, events=whole)
+    doubt = run.doubt()
+    wrong = not errors.final <= VISIBLE or errors.missed or errors.spurious
+    return {
+        **row,
+        "verdict": UNDECIDABLE if doubt else WRONG if wrong else RIGHT,
+        "error_state": errors.final,
+        "error_time": errors.times,
+        "missed": errors.missed,
+        "spurious": errors.spurious,
+        "says": doubt or "",
+    }
+
+
+def _grazing(system, side, digits):
+    """Ball 1 clears its wall (side 1) or would go beyond it (side -1) by 1e-digits; every impact counts."""
+    start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
+    name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
+    return Hazard("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
+
+
+def _crossing(system):
+    """Ball 1 meets its wall after half a period exactly (to rounding), box at rest; ball 2 stays in the middle."""
+    return (0.0, 0.0, 0.0, 0.0, 0.0, -2.0 / system.period, 0.0, 0.0)

@@ -1,0 +1,90 @@
+"""Work against precision: what each method's error is, and what it costs, over its ladder of settings."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.accuracy.timing import shortest_time
+from vibroimpact.rivals.protocol import Method, RivalRun
+from vibroimpact.system import System
+
+RESOLVED = 0.03, 1e-11
+"""Errors between which an order is fitted: above, the motion is another one; below, rounding takes part."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A motion to compute: state (8,) at tau = 0, number of forcing cycles."""
+
+    name: str
+    system: System
+    state: tuple[float, ...]
+    cycles: int
+
+
+def measure(scene: Scene, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
+    """One row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
+
+    Args:
+        seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
+        short: every second setting of each ladder only.
+    """
+    reference = proven_run(scene.system, scene.state, scene.cycles).run
+    rows = []
+    for method in methods:
+        ladder = method.ladder[::-2][::-1] if short else method.ladder
+        rows += _climb(scene, method, ladder, reference, seconds)
+    return rows
+
+
+def _climb(scene, method, ladder, reference, seconds):
+    """The rows of one method."""
+    missing = method.available()
+    if missing:
+        return [_row(scene, method, None, outcome="unavailable", reason=missing)]
+    rows, points = [], []
+    for setting in ladder:
+        run = _run(scene, method, setting)
+        time = shortest_time(lambda setting=setting: _run(scene, method, setting), seconds)
+        errors = compare(run, reference, scene.system.period)
+        if run.failure is None and errors.missed == errors.spurious == 0:
+            points.append((method.scale(setting, run), errors.final))
+        rows.append(
+            _row(
+                scene,
+                method,
+                setting,
+                error_state=errors.final,
+                error_time=errors.times,
+                missed=errors.missed,
+                spurious=errors.spurious,
+                seconds_per_cycle=time / scene.cycles,
+                steps=run.steps,
+                evaluations=run.evaluations,
+                outcome=run.failure.kind if run.failure else "finished",
+                reason=run.failure.reason if run.failure else (run.doubt() or ""),
+            )
+        )
+    order = fitted_order(points) if method.order else None
+    return [{**row, "order": order} for row in rows]
+
+
+def _run(scene, method, setting) -> RivalRun:
+    return method.run(scene.system, scene.state, scene.cycles, 0.0, setting)
+
+
+def _row(scene, method, setting, **measured):
+    text = "" if setting is None else str(setting)
+    return {"scene": scene.name, "method": method.name, "family": method.family, "setting": text, **measured}
+
+
+def fitted_order(points) -> float | None:
+    """Slope of log error over log scale, by least squares over the resolved points (scale, error); None below three."""
+    largest, smallest = RESOLVED
+    resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]
+    if len(resolved) < 3:
+        return None
+    scale, error = np.log(np.array(resolved)).T
+    return float(np.polyfit(scale, error, 1)[0])

@@ -1,0 +1,137 @@
+"""heyoka's adaptive Taylor integrator: terminal events at the walls, the impact law in their callbacks.
+
+The best form found: the forcing phase as two states (no transcendental function in the recursion), one event per wall
+with its direction, no compact mode, one integrator for each contact state of the balls, all parameters at run time so
+that it is compiled once.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from vibroimpact.rivals.contact import Contacts
+from vibroimpact.rivals.equations import BALLS, BOXES, NAMES, coefficients
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+
+SLOWEST = 1e-5
+"""A slower rebound is not followed: after an event heyoka is blind to the same event for a while, and a shorter hop
+would end unseen. What this leaves out, epsilon times its third power, is below rounding."""
+
+try:
+    import heyoka
+except ImportError as error:  # no build for this platform
+    heyoka, _missing = None, str(error)
+
+
+class HeyokaTaylor(Method):
+    """Setting: tolerance of the Taylor series."""
+
+    name, family, knob = "heyoka", "Taylor", "tolerance"
+    careful = float(np.finfo(float).eps)
+    ladder = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-15, careful)
+    limit = 10_000_000
+
+    def available(self):
+        return None if heyoka else _missing
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        limit = limit or self.limit
+        contacts = Contacts(system, slow=max(setting**0.5, SLOWEST))
+        tau, end, s = tau0, tau0 + cycles * system.period, np.array(state, dtype=float)
+        steps = 0
+        contacts.start(tau, s)
+        while True:
+            integrator = _integrator(setting, tuple(w != 0 for w in contacts.walls))
+            flight = integrator.propagate(contacts, tau, s, end, limit - steps)
+            steps += flight.steps
+            if flight.failure:
+                kind = UNFINISHED if flight.failure == heyoka.taylor_outcome.step_limit else REFUSED
+                return failed(kind, f"{flight.failure} at tau = {flight.tau:.6g}", steps, impacts=contacts.impacts)
+            tau, s = flight.tau, flight.state
+            if flight.module is None:
+                return RivalRun(s, np.array(contacts.impacts, IMPACT), steps)
+            contacts.resolve(tau, s, [flight.module])
+
+
+class _Flight:
+    """Where an integrator stopped; module: whose event stopped it, or None at the end; failure: outcome or None."""
+
+    def __init__(self, tau, state, steps, module, failure):
+        self.tau, self.state, self.steps, self.module, self.failure = tau, state, steps, module, failure
+
+
+@lru_cache(maxsize=64)
+def _integrator(tolerance, stuck):
+    return _Integrator(tolerance, stuck)
+
+
+class _Integrator:
+    """heyoka's integrator of (10.2) in one contact state, with the impact law in its events."""
+
+    def __init__(self, tolerance, stuck):
+        self.stuck = stuck
+        s = heyoka.make_vars("X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2")
+        sine, cosine = heyoka.make_vars("sine", "cosine")
+        q = dict(zip(NAMES, (heyoka.par[k] for k in range(len(NAMES))), strict=True))
+        force = [
+            q["f1"] * sine - q["k11"] * s[0] - q["k12"] * s[2] - q["c11"] * s[4] - q["c12"] * s[6],
+            q["f2"] * sine - q["k12"] * s[0] - q["k22"] * s[2] - q["c12"] * s[4] - q["c22"] * s[6],
+        ]
+        acceleration = [f / (1.0 + q["epsilon"]) if held else f for f, held in zip(force, stuck, strict=True)]
+        equations = [(s[k], s[4 + k]) for k in range(4)]
+        for i in range(2):
+            equations.append((s[4 + BOXES[i]], acceleration[i]))
+            equations.append((s[4 + BALLS[i]], acceleration[i] if stuck[i] else heyoka.expression(0.0)))
+        equations += [(sine, q["omega"] * cosine), (cosine, -q["omega"] * sine)]
+        events = [event for i in range(2) for event in self._events(i, s[BOXES[i]] - s[BALLS[i]], acceleration[i])]
+        self._taylor = heyoka.taylor_adaptive(equations, [0.0] * 9 + [1.0], tol=tolerance, t_events=events)
+        self._state = self._taylor.state  # a view: the integrator's own memory
+
+    def propagate(self, contacts, tau, state, end, limit):
+        taylor, system = self._taylor, contacts.system
+        taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # those that the equations use
+        taylor.time = tau
+        self._state[:8] = state
+        self._state[8:] = np.sin(system.Omega * tau), np.cos(system.Omega * tau)
+        taylor.reset_cooldowns()
+        self._contacts, self._stopped_by = contacts, None
+        self._epsilon, self._bounce = system.epsilon, (1.0 + system.kappa) / (1.0 + system.epsilon)
+        self._slow = contacts.slow / system.kappa
+        outcome, _, _, steps, *_ = taylor.propagate_until(end, max_steps=limit)
+        stopped = self._stopped_by is not None or outcome == heyoka.taylor_outcome.time_limit
+        failure = None if stopped else outcome
+        return _Flight(taylor.time, self._state[:8].copy(), steps, self._stopped_by, failure)
+
+    def _events(self, i, gap, acceleration):
+        rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
+        if self.stuck[i]:  # either wall: the force changes sign
+            return [heyoka.t_event(acceleration, callback=self._stop(i))]
+        return [
+            heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),
+            heyoka.t_event(gap + 1.0, callback=self._impact(i, -1), direction=falling),
+        ]
+
+    def _stop(self, i):
+        def callback(taylor, sign):
+            self._stopped_by = i
+            return False
+
+        return callback
+
+    def _impact(self, i, wall):
+        """The impact law in place; an impact so slow that the ball may come to rest is left to the contact logic."""
+        s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
+
+        def callback(taylor, sign):
+            s = self._state
+            speed = s[s_box] - s[s_ball]
+            if abs(speed) <= self._slow or any(self.stuck):
+                self._stopped_by = i
+                return False
+            impulse = self._bounce * speed
+            s[s_box] -= self._epsilon * impulse
+            s[s_ball] += impulse
+            self._contacts.impacts.append((taylor.time, i + 1, wall, wall * speed))
+            return True
+
+        return callback

@@ -1,0 +1,50 @@
+"""The chapter's leading-order solution, (10.9)-(10.12), as a method: no transient, no integration."""
+
+import numpy as np
+
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
+from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.manifold import impact_phase, rho
+from vibroimpact.theory.response import impact_times, leading_order
+
+
+class LeadingOrder(Method):
+    """The steady response of the stable fixed point that lies nearest to the start; its error is O(epsilon)."""
+
+    name, family, knob, ladder, careful = "leading order", "multiple scales", "order", (0,), 0
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        try:
+            points = [point for point in fixed_points(system) if (point.slow_eigenvalues.real < 0).all()]
+        except ValueError as error:
+            return failed(REFUSED, str(error), 0)
+        if not points:
+            return failed(REFUSED, "no stable fixed point of the slow flow", 0)
+        starts = [np.abs(steady_state(system, point, tau0) - state).max() for point in points]
+        point = points[int(np.argmin(starts))]
+        end = tau0 + cycles * system.period
+        return RivalRun(steady_state(system, point, end), _impacts(system, point, tau0, end), 1)
+
+
+def steady_state(system, point, tau) -> np.ndarray:
+    """The leading-order state (8,) at a time, with the velocities of the expressions for the displacements."""
+    response = leading_order(system, point, [tau])
+    phase = system.Omega * tau - point.psi
+    U_rate = system.Omega * point.B * np.cos(phase)
+    falling = np.sin(phase - impact_phase(point.C, rho(system.kappa))) >= 0
+    W_rate = U_rate + np.where(falling, -1.0, 1.0) * 2.0 / np.pi * point.C * system.Omega
+    X_rate = (U_rate + system.epsilon * W_rate) / (1.0 + system.epsilon)
+    state = np.empty(8)
+    state[0:4:2], state[1:4:2] = response.X[0], response.Y[0]
+    state[4::2], state[5::2] = X_rate, X_rate - W_rate
+    return state
+
+
+def _impacts(system, point, start, end):
+    rows = []
+    for i, first in enumerate(impact_times(system, point)):
+        half = 0.5 * system.period
+        numbers = np.arange(np.ceil((start - first) / half), np.floor((end - first) / half) + 1)
+        speed = 2.0 * (2.0 / np.pi * point.C[i] * system.Omega) / (1.0 + system.kappa)  # (10.14)
+        rows += [(first + n * half, i + 1, 1 if n % 2 == 0 else -1, speed) for n in numbers]
+    return np.array(sorted(rows), IMPACT)

@@ -1,0 +1,95 @@
+"""Moreau-Jean time-stepping: velocities and impulses per step, no events (Jean 1999; Acary and Brogliato 2008)."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from vibroimpact.rivals.equations import coefficients
+from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
+
+
+class MoreauJean(Method):
+    """Implicit midpoint rule with the restitution law on the velocities of a step; setting: steps per cycle."""
+
+    name, family, knob, order = "Moreau-Jean", "time-stepping", "steps per cycle", 1
+    ladder = (100, 300, 1_000, 3_000, 10_000, 30_000, 100_000)
+    careful = 100_000
+    limit = 1_000_000_000
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        limit = limit or self.limit
+        steps, step = setting * cycles, system.period / setting
+        if steps > limit:
+            return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
+        final, rows = _march(coefficients(system), np.array(state, dtype=float), tau0, step, steps)
+        impacts = np.empty(len(rows), IMPACT)
+        for column, name in enumerate(IMPACT.names):
+            impacts[name] = rows[:, column]
+        return RivalRun(final, impacts, steps)
+
+
+@njit(cache=True)
+def _march(q, s, tau0, h, steps):
+    """The state after a number of steps, and rows [time, module, wall, speed] of the first step of each contact."""
+    k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
+    g = 0.5 * h
+    m11, m12, m22 = 1.0 + g * (c11 + g * k11), g * (c12 + g * k12), 1.0 + g * (c22 + g * k22)
+    determinant = m11 * m22 - m12 * m12
+    n11, n12, n22 = m22 / determinant, -m12 / determinant, m11 / determinant
+    x1, y1, x2, y2, v1, w1, v2, w2 = s
+    rows, count = np.empty((64, 4)), 0
+    closed1, closed2 = 0, 0
+    for n in range(steps):
+        sine = 0.5 * (math.sin(omega * (tau0 + n * h)) + math.sin(omega * (tau0 + (n + 1) * h)))
+        r1 = f1 * sine - k11 * (x1 + g * v1) - k12 * (x2 + g * v2) - c11 * v1 - c12 * v2
+        r2 = f2 * sine - k12 * (x1 + g * v1) - k22 * (x2 + g * v2) - c12 * v1 - c22 * v2
+        u1, u2 = v1 + h * (n11 * r1 + n12 * r2), v2 + h * (n12 * r1 + n22 * r2)
+        wall1, wall2 = _closed(x1 - y1, v1 - w1, g), _closed(x2 - y2, v2 - w2, g)
+        before1, before2 = wall1 * (v1 - w1), wall2 * (v2 - w2)
+        excess1 = wall1 * (u1 - w1) + kappa * before1 if wall1 != 0 else -math.inf
+        excess2 = wall2 * (u2 - w2) + kappa * before2 if wall2 != 0 else -math.inf
+        coupling = wall1 * wall2 * n12
+        p1, p2 = _impulses(excess1, excess2, n11 + 1.0 / epsilon, coupling, n22 + 1.0 / epsilon)
+        u1, u2 = u1 - n11 * wall1 * p1 - n12 * wall2 * p2, u2 - n12 * wall1 * p1 - n22 * wall2 * p2
+        b1, b2 = w1 + wall1 * p1 / epsilon, w2 + wall2 * p2 / epsilon
+        x1, x2, y1, y2 = x1 + g * (v1 + u1), x2 + g * (v2 + u2), y1 + g * (w1 + b1), y2 + g * (w2 + b2)
+        v1, v2, w1, w2 = u1, u2, b1, b2
+        if p1 > 0.0 and closed1 == 0:
+            rows, count = _note(rows, count, tau0 + (n + 0.5) * h, 1, wall1, before1)
+        if p2 > 0.0 and closed2 == 0:
+            rows, count = _note(rows, count, tau0 + (n + 0.5) * h, 2, wall2, before2)
+        closed1, closed2 = (1 if p1 > 0.0 else 0), (1 if p2 > 0.0 else 0)
+    return np.array([x1, y1, x2, y2, v1, w1, v2, w2]), rows[:count]
+
+
+@njit(cache=True)
+def _closed(gap, speed, g):
+    """The wall that the ball is predicted to have reached half a step ahead, or 0."""
+    ahead = gap + g * speed
+    return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
+
+
+@njit(cache=True)
+def _impulses(q1, q2, d11, d12, d22):
+    """The impulses P >= 0 with q - D P <= 0 and P (q - D P) = 0, D positive definite; q = -inf where no contact is."""
+    if q1 <= 0.0 and q2 <= 0.0:
+        return 0.0, 0.0
+    if q1 > -math.inf and q2 > -math.inf:
+        determinant = d11 * d22 - d12 * d12
+        p1, p2 = (d22 * q1 - d12 * q2) / determinant, (d11 * q2 - d12 * q1) / determinant
+        if p1 > 0.0 and p2 > 0.0:
+            return p1, p2
+    if q1 > 0.0 and q2 - d12 * q1 / d11 <= 0.0:
+        return q1 / d11, 0.0
+    return 0.0, q2 / d22
+
+
+@njit(cache=True)
+def _note(rows, count, tau, module, wall, speed):
+    if count == len(rows):
+        larger = np.empty((2 * count, 4))
+        larger[:count] = rows
+        rows = larger
+    rows[count, 0], rows[count, 1], rows[count, 2], rows[count, 3] = tau, module, wall, speed
+    return rows, count + 1

@@ -1,0 +1,72 @@
+"""What every integrator looks like to the comparisons: a name, a ladder of settings, a run with an honest end."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+IMPACT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("speed", "f8")])
+"""One impact as a method reports it: time, module 1 or 2, wall +1 or -1, speed |W'| just before."""
+
+REFUSED, UNFINISHED = "refused", "unfinished"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a run has no result. kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of steps)."""
+
+    kind: str
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class RivalRun:
+    """The result of a method.
+
+    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure; impacts: (n,) IMPACT
+    in the order of time; steps: integration steps taken; evaluations: evaluations of the right-hand side, where the
+    method counts them, else 0; failure: None, or why there is no result; doubt(): None, or what the method itself says
+    that it cannot decide about the result it gives (asked after the run: whoever times the run does not time this).
+    """
+
+    final: np.ndarray | None
+    impacts: np.ndarray
+    steps: int
+    evaluations: int = 0
+    failure: Failure | None = None
+    doubt: Callable[[], str | None] = lambda: None
+
+
+class Method(ABC):
+    """One integrator of (10.1). A new one is one file with a subclass, listed in `rivals.METHODS`.
+
+    name, family: as printed; ladder: settings from coarse to fine, all of one kind (`knob` says which); careful: the
+    one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
+    expects, or None; limit: steps after which a run is given up, what can be done in roughly half a minute.
+    """
+
+    name: str
+    family: str
+    knob: str
+    ladder: tuple
+    careful: float | int | str
+    limit: int = 100_000
+    order: float | None = None
+
+    def available(self) -> str | None:
+        """None, or why the method cannot run on this machine."""
+        return None
+
+    @abstractmethod
+    def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> RivalRun:
+        """Integrate from a state (8,) over whole forcing periods in at most `limit` steps (by default the method's)."""
+
+    def scale(self, setting, run: RivalRun) -> float:
+        """The small quantity in which the error is expected to fall: by default the mean step."""
+        return 1.0 / run.steps
+
+
+def failed(kind: str, reason: str, steps: int, evaluations: int = 0, impacts=()) -> RivalRun:
+    """A run without a result; the impacts found until then are kept."""
+    return RivalRun(None, np.array(list(impacts), IMPACT), steps, evaluations, Failure(kind, reason))

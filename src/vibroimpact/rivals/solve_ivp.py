@@ -1,0 +1,101 @@
+"""SciPy's solve_ivp: terminal events at the walls and at vanishing contact forces, restarted after each."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from vibroimpact.rivals.contact import Contacts
+from vibroimpact.rivals.equations import BALLS, BOXES, accelerations, jacobian, rates
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+
+ABSOLUTE = 1e-2  # atol / rtol
+PATIENCE = 100  # events without any progress of time
+
+
+class SolveIvp(Method):
+    """One of solve_ivp's integrators with compiled right-hand side (and Jacobian), setting: rtol.
+
+    The first step after an impact is kept below half the expected hop, so that chatter is not stepped over.
+    """
+
+    family, knob = "solve_ivp", "rtol"
+
+    def __init__(self, integrator: str, ladder, careful, order=None, needs_jacobian=False):
+        self.name, self.ladder, self.careful, self.order = integrator, ladder, careful, order
+        self._needs_jacobian = needs_jacobian
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        limit = limit or self.limit
+        contacts = Contacts(system, slow=setting**0.5)
+        tau, end, s = tau0, tau0 + cycles * system.period, np.array(state, dtype=float)
+        steps = evaluations = idle = 0
+        contacts.start(tau, s)
+        while tau < end:
+            if steps >= limit:
+                return failed(UNFINISHED, f"{limit} steps reach tau = {tau:.6g}", steps, evaluations, contacts.impacts)
+            options = {"jac": jacobian(system, [w != 0 for w in contacts.walls])} if self._needs_jacobian else {}
+            first = 0.5 * contacts.shortest_hop(tau, s)
+            if first < end - tau:
+                options["first_step"] = max(first, 1e-14 * (1.0 + abs(tau)))
+            try:
+                flight = solve_ivp(
+                    rates,
+                    (tau, end),
+                    s,
+                    method=self.name,
+                    args=(contacts.numbers, *contacts.stuck),
+                    events=[event for i, wall in enumerate(contacts.walls) for event in _events(i, wall)],
+                    rtol=setting,
+                    atol=ABSOLUTE * setting,
+                    **options,
+                )
+            except ValueError as error:  # LSODA's interpolant may miss the sign change that its step showed
+                return failed(REFUSED, str(error), steps, evaluations, contacts.impacts)
+            steps, evaluations = steps + len(flight.t) - 1, evaluations + flight.nfev
+            if flight.status < 0:
+                return failed(REFUSED, flight.message, steps, evaluations, contacts.impacts)
+            idle = idle + 1 if flight.t[-1] <= tau else 0
+            if idle > PATIENCE:
+                return failed(UNFINISHED, f"time stands still at tau = {tau:.6g}", steps, evaluations, contacts.impacts)
+            tau, s = float(flight.t[-1]), flight.y[:, -1].copy()
+            if flight.status == 1:
+                contacts.resolve(tau, s, [k // 2 for k in range(4) if tau in flight.t_events[k]])
+        return RivalRun(s, np.array(contacts.impacts, IMPACT), steps, evaluations)
+
+
+def _events(i, wall):
+    """Two functions of which one falls through zero at the next event of module i.
+
+    The gaps to both walls; for a sticking ball the force that holds it, twice, so that their places stay the same.
+    """
+    x, y = BOXES[i], BALLS[i]
+    if wall:
+
+        def force(tau, s, numbers, stuck1, stuck2):
+            return wall * accelerations(tau, s, numbers, stuck1, stuck2)[i]
+
+        return [_terminal(force), _terminal(force)]
+
+    def lower(tau, s, numbers, stuck1, stuck2):
+        return 1.0 + s[x] - s[y]
+
+    def upper(tau, s, numbers, stuck1, stuck2):
+        return 1.0 - s[x] + s[y]
+
+    return [_terminal(lower), _terminal(upper)]
+
+
+def _terminal(function):
+    function.terminal, function.direction = True, -1.0
+    return function
+
+
+def integrators() -> list[SolveIvp]:
+    """The explicit, implicit and switching integrators of solve_ivp."""
+    coarse = 1e-3, 1e-4, 1e-5, 1e-6, 1e-7
+    fine = 1e-8, 1e-9, 1e-10, 1e-11
+    return [
+        SolveIvp("RK45", (*coarse, *fine), careful=1e-9, order=5),
+        SolveIvp("DOP853", (*coarse[1:], *fine, 1e-12, 3e-13, 3e-14), careful=1e-12, order=8),
+        SolveIvp("Radau", (*coarse, 1e-8, 1e-9), careful=1e-8, order=5, needs_jacobian=True),
+        SolveIvp("LSODA", (*coarse, *fine), careful=1e-10),
+    ]

@@ -1,0 +1,43 @@
+"""Speed of every method on one motion -> the table on the screen, and CSV with the versions below it."""
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+import yaml
+from adapter import replacing
+from environment import settle
+from scenes import scene_of
+
+from vibroimpact.checks.config import case_parameters
+from vibroimpact.checks.sources import Sources
+
+SECONDS = 0.5
+
+
+def main(config: dict, output) -> None:
+    from vibroimpact.accuracy.benchmark import judgements, measure, unavoidable_error
+    from vibroimpact.accuracy.timing import versions
+    from vibroimpact.rivals import METHODS
+
+    settings = config["accuracy"]["benchmark"]
+    scene = scene_of("benchmark", case_parameters(config, settings["case"]), settings)
+    rows = measure(scene, METHODS, SECONDS)
+    table, wanted = pd.DataFrame(rows), pd.DataFrame(judgements(rows, unavoidable_error(scene)))
+    footer = "  ".join(f"{name} {version}" for name, version in versions().items())
+    print(table.to_string(index=False, float_format="{:.3g}".format))
+    print(wanted.to_string(index=False, float_format="{:.3g}".format))
+    print(footer)
+    with replacing(output) as partial:
+        lines = table.to_csv(index=False, lineterminator="\n")
+        verdicts = "".join(f"# {line}\n" for line in wanted.to_csv(index=False).splitlines())
+        partial.write_text(f"{lines}{verdicts}# {footer}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--config", type=Path, default=Path("config/config.yaml"))
+    parser.add_argument("--output", type=Path, default=Path("results/accuracy/benchmark.csv"))
+    arguments = parser.parse_args()
+    settle(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
+    main(yaml.safe_load(arguments.config.read_text(encoding="utf-8")), arguments.output)
