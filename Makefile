@@ -16,7 +16,7 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/lint-imports
-	.venv/bin/pytest --numprocesses 2 --dist loadgroup
+	.venv/bin/pytest --numprocesses 2 --dist worksteal
 
 lock:  ## pin every package anew into environment.lock (needs uv)
 	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \

@@ -1,5 +1,6 @@
 """A copy of the project to build in, and the same copy built once for all tests."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -72,9 +73,16 @@ def copied(source: Path, path: Path) -> Tree:
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
-    """The project after a build. Read it, do not change it."""
-    tree = copied(ROOT, tmp_path_factory.mktemp("built") / "tree")
-    tree.snakemake()
+    """The project after a build, the same for all test processes. Read it, do not change it."""
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+    with open(shared / "built.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (shared / "built").exists():
+            copied(ROOT, shared / "built")
+        tree = Tree(shared / "built")
+        tree.snakemake()
     return tree
 
 

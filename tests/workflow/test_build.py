@@ -8,8 +8,6 @@ import pandas as pd
 import pytest
 from PIL import Image
 
-pytestmark = pytest.mark.xdist_group("build")
-
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
 WITH_TABLE = FIGURES[2:]
 

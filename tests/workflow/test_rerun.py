@@ -4,8 +4,6 @@ import os
 
 import pytest
 
-pytestmark = pytest.mark.xdist_group("build")
-
 CLOSED_FORM = {"fig10_03", "fig10_04", "fig10_05"}
 OF_CASE = {
     "equal": {"fig10_06", "fig10_07", "fig10_08"},

@@ -1,14 +1,44 @@
 """Executed notebooks as HTML pages that read offline: formulas become MathML, nothing is fetched from anywhere."""
 
-from pathlib import Path
-
 from math_core import LatexToMathML
 from nbconvert import HTMLExporter
 from nbconvert.filters import markdown_mistune
 from traitlets.config import Config
 
-TEMPLATES = Path(__file__).resolve().parent.parent / "templates"
-
+PAGE = """\
+{#- A page that needs nothing but itself: no script, no font and no style from elsewhere. -#}
+{%- extends 'classic/base.html.j2' -%}
+{%- block header -%}
+<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{{ resources.metadata.name | escape_html }}</title>
+<style>
+{% for css in resources.inlining.css %}{{ css }}{% endfor %}
+body { max-width: 50rem; margin: 2rem auto; padding: 0 1rem; font: 1.05rem/1.55 Georgia, serif; color: #111; }
+h1, h2, h3 { line-height: 1.2; }
+pre, code { font: 0.85rem/1.4 monospace; }
+.input_area, .output_area { overflow-x: auto; }
+.input_area { background: #f6f6f6; padding: 0.1rem 0.8rem; }
+p:has(> math[display="block"]) { overflow-x: auto; }
+math[display="block"] { margin: 0.6rem 0; }
+/* Beside a numbered formula the margins share the room that is left, and the number keeps its line. */
+math mtd[style*="width: 50%"] { width: auto !important; white-space: nowrap; }
+img, svg { max-width: 100%; height: auto; }
+table { border-collapse: collapse; font-size: 0.9rem; }
+th, td { padding: 0.15rem 0.6rem; border-bottom: 1px solid #ccc; text-align: right; }
+a.anchor-link { display: none; }
+</style>
+</head>
+<body>
+{%- endblock header -%}
+{%- block footer %}
+</body>
+</html>
+{% endblock footer -%}
+"""
 
 MATHEMATICS = LatexToMathML(fancy_error=False)
 
@@ -35,9 +65,11 @@ class MathMLRenderer(markdown_mistune.IPythonRenderer):
 class OfflineExporter(HTMLExporter):
     """A notebook as one self-contained page."""
 
-    def __init__(self, **settings):
-        config = Config({"TemplateExporter": {"extra_template_basedirs": [str(TEMPLATES)]}})
-        super().__init__(config=config, template_name="offline", exclude_input_prompt=True, exclude_output_prompt=True)
+    def __init__(self):
+        # Papermill puts the values of this run below the cell with the default parameters, which need not be read.
+        config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters"}})
+        super().__init__(config=config, exclude_input_prompt=True, exclude_output_prompt=True)
+        self.raw_template = PAGE
 
     def default_filters(self):
         yield from super().default_filters()
