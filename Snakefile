@@ -1,5 +1,5 @@
 # From one config to every figure of the chapter:
-# config -> fixed points -> simulations -> figures and notebooks.
+# config -> fixed points -> simulations -> figures and notebooks -> checks.
 
 
 include: "workflow/rules/common.smk"
@@ -14,6 +14,7 @@ check_config()
 include: "workflow/rules/fixed_points.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/checks.smk"
 
 
 rule all:

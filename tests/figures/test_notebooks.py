@@ -32,12 +32,18 @@ def test_stripped(notebook):
             assert cell.execution_count is None
 
 
-def test_parameters_are_the_four_that_the_pipeline_sets(notebook):
+def test_parameters_are_the_five_that_the_pipeline_sets(notebook):
     (cell,) = (cell for cell in notebook.cells if "parameters" in cell.metadata.get("tags", []))
     assignments = ast.parse(cell.source).body
-    assert [statement.targets[0].id for statement in assignments] == ["figure", "settings", "inputs", "outputs"]
+    assert [statement.targets[0].id for statement in assignments] == [
+        "figure",
+        "settings",
+        "inputs",
+        "outputs",
+        "provenance",
+    ]
     values = {statement.targets[0].id: ast.literal_eval(statement.value) for statement in assignments}
-    assert all(path.endswith(f"/{values['figure']}.{kind}") for kind, path in values["outputs"].items())
+    assert all(Path(path).name.startswith(f"{values['figure']}.{kind}") for kind, path in values["outputs"].items())
 
 
 def test_begins_with_the_question_and_its_equations(notebook):

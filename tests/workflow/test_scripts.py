@@ -57,31 +57,33 @@ def test_a_simulation_leaves_its_window_only(tmp_path):
     np.testing.assert_allclose(at_wall[events["module"] == 1], 0, atol=1e-12)
 
 
-def write(path, parameters, *code):
+def write(path, names, *code):
     """A small notebook with the given names in its parameters cell."""
-    cell = nbformat.v4.new_code_cell(
-        "\n".join(f"{name} = {{}}" for name in parameters), metadata={"tags": ["parameters"]}
-    )
+    cell = nbformat.v4.new_code_cell("\n".join(f"{name} = {{}}" for name in names), metadata={"tags": ["parameters"]})
     cells = [nbformat.v4.new_markdown_cell("# Title\n\n$x$"), cell, *map(nbformat.v4.new_code_cell, code)]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), path)
     return path
 
 
-AGREED = ["figure", "settings", "inputs", "outputs"]
+AGREED = ["figure", "settings", "inputs", "outputs", "provenance"]
+
+
+def parameters(**settings):
+    return dict.fromkeys(AGREED, {}) | {"figure": "fig10_03", "settings": settings}
 
 
 @pytest.mark.parametrize("names", [AGREED[:3], [*AGREED, "colour"]])
 def test_a_notebook_with_other_parameters_is_refused(tmp_path, names):
     source = write(tmp_path / "source.ipynb", names)
     with pytest.raises(ValueError, match="parameters"):
-        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {}, {}, {})
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters())
     assert not (tmp_path / "page.html").exists()
 
 
 def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print(figure, settings['kappa'] + 1)")
-    notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {"kappa": 0.5}, {}, {})
+    notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(kappa=0.5))
     html = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "fig10_03 1.5" in html
     assert "<math>" in html
@@ -90,7 +92,7 @@ def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
 def test_a_failed_notebook_can_be_read(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print('before')", "1 / 0", "print('after')")
     with pytest.raises(PapermillExecutionError, match="ZeroDivisionError"):
-        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", "fig10_03", {}, {}, {})
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters())
     assert not (tmp_path / "page.html").exists()
     outputs = str([cell.get("outputs") for cell in nbformat.read(tmp_path / "executed.ipynb", 4).cells])
     assert "before" in outputs

@@ -16,6 +16,24 @@ NOTEBOOK_INPUTS = {
 }
 WITHOUT_TABLE = "drawings"
 
+# Who makes the inputs and the figures, by which method; for the record that goes with each figure.
+SCRIPTS = {
+    "fixed_points": "workflow/scripts/fixed_points.py",
+    "samples": "workflow/scripts/simulate.py",
+}
+METHODS = {
+    "fixed_points": "all solutions of (10.23): real zeros of (10.24), refined by Newton's method",
+    "samples": "direct integration of (10.1), event by event, with free flight in closed form",
+}
+NOTEBOOK_METHODS = {
+    "drawings": "drawn to scale, nothing computed",
+    "closed_form": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "fixed_points": "manifold in closed form, singular points as real zeros of (10.24)",
+    "theoretical_response": "leading order, (10.9) and (10.10), at a fixed point",
+    "simulation": "motion of the second module as simulated, with its events as corners",
+}
+DOUBLE = sys.float_info.dig
+
 
 def figure_inputs(scene):
     """Results of the figure's case that its notebook reads."""
@@ -24,7 +42,8 @@ def figure_inputs(scene):
 
 def figure_outputs(figure, scene):
     kinds = ["png", "pdf", "svg"] + ["csv"] * (scene["notebook"] != WITHOUT_TABLE)
-    return {kind: f"results/figures/{figure}.{kind}" for kind in kinds}
+    told = {name: f"results/figures/{figure}.{name}.json" for name in ("artists", "provenance")}
+    return {kind: f"results/figures/{figure}.{kind}" for kind in kinds} | told
 
 
 def figure_settings(scene):
@@ -35,11 +54,33 @@ def figure_settings(scene):
     return {**scene, "system": system}
 
 
-def figure_code(figure, scene):
-    """Fingerprint of script, notebook and library; the notebook imports the module of its figure by name."""
+def figure_step(figure, scene):
+    """How the figure itself is made. Its notebook imports the module of the figure by name."""
     drawn_by = f"vibroimpact.figures.{figure}"
+    modules = [drawn_by] if SOURCES.knows(drawn_by) else []
     files = "workflow/scripts/notebook.py", f"notebooks/{scene['notebook']}.ipynb"
-    return code(*files, modules=[drawn_by] if SOURCES.knows(drawn_by) else [])
+    return step(NOTEBOOK_METHODS[scene["notebook"]], DOUBLE, *files, modules=modules)
+
+
+def step(method, digits, *files, modules=()):
+    """A step of the computation: its method, the decimal digits it works with, and the code that takes it."""
+    fingerprint = code(*files, modules=modules)
+    return {"method": method, "digits": digits, "files": files, "modules": modules, "fingerprint": fingerprint}
+
+
+def figure_origin(figure, scene):
+    """What decides on a figure: its slice of the config, by the path of each key, and the steps up to its files."""
+    read = NOTEBOOK_INPUTS[scene["notebook"]]
+    used = config["system"] if "case" in scene else scene.get("parameters", [])
+    values = {f"system.{name}": config["system"][name] for name in used}
+    if "case" in scene:
+        of_case = ["f10_hat", "f20_hat"] + ["simulation"] * ("samples" in read)
+        values |= {f"cases.{scene['case']}.{name}": config["cases"][scene["case"]][name] for name in of_case}
+    before = [step(METHODS[name], DOUBLE, SCRIPTS[name]) for name in read if name in SCRIPTS]
+    return {
+        "config": {f"figures.{figure}": scene, **values},
+        "steps": [*before, figure_step(figure, scene)],
+    }
 
 
 for figure, scene in config["figures"].items():
@@ -57,7 +98,7 @@ for figure, scene in config["figures"].items():
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),
-            code=figure_code(figure, scene),
+            origin=figure_origin(figure, scene),
         log:
             f"results/logs/figures/{figure}.log",
         benchmark:

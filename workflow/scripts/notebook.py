@@ -4,6 +4,7 @@ The executed notebook is kept beside the log, cell by cell as it runs, so that a
 """
 
 import os
+import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -12,12 +13,13 @@ from traitlets.config import Config
 
 from adapter import logging_to
 from offline import page
+from origin import record, write_sidecar
 from vibroimpact.figures.atomic import replacing
 
-PARAMETERS = {"figure", "settings", "inputs", "outputs"}
+PARAMETERS = {"figure", "settings", "inputs", "outputs", "provenance"}
 
 
-def main(notebook, executed, html, figure: str, settings: dict, inputs: dict, outputs: dict) -> None:
+def main(notebook, executed, html, parameters: dict) -> None:
     """Execute and export a notebook.
 
     Raises:
@@ -27,11 +29,10 @@ def main(notebook, executed, html, figure: str, settings: dict, inputs: dict, ou
     declared = set(papermill.inspect_notebook(str(notebook)))
     if declared != PARAMETERS:
         raise ValueError(f"notebook: {notebook} has the parameters {sorted(declared)}, needs {sorted(PARAMETERS)}")
-    parameters = {"figure": figure, "settings": settings, "inputs": inputs, "outputs": outputs}
     Path(executed).parent.mkdir(parents=True, exist_ok=True)
     print(f"{notebook} as it was executed: {executed}")
     with replacing(html) as partial:
-        partial.write_text(page(execute(notebook, executed, parameters), title=figure), encoding="utf-8")
+        partial.write_text(page(execute(notebook, executed, parameters), title=parameters["figure"]), encoding="utf-8")
 
 
 def execute(notebook, executed, parameters: dict):
@@ -50,13 +51,16 @@ def execute(notebook, executed, parameters: dict):
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        outputs = dict(snakemake.output.items())
-        main(
-            snakemake.params.notebook,
-            snakemake.params.executed,
-            outputs.pop("html"),
-            snakemake.params.figure,
-            snakemake.params.settings,
-            dict(snakemake.input.items()),
-            outputs,
-        )
+        start = time.monotonic()
+        figure, inputs, outputs = snakemake.params.figure, dict(snakemake.input.items()), dict(snakemake.output.items())
+        html, sidecar = outputs.pop("html"), outputs.pop("provenance")
+        provenance = record(figure, snakemake.params.origin, inputs.values())
+        parameters = {
+            "figure": figure,
+            "settings": snakemake.params.settings,
+            "inputs": inputs,
+            "outputs": outputs,
+            "provenance": provenance,
+        }
+        main(snakemake.params.notebook, snakemake.params.executed, html, parameters)
+        write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)

@@ -1,0 +1,29 @@
+# The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
+
+REFERENCE_FILES = sorted(str(path) for path in Path("figures").glob("fig*"))
+
+
+rule compare_figures:
+    input:
+        rules.figures.input,
+        reference=REFERENCE_FILES,
+    output:
+        page="results/figure_check/index.html",
+        verdicts="results/figure_check/figure_check.json",
+    params:
+        figures=list(config["figures"]),
+        code=code("workflow/scripts/compare_figures.py"),
+    log:
+        "results/logs/compare_figures.log",
+    benchmark:
+        "results/benchmarks/compare_figures.tsv"
+    script:
+        "../scripts/compare_figures.py"
+
+
+# Has no output, so that it judges anew each time: the page stays to be read where it fails.
+rule figure_check:
+    input:
+        rules.compare_figures.output.verdicts,
+    script:
+        "../scripts/figure_check.py"

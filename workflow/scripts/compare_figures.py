@@ -1,0 +1,24 @@
+"""All figures against their references -> the page to read, and the verdicts as JSON."""
+
+import json
+
+from adapter import logging_to
+from vibroimpact.checks.figure_check import check_all, lines, tolerances
+from vibroimpact.checks.figure_page import page
+from vibroimpact.figures.atomic import replacing
+
+
+def main(figures, reference, new, html, verdicts) -> None:
+    limits = tolerances()
+    found = check_all(figures, reference, new, limits)
+    print(*lines(found), sep="\n")
+    with replacing(verdicts) as partial:
+        partial.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    with replacing(html) as partial:
+        partial.write_text(page(found, reference, new, limits), encoding="utf-8")
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        outputs = snakemake.output
+        main(snakemake.params.figures, "figures", "results/figures", outputs.page, outputs.verdicts)
