@@ -3,7 +3,7 @@ CORES ?= 2
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 
-.PHONY: help figures test lock clean set-up
+.PHONY: help figures check-figures accept test lock clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -11,6 +11,14 @@ help:  ## list these commands
 
 figures: set-up  ## build every figure into results/ (CORES=2)
 	.venv/bin/snakemake --cores $(CORES)
+
+check-figures: set-up  ## compare results/figures/ with the reference set figures/
+	.venv/bin/snakemake --cores $(CORES) figure_check
+
+accept: export REASON := $(REASON)
+accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...")
+	.venv/bin/snakemake --cores $(CORES) compare_figures
+	.venv/bin/python -m vibroimpact.checks.accept --reason "$$REASON" $(FIGURES)
 
 test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check
