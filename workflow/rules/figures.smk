@@ -65,7 +65,7 @@ def figure_step(figure, scene):
 def step(method, digits, *files, modules=()):
     """A step of the computation: its method, the decimal digits it works with, and the code that takes it."""
     fingerprint = code(*files, modules=modules)
-    return {"method": method, "digits": digits, "files": files, "modules": modules, "fingerprint": fingerprint}
+    return {"method": method, "digits": digits, "files": [*files], "modules": [*modules], "fingerprint": fingerprint}
 
 
 def figure_origin(figure, scene):
