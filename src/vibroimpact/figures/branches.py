@@ -51,7 +51,7 @@ def compute(system, paths: list[dict], longest_step: float, seeds: int, attracto
         paths: each with `along` (names of the parameters that move together) and `range` (low, high).
         longest_step, seeds: of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
         attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
-        observation: cycles, rounds, window, tolerance of `regimes.classification.settle`.
+        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C is a
     quarter of the ball's path per cycle) and "special_points" (path, family, kind, p, C1, C2).
@@ -65,7 +65,9 @@ def compute(system, paths: list[dict], longest_step: float, seeds: int, attracto
         parts.append(_attractors(panel, path, interval, observation, **attractors))
     table = join(parts)
     special = table[table["label"].ne("") & table["branch"].notna()]
-    special = special.sort_values("admissible").drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last")
+    special = special.sort_values("admissible").drop_duplicates(
+        ["panel", "series", "label", "branch", "p"], keep="last"
+    )
     special = special.sort_index()
     along = special["panel"].map({panel: " ".join(s["along"]) for panel, s in zip("abcdefgh", paths, strict=False)})
     special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
@@ -163,4 +165,6 @@ def _legend(special):
 
 
 def _axis(along):
-    return "$" + " = ".join(_NAMES.get(name, r"\mathrm{" + name.replace("_", r"\_") + "}") for name in along.split()) + "$"
+    return (
+        "$" + " = ".join(_NAMES.get(name, r"\mathrm{" + name.replace("_", r"\_") + "}") for name in along.split()) + "$"
+    )

@@ -26,7 +26,7 @@ def plane(state, points: int) -> np.ndarray:
     return states
 
 
-def ends(system, states, cycles: int, rounds: int, window: int, tolerance: float) -> list[str]:
+def ends(system, states, cycles: int, rounds: int, window: int, nearness: float) -> list[str]:
     """Regime that each start ends in; of two mirrored asymmetric responses the one of negative lean is MIRRORED."""
-    regimes = settle(system, states, cycles, rounds, window, tolerance)
+    regimes = settle(system, states, cycles, rounds, window, nearness)
     return [MIRRORED if regime.name == ASYMMETRIC and regime.lean < 0 else regime.name for regime in regimes]

@@ -14,7 +14,8 @@ IDLE, NO_IMPACTS, OTHER = "one ball idle", "no impacts", "other periodic"
 REGIMES = (SYMMETRIC, ASYMMETRIC, OTHER, MODULATED, IDLE, NO_IMPACTS)
 
 _PER_CYCLE = 2
-_MIRRORED = 10.0  # times the tolerance of a repetition: what still counts as its own mirror image
+_NEWTON, _SETTLED = 12, 1e-11
+_REPEATED, _MIRRORED = 1e-8, 1e-6  # on a periodic motion known to rounding; mirror images part with a square root
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,17 +59,16 @@ class Regime:
         return np.abs(np.diff([run.samples[0, ball], *turns, run.final[ball]])).sum()
 
 
-def settle(system, states, cycles: int, rounds: int, window: int, tolerance: float) -> list[Regime]:
+def settle(system, states, cycles: int, rounds: int, window: int, nearness: float) -> list[Regime]:
     """The regime that each start ends in.
 
-    Every start is simulated for so many cycles, then observed over a window; those that do not repeat are given as
-    many cycles again, up to so many rounds. What still does not repeat is called modulated: quasi-periodic, chaotic, or
-    of a period above half the window. A response whose largest multiplier is so near the unit circle that
-    |mu|^(cycles rounds) is above the tolerance is taken for modulated as well.
+    Every start is simulated for so many cycles, then observed over a window; those that come to nothing periodic are
+    given as many cycles again, up to so many rounds. What is left is called modulated: quasi-periodic, chaotic, of a
+    period above half the window, or not settled yet.
 
     Args:
         states: (n, 8) starts at tau = 0.
-        tolerance: largest change of a displacement in a motion that repeats.
+        nearness: as in `observe`.
 
     Returns one Regime per start, in their order.
     """
@@ -76,7 +76,7 @@ def settle(system, states, cycles: int, rounds: int, window: int, tolerance: flo
     waiting, now = list(range(len(states))), np.array(states, dtype=float)
     for _ in range(rounds):
         now = np.array([run.final for run in simulate_many(system, now, cycles)])
-        regimes = [observe(system, state, window, tolerance) for state in now]
+        regimes = [observe(system, state, window, nearness) for state in now]
         for place, regime in zip(waiting, regimes, strict=True):
             found[place] = regime
         again = [k for k, regime in enumerate(regimes) if regime.name == MODULATED]
@@ -86,35 +86,78 @@ def settle(system, states, cycles: int, rounds: int, window: int, tolerance: flo
     return found
 
 
-def observe(system, state, window: int, tolerance: float) -> Regime:
-    """The regime of a settled motion with `state` (8,) at the start of a forcing cycle, over a window of cycles."""
-    times = np.arange(_PER_CYCLE * window + 1) * (system.period / _PER_CYCLE)
-    run = simulate(system, state, window, sample_times=times)
-    name, repeats = classify(run, tolerance)
+def observe(system, state, window: int, nearness: float) -> Regime:
+    """The regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
+
+    Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
+    to the periodic motion itself, if an attracting one is that near; the window is then on that motion. This tells a
+    slow spiral into a 1:1 response from a modulated motion long before the spiral ends.
+    """
+    run = _window(system, state, window)
+    if len(run.events) and not _idle(run):
+        repeats = repeats_after(run.samples[:, :4], _PER_CYCLE, nearness)
+        cycle = None if repeats is None else attracting_cycle(system, run.final, repeats, reach=10 * nearness)
+        if cycle is None:
+            return Regime(run, MODULATED, None)
+        run = _window(system, cycle, window)
+    name, repeats = classify(run)
     return Regime(run, name, repeats)
 
 
-def classify(run: Run, tolerance: float) -> tuple[str, int | None]:
-    """Name of the regime and number of cycles after which it repeats (None: it does not), from a window.
+def attracting_cycle(system, state, cycles: int, reach: float) -> np.ndarray | None:
+    """State (8,) on the attracting periodic motion of so many cycles that Newton's method finds near a state.
+
+    None if there is none within `reach`, or one with a multiplier on or outside the unit circle.
+    """
+    x = np.array(state)
+    for _ in range(_NEWTON):
+        if max(abs(x[0] - x[1]), abs(x[2] - x[3])) > 1:
+            return None
+        run = simulate(system, x, cycles)
+        jacobian = run.jacobian
+        try:
+            step = np.linalg.solve(np.eye(8) - jacobian, run.final - x)
+        except np.linalg.LinAlgError:
+            return None
+        x = x + step
+        if not np.abs(x - state).max() < reach:
+            return None
+        if np.abs(step).max() < _SETTLED:
+            return x if np.abs(np.linalg.eigvals(jacobian)).max() < 1 else None
+    return None
+
+
+def classify(run: Run) -> tuple[str, int | None]:
+    """Name of a settled regime and number of cycles after which it repeats (None: it does not), from a window.
 
     run: samples every half period, both ends included.
 
-    A module is idle if nothing happens to its ball in the window. 1:1 responses repeat every cycle with one impact at
-    each wall of each module; their symmetry is that of state to minus state, half a period later.
+    A ball is idle if it is at rest throughout: one that drifts slowly will meet a wall. 1:1 responses repeat every
+    cycle with one impact at each wall of each module; their symmetry is that of state to minus state, half a period
+    later.
     """
-    active = {module: (run.events["module"] == module).any() for module in (1, 2)}
     displacements = run.samples[:, :4]
-    repeats = repeats_after(displacements, _PER_CYCLE, tolerance)
-    if not any(active.values()):
+    repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
+    if not len(run.events):
         return NO_IMPACTS, repeats
-    if not all(active.values()):
+    if _idle(run):
         return IDLE, repeats
     if repeats is None:
         return MODULATED, None
     if repeats > 1 or not _two_impacts(run):
         return OTHER, repeats
-    mirrored = mirror_distance(displacements, _PER_CYCLE) <= _MIRRORED * tolerance
+    mirrored = mirror_distance(displacements, _PER_CYCLE) <= _MIRRORED
     return (SYMMETRIC if mirrored else ASYMMETRIC), repeats
+
+
+def _window(system, state, cycles):
+    times = np.arange(_PER_CYCLE * cycles + 1) * (system.period / _PER_CYCLE)
+    return simulate(system, state, cycles, sample_times=times)
+
+
+def _idle(run):
+    """Whether one of the balls is at rest at all samples."""
+    return not run.samples[:, 5].any() or not run.samples[:, 7].any()
 
 
 def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:

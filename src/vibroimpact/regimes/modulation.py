@@ -58,9 +58,8 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
 def measures(system, state, cycles: int, per_cycle: int = 24) -> dict[tuple[str, int], float]:
     """What a modulated motion is like, by (quantity, module), over so many cycles from a state at a cycle's start.
 
-    modulation depth: of the box amplitudes cycle by cycle. modulation period [cycles]: mean distance of swells.
-    impacts per cycle; sticks per 1000 cycles. resonant share: part of the time within bursts (see `bursts`).
-    burst length [cycles]: mean. A quantity that a motion does not have (no swells, no bursts) is nan.
+    modulation depth: of the box amplitudes cycle by cycle. impacts per cycle; sticks per 1000 cycles. resonant share:
+    part of the time within bursts (see `bursts`). burst length [cycles]: mean, nan if there are none.
     """
     times = np.arange(cycles * per_cycle + 1) * (system.period / per_cycle)
     run = simulate(system, state, cycles, sample_times=times)
@@ -70,10 +69,8 @@ def measures(system, state, cycles: int, per_cycle: int = 24) -> dict[tuple[str,
         impacts, sticks = mine[mine["kind"] == IMPACT], mine[mine["kind"] == STICK]
         amplitudes = cycle_amplitudes(run.samples[:, 2 * module - 2], per_cycle)
         lengths = np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
-        gaps = np.diff(swells(amplitudes))
         found |= {
             ("modulation depth", module): modulation_depth(amplitudes),
-            ("modulation period", module): float(gaps.mean()) if len(gaps) else np.nan,
             ("impacts per cycle", module): len(impacts) / cycles,
             ("sticks per 1000 cycles", module): 1000 * len(sticks) / cycles,
             ("resonant share", module): float(lengths.sum() / cycles),

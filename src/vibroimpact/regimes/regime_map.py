@@ -39,9 +39,9 @@ def tile(f10_range, f20_range, points: int, tile: int, tiles: int) -> np.ndarray
     return np.stack([f10.ravel(), f20.ravel()], axis=1)[tile::tiles]
 
 
-def cell(system, starts, cycles: int, rounds: int, window: int, tolerance: float) -> Cell:
+def cell(system, starts, cycles: int, rounds: int, window: int, nearness: float) -> Cell:
     """Simulate from every start, shape (n, 8), rest first, and ask the theory; see `settle` for the numbers."""
-    regimes = [regime.name for regime in settle(system, starts, cycles, rounds, window, tolerance)]
+    regimes = [regime.name for regime in settle(system, starts, cycles, rounds, window, nearness)]
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return Cell(
         f10_hat=system.f10_hat,

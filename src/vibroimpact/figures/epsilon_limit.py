@@ -1,0 +1,110 @@
+"""Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, LEVEL, letter_panel, new_figure, styled
+from vibroimpact.figures.tables import curve, join, select
+from vibroimpact.regimes.epsilon_limit import compare, order
+from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.labels import labels
+
+PANELS = {
+    "distance": "distance of fixed point and orbit",
+    "slow": r"largest error of slow $\log\mu\,/\,(2\pi\varepsilon/\Omega)$",
+    "fast": r"largest error of fast $\mu$",
+}
+MARKERS = "osD^vP*X"
+
+
+def compute(systems: dict, epsilon, fit_below: float, mixed: dict) -> dict:
+    """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
+
+    Args:
+        systems: case -> system. epsilon: values, descending.
+        fit_below: the orders are fitted where epsilon is below this.
+        mixed: `case` and `label` of the point whose multipliers are shown one by one and no order is fitted to.
+
+    Returns "csv": columns panel (one of PANELS or "mixed"), series ("case, label"; in "mixed" "exact", "slow flow",
+    "impact map" with the number of the multiplier), epsilon, error or rate; and "orders": columns case, label, panel,
+    order, uncertainty.
+    """
+    curves, orders = [], []
+    for case, system in systems.items():
+        points = fixed_points(system)
+        for label, point in sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]):
+            found = [compare(system.with_(epsilon=e), point) for e in epsilon]
+            if {"case": case, "label": label} == mixed:
+                curves += _mixed(f"{case}, {label}", epsilon, found)
+                continue
+            for panel, errors in zip(PANELS, _errors(found), strict=True):
+                curves.append(curve(panel, f"{case}, {label}", epsilon=epsilon, error=errors))
+                small = np.asarray(epsilon) < fit_below
+                slope, uncertainty = order(np.asarray(epsilon)[small], errors[small])
+                named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
+                orders.append({"case": case, "label": label, **named})
+    return {"csv": join(curves), "orders": pd.DataFrame(orders)}
+
+
+def _errors(found):
+    distance = np.array([c.distance for c in found])
+    slow = np.array([np.abs(c.rates - c.predicted)[:4].max() for c in found])
+    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found])
+    return distance, slow, fast
+
+
+def _mixed(name, epsilon, found):
+    for k in range(8):
+        group = "slow flow" if k < 4 else "impact map"
+        yield curve("mixed", f"exact {k}", label=name, epsilon=epsilon, rate=[abs(c.rates[k]) for c in found])
+        yield curve("mixed", f"{group} {k}", label=name, epsilon=epsilon, rate=[abs(c.predicted[k]) for c in found])
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: three errors with a line of slope 1, and the mixed multipliers one by one."""
+    table, orders = tables["csv"], tables["orders"]
+    figure = new_figure(DOUBLE_COLUMN, 138.0)
+    grid = figure.subplots(2, 2, sharex=True)
+    for axes, (panel, name), letter in zip(grid.flat, PANELS.items(), "abc", strict=False):
+        rows = table[table["panel"] == panel]
+        for marker, (series, line) in zip(MARKERS, rows.groupby("series", sort=False), strict=False):
+            _dots(axes, line["epsilon"], line["error"], marker, series)
+        ends = np.array([rows["epsilon"].min(), rows["epsilon"].max()])
+        line = rows["error"].min() * 0.3 * ends / ends[0]
+        axes.plot(ends, line, color=BLACK, linewidth=0.8)
+        axes.annotate("slope 1", (ends[0], line[0]), (30, 4), textcoords="offset points", fontsize=8.5)
+        fitted = orders[orders["panel"] == panel]["order"]
+        axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
+        axes.set(xscale="log", yscale="log", ylabel=name)
+        letter_panel(axes, letter)
+    mixed = table[table["panel"] == "mixed"]
+    _draw_mixed(grid[1, 1], mixed)
+    letter_panel(grid[1, 1], "d")
+    grid[1, 1].set_title(f"{mixed['label'].iloc[0]}: slow and fast mix", loc="right", pad=3)
+    for axes in grid[-1]:
+        axes.set_xlabel(r"$\varepsilon$")
+    handles, names = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=6, fontsize=8.5)
+    return figure
+
+
+def _dots(axes, x, y, marker, label):
+    style = {"markerfacecolor": "white", "markeredgewidth": 0.8, "linewidth": 0.5, "markersize": 4}
+    axes.plot(x, y, marker=marker, color=BLACK, label=label, **style)
+
+
+def _draw_mixed(axes, rows):
+    names = {"slow flow": {"color": BLACK, "linewidth": 0.9}, "impact map": LEVEL}
+    for k in range(8):
+        for group, style in names.items():
+            line = select(rows, "mixed", f"{group} {k}")
+            axes.plot(line["epsilon"], line["rate"], **style)
+        line = select(rows, "mixed", f"exact {k}")
+        axes.plot(line["epsilon"], line["rate"], "o", color="white", markeredgecolor=BLACK, markersize=3.6, zorder=3)
+    for group, style in names.items():
+        axes.plot([], [], label=group, **style)
+    axes.plot([], [], "o", color="white", markeredgecolor=BLACK, markersize=3.6, label="exact")
+    axes.set(xscale="log", yscale="log", ylabel=r"$|\log\mu|\,/\,(2\pi\varepsilon/\Omega)$")
+    axes.legend(fontsize=8.5)

@@ -1,0 +1,106 @@
+"""Companion: modulated and other regimes in numbers, with uncertainties over starts; burst lengths and exponents."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.tables import curve, join, select
+from vibroimpact.regimes.classification import MODULATED, settle
+from vibroimpact.regimes.classification import starts as spread_starts
+from vibroimpact.regimes.lyapunov import largest_exponent
+from vibroimpact.regimes.modulation import burst_lengths, mean_and_error, measures
+
+EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
+LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
+
+
+def compute(systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, observation: dict) -> dict:
+    """Measures of every regime that starts end in, case by case; the start from rest is kept apart.
+
+    Args:
+        systems: case -> system. starts: number of spread starts beside the one from rest.
+        cycles: window of the measures. blocks, block: of the Lyapunov exponent, so many blocks of so many cycles.
+        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
+
+    Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
+    uncertainty (standard error over starts; binomial for the share of starts; blank for one start); and "csv", what is
+    drawn: burst lengths [cycles] and the part of bursts longer than that, and the exponent of each start, per period.
+    """
+    tables = [_case(case, system, starts, seed, cycles, blocks, block, observation) for case, system in systems.items()]
+    rows, curves = zip(*tables, strict=True)
+    return {"measures": pd.concat(rows, ignore_index=True), "csv": join(part for parts in curves for part in parts)}
+
+
+def _case(case, system, starts, seed, cycles, blocks, block, observation):
+    regimes = settle(system, spread_starts(starts + 1, seed), **observation)
+    groups = {("rest", regimes[0].name): regimes[:1]}
+    for regime in regimes[1:]:
+        groups.setdefault(("spread", regime.name), []).append(regime)
+    rows, curves = [], []
+    for (start, name), members in groups.items():
+        states = [regime.run.final for regime in members]
+        exponents = [largest_exponent(system, state, blocks, block) for state in states]
+        found = [
+            measures(system, state, cycles) | {(EXPONENT, 0): e} for state, e in zip(states, exponents, strict=True)
+        ]
+        key = {"case": case, "start": start, "regime": name}
+        if start == "spread":
+            share = len(members) / starts
+            error = np.sqrt(share * (1 - share) / starts)
+            rows.append({**key, "starts": starts, "quantity": SHARE, "module": 0, "mean": share, "uncertainty": error})
+        for quantity, module in found[0]:
+            mean, error, count = mean_and_error([values[quantity, module] for values in found])
+            named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
+            rows.append({**key, "starts": count, **named})
+        curves.append(curve("exponents", case, label=f"{start}, {name}", exponent=exponents))
+        if (start, name) == ("spread", MODULATED):
+            curves += [_survival(case, system, states, cycles, module) for module in (1, 2)]
+    return pd.DataFrame(rows), curves
+
+
+def _survival(case, system, states, cycles, module):
+    """Part of the bursts that are at least so long, over all starts."""
+    lengths = np.sort(np.concatenate([burst_lengths(system, state, cycles, module) for state in states]))
+    longer = 1 - np.arange(len(lengths)) / len(lengths)
+    return curve("bursts", f"{case}, module {module}", length=lengths, longer=longer)
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the table of `compute`: how long bursts last, for each case with bursts, and the exponents of all starts."""
+    table = tables["csv"]
+    exponents = table[table["panel"] == "exponents"]
+    cases = list(dict.fromkeys(exponents["series"]))
+    modulated = [case for case in cases if len(select(table, "bursts", f"{case}, module 1"))]
+    figure = new_figure(DOUBLE_COLUMN, 58.0)
+    grid = figure.subplots(1, len(modulated) + 1, squeeze=False)[0]
+    for axes, case, letter in zip(grid, modulated, "abcdefg", strict=False):
+        for module, style in LINES.items():
+            bursts = select(table, "bursts", f"{case}, module {module}")
+            axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
+        axes.set(xscale="log", yscale="log", xlabel="burst length, cycles")
+        axes.set_xlim(1.0)
+        axes.legend(fontsize=8.5)
+        letter_panel(axes, letter)
+        axes.set_title(case, loc="right", pad=3)
+    grid[0].set_ylabel("part of bursts at least so long")
+    _exponents(grid[-1], exponents, cases)
+    letter_panel(grid[-1], "abcdefgh"[len(modulated)])
+    return figure
+
+
+def _exponents(axes, exponents, cases):
+    for place, case in enumerate(cases):
+        rows = exponents[exponents["series"] == case]
+        rest = rows["label"].str.startswith("rest")
+        x = place + np.linspace(-0.25, 0.25, len(rows))
+        axes.plot(x[~rest], rows["exponent"][~rest], "o", color=GREY, markersize=3, markeredgewidth=0)
+        axes.plot(place - 0.33, rows["exponent"][rest].iloc[0], "D", color="white", markeredgecolor=BLACK, markersize=4)
+    axes.axhline(0, color=BLACK, linewidth=0.6)
+    axes.plot([], [], "o", color=GREY, markersize=3, markeredgewidth=0, label="spread starts")
+    axes.plot([], [], "D", color="white", markeredgecolor=BLACK, markersize=4, label="from rest")
+    axes.set(xticks=range(len(cases)), xticklabels=cases, xlim=(-0.5, len(cases) - 0.5))
+    axes.set_ylabel(r"$\lambda_{\max}$ per forcing period")
+    axes.legend(fontsize=8.5, handlelength=1.0)
+    axes.tick_params(axis="x", length=0)

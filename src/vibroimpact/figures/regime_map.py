@@ -1,0 +1,119 @@
+"""Companion: which regimes starts end in over both forcing amplitudes, with the theory's predictions drawn over it."""
+
+import dataclasses
+
+import numpy as np
+import pandas as pd
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, REGIMES
+from vibroimpact.regimes.classification import starts as spread_starts
+from vibroimpact.regimes.regime_map import cell, tile
+
+LINES = {
+    "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 0.9},
+    "stable points": {"linestyles": "solid", "linewidths": 1.2},
+}
+_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 4.0, "markeredgewidth": 0.9}
+DARKEST = 1.7
+"""Share that would be black: all starts are a grey on which black lines are seen."""
+TITLE = {name: f"{name} (from rest)" for name in (IDLE, NO_IMPACTS)}
+
+
+def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_range, starts, seed, observation):
+    """One tile of the map (numbered from 0): a row per cell.
+
+    Args:
+        points: cells along each axis. starts, seed: see `regimes.classification.starts`.
+        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
+
+    Returns columns f10_hat, f20_hat, a share per regime, from_rest, fixed_points, stable_points.
+    """
+    states = spread_starts(starts, seed)
+    cells = [
+        cell(system.with_(f10_hat=f10, f20_hat=f20), states, **observation)
+        for f10, f20 in tile(f10_range, f20_range, points, number, tiles)
+    ]
+    rows = [dataclasses.asdict(c) for c in cells]
+    return pd.DataFrame({**row, **row.pop("shares")} for row in rows)
+
+
+def compute(tiles: list[pd.DataFrame], cases: dict) -> dict:
+    """The map from its tiles, in the order of f10_hat, then f20_hat.
+
+    Args:
+        cases: name -> (f10_hat, f20_hat) of points to be marked.
+
+    Returns "csv": columns panel, series ("cell" or "case"), label (regime from rest or name of the case), f10_hat,
+    f20_hat, the share of each regime, fixed_points, stable_points.
+
+    Raises:
+        ValueError: the tiles do not make up a full square of cells.
+    """
+    table = pd.concat(tiles).sort_values(["f10_hat", "f20_hat"], ignore_index=True)
+    full = table["f10_hat"].nunique() * table["f20_hat"].nunique()
+    if len(table) != full or table.duplicated(["f10_hat", "f20_hat"]).any():
+        raise ValueError(f"tiles: {len(table)} cells do not make up a full map of {full}")
+    table = table.rename(columns={"from_rest": "label"})
+    marks = pd.DataFrame({"label": name, "f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in cases.items())
+    table = pd.concat([table.assign(series="cell"), marks.assign(series="case")], ignore_index=True)
+    first = ["panel", "series", "label", "f10_hat", "f20_hat"]
+    table = table.assign(panel="map")
+    return {"csv": table[first + [name for name in table if name not in first]]}
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the table of `compute`: a panel per regime, the share of starts in grey; lines where theory changes."""
+    table = tables["csv"]
+    cells, cases = (table[table["series"] == name] for name in ("cell", "case"))
+    f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
+    figure = new_figure(DOUBLE_COLUMN, 120.0)
+    grid = figure.subplots(2, 3, sharex=True, sharey=True)
+    for axes, regime, letter in zip(grid.flat, REGIMES, "abcdef", strict=True):
+        mesh = axes.pcolormesh(f10, f20, _square(cells, regime), cmap="Greys", vmin=0, vmax=DARKEST, rasterized=True)
+        for column, style in LINES.items():
+            borders = _borders(f10, f20, _square(cells, column.replace(" ", "_")))
+            axes.add_collection(LineCollection(borders, colors=BLACK, **style))
+        axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
+        letter_panel(axes, letter)
+        axes.set_title(TITLE.get(regime, regime), loc="right", pad=3)
+        axes.set(aspect="equal")
+    for axes in grid[-1]:
+        axes.set_xlabel(r"$\hat f_{10}$")
+    for axes in grid[:, 0]:
+        axes.set_ylabel(r"$\hat f_{20}$")
+    bar = figure.colorbar(
+        mesh, ax=grid, label="share of starts", shrink=0.6, pad=0.02, boundaries=np.linspace(0, 1, 101)
+    )
+    bar.set_ticks(np.linspace(0, 1, 6))
+    figure.legend(handles=_legend(), loc="outside lower center", ncols=3, fontsize=8.5)
+    return figure
+
+
+def _square(cells, column):
+    """Values on the grid, f20_hat along the first axis."""
+    return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)
+
+
+def _borders(x, y, counts):
+    """Edges (m, 2, 2) between neighbouring cells with different counts (len(y), len(x))."""
+    h, v = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
+    upright = [[(x[j] + h, y[i] - v), (x[j] + h, y[i] + v)] for i, j in np.argwhere(np.diff(counts, axis=1))]
+    level = [[(x[j] - h, y[i] + v), (x[j] + h, y[i] + v)] for i, j in np.argwhere(np.diff(counts, axis=0))]
+    return np.array(upright + level).reshape(-1, 2, 2)
+
+
+def _legend():
+    lines = {
+        "number of fixed points changes": LINES["fixed points"],
+        "number of stable fixed points changes": LINES["stable points"],
+    }
+    made = [
+        Line2D([], [], color=BLACK, linestyle=style["linestyles"], linewidth=style["linewidths"], label=label)
+        for label, style in lines.items()
+    ]
+    return [*made, Line2D([], [], label="cases", **_CASES)]
