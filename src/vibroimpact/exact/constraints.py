@@ -68,19 +68,22 @@ def gap_rounding(boxes, balls, i):
 
 @compiled
 def _time_of(g, v, higher, bound, margin, horizon):
-    """(time the constraint certainly holds or time of its crossing, whether it is a crossing, g within rounding)."""
+    """(time the constraint certainly holds or time of its crossing, whether it is a crossing, g within rounding).
+
+    Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
+    """
     a, j, s = higher
     if v > 0.0:
         t = crossing_time(g, v, higher, bound, horizon)
         if t < math.inf:
             return t, True, False
-        if g <= margin:
+    if g <= 2.0 * margin:
+        if v > 0.0 or (a >= 0.0 and v * v <= 2.0 * a * margin):
             return 0.0, True, True
-    # just released or rebounded within rounding: the gap itself says nothing, its rate does
-    start = max(g - margin, 0.0)
-    if start == 0.0 and v < 0.0:
-        return safe_time((-v, -a / 2, -j / 6, -s / 24, -bound / 120, 0.0), horizon), False, False
-    return safe_time((start, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
+        if v < 0.0:
+            return safe_time((-v, -a / 2, -j / 6, -s / 24, -bound / 120, 0.0), horizon), False, False
+        return safe_time((-a / 2, -j / 6, -s / 24, -bound / 120, 0.0, 0.0), horizon), False, False
+    return safe_time((g - margin, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
 
 
 @compiled

@@ -41,6 +41,7 @@ TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
 LOOKAHEAD = 2.0  # in units of the flow
 NEGLIGIBLE = 1e-18
 MOST_AT_ONCE = 6  # events of one instant: an impact, the end of its chatter and a release in each module
+STUCK_IN_TIME = -2
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 
 _impact = compiled(after_impact)
@@ -209,7 +210,8 @@ def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rem
             continue
         d = derivatives(q, mode_of(walls), boxes, sine, cosine)
         if walls[i] != 0:
-            if i == pulled or _push(q, d, boxes, i, walls[i], True) < 0.0:
+            falling = i == pulled and walls[i] * d[2 + i] < 0.0
+            if falling or _push(q, d, boxes, i, walls[i], True) < 0.0:
                 touching, walls = _pair(touching, i, walls[i]), _pair(walls, i, 0)
                 count = _record(events, count, elapsed, i, touching[i], RELEASE, boxes, balls)
         elif _push(q, d, boxes, i, touching[i], False) > 0.0:
@@ -288,9 +290,11 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
                 step, due, doubt = time, (i if crossing else -1), undecided
         clear = (time if due == 0 else first) >= step + short
         if due >= 0 and abs(step) <= short:
-            ledger[UNDECIDED] += doubt and walls[due] != 0
+            ledger[UNDECIDED] += doubt
             return _meet(t, step, due, balls, walls, now, d, speeds, ledger)
         aimed = due if due >= 0 and clear and walls[due] == 0 and t + step + short < reach else -1
+        if t + step == t:
+            return t, STUCK_IN_TIME, now, there
         before, t = t, min(t + step, reach)
         x1, x2, v1, v2, s, c = advance(flow, mode, boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t)
         now = (x1, x2, v1, v2)
@@ -345,7 +349,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
             if abs(boxes[i] - balls[i]) > 1.0 + 16.0 * gap_rounding(boxes, balls, i):
                 return boxes, balls, events[:count], PENETRATED, ledger
         stalled = 0 if t > 0.0 else stalled + 1
-        if stalled > PATIENCE:
+        if stalled > PATIENCE or due == STUCK_IN_TIME:
             return boxes, balls, events[:count], STALLED, ledger
         if due < 0 and t >= remaining:
             revolutions, phase, tail = cycles, start_phase, 0.0

@@ -31,6 +31,7 @@ class Run:
     """
 
     system: System
+    start: np.ndarray
     tau0: float
     cycles: int
     events: np.ndarray
@@ -43,7 +44,7 @@ class Run:
     def _variation(self):
         flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
         duration = self.cycles * self.system.period
-        return propagate(flow, self._rows, _phase(self.system, self.tau0), duration, limit)
+        return propagate(flow, self.start, self._rows, _phase(self.system, self.tau0), duration, limit)
 
     @property
     def jacobian(self) -> np.ndarray:
@@ -135,7 +136,7 @@ def _run(system, state, cycles, tau0, times):
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
-    return Run(system, tau0, cycles, _table(rows, tau0), samples, final, rows, ledger)
+    return Run(system, state, tau0, cycles, _table(rows, tau0), samples, final, rows, ledger)
 
 
 def _phase(system, tau):

@@ -112,15 +112,16 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 
 @compiled
-def propagate(flow, events, start_phase, duration, limit):
-    """Carry perturbations along a run, given as events (m, 12) of the kernel.
+def propagate(flow, start, events, start_phase, duration, limit):
+    """Carry perturbations along a run, given by its start (8,) in public order and the events (m, 12) of the kernel.
 
     Returns the Jacobian (8, 8) of the final state by the first one; the covariance (8, 8) that unit rounding errors in
-    the state after every event leave at the end, infinite past the horizon; and that horizon: the time at which the
+    the start and after every event leave at the end, infinite past the horizon; and that horizon: the time at which the
     square root of the covariance's trace first exceeds the limit (inf if never). Matrices are in [boxes, balls].
     """
     q = flow.coefficients
     jacobian, covariance = np.eye(8), np.zeros((8, 8))
+    _add_rounding(covariance, start)
     matrix = np.empty((8, 8))
     walls, now, horizon = (0, 0), 0.0, math.inf
     for n in range(len(events) + 1):
@@ -164,12 +165,18 @@ def propagate(flow, events, start_phase, duration, limit):
         if horizon < math.inf:
             continue
         covariance = matrix @ covariance @ matrix.T
-        for k in range(8):
-            covariance[k, k] += (1.0 + abs(after[k])) ** 2
+        _add_rounding(covariance, row[4:])
         if math.sqrt(np.trace(covariance)) > limit:
             horizon = now
             covariance[:] = math.inf
     return jacobian, covariance, horizon
+
+
+@compiled
+def _add_rounding(covariance, state):
+    """Add a unit rounding error of a state (8,) in public order to a covariance in [boxes, balls]."""
+    for k in range(8):
+        covariance[k // 2 + 4 * (k % 2), k // 2 + 4 * (k % 2)] += (1.0 + abs(state[k])) ** 2
 
 
 @compiled

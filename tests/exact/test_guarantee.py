@@ -1,0 +1,114 @@
+"""No impact is missed: adversarial starts against the arbitrary-precision reference, impact by impact."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vibroimpact as vi
+from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.exact.simulation import IMPACT
+
+CYCLES = 5
+SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete
+
+
+def decimals(low, high):
+    """Numbers with four decimals, the same for float64 and for exact rationals."""
+    return st.integers(round(low * 10**4), round(high * 10**4)).map(lambda n: n / 10**4)
+
+
+systems = st.builds(
+    vi.System,
+    epsilon=decimals(0.01, 1),
+    kappa=decimals(0.05, 0.95),
+    alpha12_hat=decimals(0, 3),
+    gamma1_hat=decimals(0.01, 1),
+    gamma2_hat=decimals(0.01, 1),
+    gamma12_hat=decimals(0, 2),
+    sigma20_hat=decimals(-0.5, 2),
+    sigma_e_hat=decimals(-0.5, 2),
+    f10_hat=decimals(-2, 2),
+    f20_hat=decimals(-2, 2),
+)
+
+
+def story(events):
+    """(tau, module, kind, wall) of all events but the slowest impacts, in the order of time."""
+    rows = []
+    for event in events:
+        box = 2 + 2 * int(event["module"])
+        if event["kind"] != IMPACT or abs(event["state"][box] - event["state"][box + 1]) > SLOW:
+            rows.append((float(event["tau"]), int(event["module"]), int(event["kind"]), int(event["wall"])))
+    return sorted(rows)
+
+
+def assert_same_motion(system, start):
+    run, truth = vi.simulate(system, start, CYCLES), reference_run(system, start, CYCLES, 40)
+    certificate = run.certificate
+    got, expected = story(run.events), story(truth.events)
+    assert [row[1:] for row in got] == [row[1:] for row in expected]
+    error = np.abs(run.final - truth.final).max()
+    # the estimate is one standard deviation of rounding; a run is to stay within ten
+    assert error <= 10 * certificate.error or certificate.undecided
+    times = np.array([[a[0], b[0]] for a, b in zip(got, expected, strict=True)]).reshape(-1, 2)
+    assert np.abs(times[:, 0] - times[:, 1]).max(initial=0.0) <= 1e-6
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(
+    system=systems,
+    boxes=st.tuples(*[decimals(-1, 1)] * 4),
+    gaps=st.tuples(decimals(-0.99, 0.99), decimals(-0.99, 0.99)),
+    speeds=st.tuples(decimals(-2, 2), decimals(-2, 2)),
+)
+def test_random_systems(system, boxes, gaps, speeds):
+    x1, x2, v1, v2 = boxes
+    start = [x1, round(x1 - gaps[0], 4), x2, round(x2 - gaps[1], 4), v1, speeds[0], v2, speeds[1]]
+    assert_same_motion(system, start)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(
+    system=systems,
+    walls=st.tuples(st.sampled_from([1, -1]), st.sampled_from([1, -1])),
+    clearance=st.tuples(*[st.sampled_from([1e-1, 1e-3, 1e-5, 1e-7])] * 2),
+    boxes=st.tuples(*[decimals(-1, 1)] * 4),
+    slip=st.tuples(*[st.sampled_from([0.0, 1e-4, -1e-4, 1e-2, -1e-2])] * 2),
+)
+def test_starts_next_to_a_wall_almost_at_rest(system, walls, clearance, boxes, slip):
+    """Where grazing, chatter, sticking and release happen at once."""
+    x1, x2, v1, v2 = boxes
+    y = [round(x - w * (1 - c), 12) for x, w, c in zip((x1, x2), walls, clearance, strict=True)]
+    u = [round(v - s, 8) for v, s in zip((v1, v2), slip, strict=True)]
+    assert_same_motion(system, [x1, y[0], x2, y[1], v1, u[0], v2, u[1]])
+
+
+@pytest.mark.parametrize("exponent", range(2, 15))
+@pytest.mark.parametrize("side", [1, -1], ids=["clears", "pierces"])
+@pytest.mark.parametrize("module", [1, 2])
+def test_grazing_is_told_from_missing_down_to_rounding(chapter, exponent, side, module):
+    """An undamped unforced box swings to 1/2 exactly; its ball rests at -1/2 + delta and is missed by delta."""
+    system = chapter(
+        0.0, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=-6.0
+    )
+    delta = side * 10.0**-exponent
+    start = np.zeros(8)
+    start[2 * module - 1], start[2 * module + 2] = -0.5 + delta, 0.5
+    run = vi.simulate(system, start, 1)  # the period is 2 pi / 0.4: the box turns at pi / 2 and beyond the ball's reach
+    first = run.events[run.events["tau"] < 3.0]
+    assert len(first) == (0 if side > 0 else 1)
+    # a miss is traced back along the flight, a depth is that of the osculating parabola
+    depth, accuracy = (run.certificate.nearest_miss, 1e-3) if side > 0 else (run.certificate.shallowest_hit, 2e-2)
+    assert depth == pytest.approx(abs(delta), rel=accuracy, abs=3e-16)
+    assert run.certificate.undecided == 0
+
+
+def test_below_rounding_a_graze_is_reported_undecided(chapter):
+    system = chapter(
+        0.0, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=-6.0
+    )
+    for delta in (0.0, 1e-16, -1e-16, 4e-16, -4e-16):
+        run = vi.simulate(system, [0.0, -0.5 + delta, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0], 1)
+        assert run.certificate.undecided >= 1
+        assert not run.certificate.decided
