@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 import yaml
+
 from adapter import replacing
 from environment import settle
-from scenes import scene_of
-
 from vibroimpact.checks.config import case_parameters
 from vibroimpact.checks.sources import Sources
 
@@ -16,6 +15,7 @@ SECONDS = 0.5
 
 
 def main(config: dict, output) -> None:
+    from scenes import scene_of
     from vibroimpact.accuracy.benchmark import judgements, measure, unavoidable_error
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.rivals import METHODS

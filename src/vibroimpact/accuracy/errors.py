@@ -60,7 +60,7 @@ def _near(times, others, window) -> np.ndarray:
 
 
 def _align(expected, found, window):
-    """Pair two ascending sequences in order: (largest distance in a pair, expected without pair, found without pair)."""
+    """Pair two ascending sequences in order: (largest distance in a pair, expected and found without a pair)."""
     apart, lost, extra = 0.0, 0, []
     i = j = 0
     while i < len(expected) and j < len(found):

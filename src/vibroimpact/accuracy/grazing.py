@@ -18,7 +18,8 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     would go beyond the wall if there were none. Rounding to float64 changes it by up to 1e-16.
 
     Args:
-        boxes: X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its box, with its velocity.
+        boxes: X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its
+            box, with its velocity.
         ball_velocity: of ball 1.
         guess: tau near which W_1 is at its maximum.
     """

@@ -35,7 +35,7 @@ class Contacts:
                 self._rest(tau, s, i, wall)
 
     def resolve(self, tau, s, due):
-        """Change the state (8,) in place at an event of the modules `due`: a wall is met, or a contact force vanishes."""
+        """Change the state (8,) in place at an event of the modules `due`: a wall is met, or a force vanishes."""
         for i in range(2):
             gap, speed = _relative(s, i)
             wall = 1 if gap > 0 else -1

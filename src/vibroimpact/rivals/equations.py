@@ -1,4 +1,4 @@
-"""(10.2) between impacts as the general-purpose integrators get it: one compiled right-hand side in the public order."""
+"""(10.2) between impacts as the general-purpose integrators get it: a compiled right-hand side in the public order."""
 
 import math
 
@@ -10,7 +10,7 @@ from vibroimpact.system.matrices import damping_matrix, masses, rate_matrix, sti
 BOXES, BALLS = (0, 2), (1, 3)
 """Places of X_i and Y_i in the state; their velocities are 4 further on."""
 
-NAMES = "k11 k12 k22 c11 c12 c22 f1 f2 omega epsilon kappa".split()
+NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
 
 def coefficients(system) -> np.ndarray:

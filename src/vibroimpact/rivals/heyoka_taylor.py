@@ -13,7 +13,7 @@ from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.equations import BALLS, BOXES, NAMES, coefficients
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
 
-SLOWEST = 1e-5
+SLOWEST = 1e-6
 """A slower rebound is not followed: after an event heyoka is blind to the same event for a while, and a shorter hop
 would end unseen. What this leaves out, epsilon times its third power, is below rounding."""
 

@@ -23,7 +23,6 @@ class Penalty(Method):
     name, family, knob, order = "penalty, LSODA", "compliant contact", "contact duration", 1
     ladder = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
     careful = 1e-4
-    limit = 20_000
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
         limit = limit or self.limit

@@ -96,6 +96,6 @@ def integrators() -> list[SolveIvp]:
     return [
         SolveIvp("RK45", (*coarse, *fine), careful=1e-9, order=5),
         SolveIvp("DOP853", (*coarse[1:], *fine, 1e-12, 3e-13, 3e-14), careful=1e-12, order=8),
-        SolveIvp("Radau", (*coarse, 1e-8, 1e-9), careful=1e-8, order=5, needs_jacobian=True),
+        SolveIvp("Radau", (*coarse, 1e-8), careful=1e-8, order=5, needs_jacobian=True),
         SolveIvp("LSODA", (*coarse, *fine), careful=1e-10),
     ]

@@ -1,0 +1,83 @@
+"""Hazards: the scenes are what their names say, and the verdicts follow from what was measured."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.accuracy import hazards as table
+from vibroimpact.accuracy.grazing import grazing_start
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.rivals import METHODS
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Failure, Method, RivalRun
+from vibroimpact.system import System
+
+SYSTEM = System(**table.CHAPTER)
+BOXES, VELOCITY = ("0.4", "-0.3", "0.5", "0.2"), "0.15"
+ENGINE = METHODS[0]
+
+
+@pytest.mark.parametrize("digits", [2, 8, 14])
+def test_grazing_starts_clear_and_hit_as_they_say(digits):
+    clears = grazing_start(SYSTEM, BOXES, VELOCITY, 1.0, f"1e-{digits}")
+    hits = grazing_start(SYSTEM, BOXES, VELOCITY, 1.0, f"-1e-{digits}")
+    times = np.linspace(0.4, 0.9, 400)
+    run = proven_run(SYSTEM, clears, 1, sample_times=times).run
+    gap = 1.0 - (run.samples[:, 0] - run.samples[:, 1])
+    assert not (run.events["module"] == 1).any()
+    assert gap.min() == pytest.approx(10.0**-digits, abs=1e-6)  # the sampling misses the maximum by up to 1e-7
+    first = proven_run(SYSTEM, hits, 1).run.events[0]
+    assert (first["module"], first["wall"], first["kind"]) == (1, 1, 0)
+
+
+def test_a_grazing_start_needs_a_maximum():
+    with pytest.raises(ValueError, match="guess"):
+        grazing_start(SYSTEM, BOXES, VELOCITY, 3.9, "1e-3")
+
+
+@pytest.mark.parametrize("hazard", [h for h in table.hazards() if h.quick], ids=lambda h: f"{h.group}: {h.name}")
+def test_the_engine_is_right_or_says_that_it_cannot_decide(hazard):
+    (row,) = table.judge(hazard, [ENGINE])
+    assert row["verdict"] in (table.RIGHT, table.UNDECIDABLE)
+    if row["verdict"] == table.RIGHT:
+        assert row["error_state"] < 1e-7
+    if hazard.group != "grazing":
+        assert row["verdict"] == table.RIGHT
+
+
+class Scripted(Method):
+    """A method whose result is given beforehand."""
+
+    name, family, knob, ladder, careful = "scripted", "test", "none", (0,), 0
+
+    def __init__(self, result):
+        self._result = result
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        return self._result
+
+
+NO_IMPACTS = np.empty(0, IMPACT)
+HAZARD = table.Hazard("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), (0.0,) * 8, 1)
+SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
+
+
+@pytest.mark.parametrize(
+    ("result", "verdict"),
+    [
+        (RivalRun(np.zeros(8), NO_IMPACTS, 1), table.RIGHT),
+        (RivalRun(np.full(8, 0.02), NO_IMPACTS, 1), table.WRONG),
+        (RivalRun(np.full(8, np.nan), NO_IMPACTS, 1), table.WRONG),
+        (RivalRun(np.zeros(8), SPURIOUS, 1), table.WRONG),
+        (RivalRun(np.full(8, 0.02), NO_IMPACTS, 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
+        (RivalRun(None, NO_IMPACTS, 1, failure=Failure(REFUSED, "no")), table.ERROR),
+        (RivalRun(None, NO_IMPACTS, 1, failure=Failure(UNFINISHED, "long")), table.ENDLESS),
+    ],
+)
+def test_verdicts(result, verdict):
+    (row,) = table.judge(HAZARD, [Scripted(result)])
+    assert row["verdict"] == verdict
+
+
+def test_a_motion_that_has_not_settled_is_no_reference():
+    hazard = table.Hazard("test", "transient", SYSTEM, table.REST, 1000, reference_cycles=3)
+    with pytest.raises(ArithmeticError, match="still changes"):
+        table.reference_of(hazard)

@@ -1,0 +1,139 @@
+"""Errors of impact sequences, fitted orders, and rows of the work-precision chart and the benchmark."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.accuracy import benchmark
+from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.work_precision import Scene, fitted_order, measure
+from vibroimpact.exact.simulation import EVENT
+from vibroimpact.rivals import METHODS
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
+from vibroimpact.system import System
+
+SYSTEM = System(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1.0,
+    gamma1_hat=0.2,
+    gamma2_hat=0.2,
+    gamma12_hat=0.2,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+    f10_hat=1.0,
+    f20_hat=1.0,
+)
+SCENE = Scene("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
+
+
+class Reference:
+    """Impacts at given times of module 1 at wall +1, with given rebound speeds."""
+
+    def __init__(self, times, speeds):
+        self.final = np.zeros(8)
+        self.events = np.zeros(len(times), EVENT)
+        self.events["tau"], self.events["module"], self.events["wall"] = times, 1, 1
+        self.events["state"][:, 4] = speeds
+
+
+def impacts(*times, speed=1.0):
+    return np.array([(t, 1, 1, speed) for t in times], IMPACT)
+
+
+@pytest.mark.parametrize(
+    ("found", "times", "missed", "spurious"),
+    [
+        ((1.0, 2.0, 3.0), 0.0, 0, 0),
+        ((1.01, 2.0, 2.98), 0.02, 0, 0),
+        ((1.0, 3.0), 0.0, 1, 0),
+        ((1.0, 1.5, 2.0, 3.0), 0.0, 0, 1),
+        ((), 0.0, 3, 0),
+        ((1.0, 2.5), 0.0, 2, 1),
+    ],
+)
+def test_impacts_are_paired_in_order(found, times, missed, spurious):
+    errors = compare(RivalRun(np.zeros(8), impacts(*found), 1), Reference((1.0, 2.0, 3.0), 1.0), period=1.0)
+    assert (errors.missed, errors.spurious) == (missed, spurious)
+    assert errors.times == pytest.approx(times)
+
+
+def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
+    reference = Reference((1.0, 1.1, 1.101), (0.5, 5e-4, 5e-5))
+    for found in (impacts(1.0), impacts(1.0, 1.1), impacts(1.0, 1.1, 1.1005, 1.1008)):
+        errors = compare(RivalRun(np.zeros(8), found, 1), reference, period=1.0)
+        assert (errors.missed, errors.spurious) == (0, 0)
+    strict = compare(RivalRun(np.zeros(8), impacts(1.0), 1), reference, period=1.0, faint=0.0)
+    assert strict.missed == 2
+
+
+def test_other_module_or_wall_is_another_impact():
+    found = impacts(1.0)
+    found["wall"] = -1
+    errors = compare(RivalRun(np.zeros(8), found, 1), Reference((1.0,), 1.0), period=1.0)
+    assert (errors.missed, errors.spurious) == (1, 1)
+
+
+def test_order_is_fitted_where_it_is_resolved_only():
+    scales = np.geomspace(1.0, 1e-4, 9)
+    points = [(h, max(1e-2 * h**3, 1e-13)) for h in scales]
+    assert fitted_order(points) == pytest.approx(3.0, abs=0.05)
+    assert fitted_order(points[-3:]) is None
+
+
+class Refusing(Method):
+    name, family, knob, ladder, careful = "refusing", "test", "none", (1, 2), 1
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        return failed(REFUSED, "not today", 3)
+
+
+class Missing(Refusing):
+    name = "missing"
+
+    def available(self):
+        return "not installed"
+
+
+def test_failed_and_missing_methods_keep_their_rows():
+    rows = measure(SCENE, [Refusing(), Missing()], seconds=0.0)
+    assert [(row["method"], row["outcome"], row["reason"]) for row in rows] == [
+        ("refusing", "refused", "not today"),
+        ("refusing", "refused", "not today"),
+        ("missing", "unavailable", "not installed"),
+    ]
+
+
+def test_the_short_form_keeps_the_finest_setting():
+    euler = next(method for method in METHODS if method.name == "Moreau-Jean")
+    settings = [row["setting"] for row in measure(SCENE, [euler], seconds=0.0, short=True)]
+    assert settings == [str(setting) for setting in euler.ladder[::2]]
+    assert settings[-1] == str(euler.ladder[-1])
+
+
+def test_unavoidable_error_is_that_of_the_closed_form():
+    """Without impacts and forces the motion is linear: an undamped, uncoupled box turns, a ball stays."""
+    free = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, alpha12_hat=0.0)
+    x, y = 0.5, 0.25
+    found = benchmark.unavoidable_error(Scene("free", free, (x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 1))
+    turn = free.period
+    final = np.abs([x * np.cos(turn), y, x * np.sin(turn)])
+    start = np.array([x * abs(np.cos(turn)), y, x * abs(np.sin(turn))])
+    assert found == pytest.approx(2.0**-53 * np.max(start + final), rel=1e-6)
+
+
+def test_judgements_take_the_most_accurate_heyoka_and_the_fastest_sufficient_dop853():
+    rows = [
+        row("this engine", 0.5, 1e-15, 1.0),
+        row("heyoka", 2.0, 1e-5, 4.0),
+        row("heyoka", 5.0, 1e-14, 10.0),
+        row("DOP853", 400.0, 1e-7, 800.0),
+        row("DOP853", 600.0, 1e-9, 1200.0),
+        row("DOP853", 900.0, 1e-12, 1800.0),
+    ]
+    judged = benchmark.judgements(rows, unavoidable=1e-16)
+    assert [entry["measured"] for entry in judged] == pytest.approx([0.5, 10.0, 1200.0, 10.0])
+    assert [bool(entry["met"]) for entry in judged] == [True, True, True, True]
+
+
+def row(method, time, error, ratio):
+    return {"method": method, "us_per_impact": time, "error_state": error, "ratio": ratio, "reason": ""}

@@ -1,0 +1,66 @@
+"""Methods that cannot go on say so, with a counted limit of work and never without a reason."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.rivals import METHODS, heyoka_taylor
+from vibroimpact.rivals.contact import Contacts
+from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
+from vibroimpact.rivals.penalty import tuned
+from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.theory.fixed_points import fixed_points
+
+
+@pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty, LSODA"])
+def test_work_is_limited_by_counting_steps(name, method, motion):
+    system, state, _, _ = motion("periodic")
+    rival = method(name)
+    run = rival.run(system, state, 50, 0.0, rival.ladder[0], limit=20)
+    assert run.final is None
+    assert run.failure.kind == UNFINISHED
+    assert run.steps < 1000  # the limit is looked at after each flight or cycle
+    assert run.failure.reason
+
+
+def test_the_leading_order_refuses_where_no_response_is_stable(motion):
+    system, state, cycles, _ = motion("chatter")
+    run = LeadingOrder().run(system, state, cycles, 0.0, 0)
+    assert run.failure.kind == REFUSED
+    assert "fixed point" in run.failure.reason
+
+
+def test_without_heyoka_its_method_is_unavailable_and_says_why(monkeypatch):
+    monkeypatch.setattr(heyoka_taylor, "heyoka", None)
+    monkeypatch.setattr(heyoka_taylor, "_missing", "No module named 'heyoka'", raising=False)
+    reasons = {method.name: method.available() for method in METHODS}
+    assert reasons.pop("heyoka") == "No module named 'heyoka'"
+    assert set(reasons.values()) == {None}
+
+
+def test_penalty_has_the_restitution_coefficient_and_the_duration_it_is_tuned_to():
+    """Against the closed form of a damped oscillator: half a period later the speed is kappa times as large."""
+    stiffness, damping = tuned(epsilon=0.1, kappa=0.65, duration=0.01)
+    mass = 0.1 / 1.1
+    exponents = np.roots([mass, damping, stiffness])
+    assert np.pi / abs(exponents[0].imag) == pytest.approx(0.01, rel=1e-12)
+    assert np.exp(exponents[0].real * 0.01) == pytest.approx(0.65, rel=1e-12)
+
+
+def test_leading_order_velocities_are_those_of_its_displacements(motion):
+    system = motion("periodic")[0]
+    for point in fixed_points(system):
+        for tau in (0.3, 2.0, 4.1):
+            before, after = steady_state(system, point, tau - 1e-6), steady_state(system, point, tau + 1e-6)
+            slope = (after[:4] - before[:4]) / 2e-6
+            np.testing.assert_allclose(steady_state(system, point, tau)[4:], slope, atol=1e-8)
+
+
+def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
+    system = motion("chatter")[0]
+    contacts = Contacts(system, slow=1e-3)
+    s = np.array([-0.8, -1.8, 0.1, 0.1, 0.0, -1e-3, 0.0, 0.0])
+    before = s[4] + system.epsilon * s[5]
+    contacts.resolve(0.0, s, [0])
+    assert contacts.walls == [1, 0]
+    assert s[4] == s[5]
+    assert s[4] + system.epsilon * s[5] == pytest.approx(before, abs=1e-18)

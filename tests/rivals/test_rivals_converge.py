@@ -1,0 +1,84 @@
+"""Every method tends to the reference where nothing is difficult, and at the order that theory expects."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.work_precision import fitted_order
+
+# name, settings from coarse to fine, error of the final state at the finest in the periodic motion
+LADDERS = [
+    ("heyoka", (1e-4, 1e-8, 1e-12), 1e-10),
+    ("RK45", (1e-4, 1e-6, 1e-8), 1e-6),
+    ("DOP853", (1e-5, 1e-8, 1e-11), 1e-9),
+    ("Radau", (1e-3, 1e-5, 1e-7), 1e-6),
+    ("LSODA", (1e-4, 1e-7, 1e-10), 1e-7),
+    ("Moreau-Jean", (100, 1_000, 10_000), 5e-3),
+    ("penalty, LSODA", (1e-2, 1e-3, 1e-4), 5e-3),
+]
+
+
+def errors(method, motion, setting):
+    system, state, cycles, reference = motion
+    run = method.run(system, state, cycles, 0.0, setting)
+    assert run.failure is None
+    return compare(run, reference, system.period)
+
+
+@pytest.mark.parametrize(("name", "settings", "finest"), LADDERS)
+def test_error_falls_with_every_finer_setting_and_no_impact_is_lost(name, settings, finest, method, motion):
+    found = [errors(method(name), motion("periodic"), setting) for setting in settings]
+    final = [error.final for error in found]
+    assert final == sorted(final, reverse=True)
+    assert final[-1] < finest
+    assert (found[-1].missed, found[-1].spurious) == (0, 0)
+
+
+@pytest.mark.parametrize("name", ["Moreau-Jean", "penalty, LSODA", "RK45"])
+def test_order_of_convergence(name, method, motion):
+    rival = method(name)
+    system, state, cycles, reference = motion("periodic")
+    points = []
+    for setting in rival.ladder:
+        run = rival.run(system, state, cycles, 0.0, setting)
+        points.append((rival.scale(setting, run), compare(run, reference, system.period).final))
+    assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("name", "allowed"), [("heyoka", 1e-11), ("RK45", 1e-6), ("DOP853", 1e-9), ("Moreau-Jean", 1e-2)]
+)
+def test_chatter_sticking_and_release_are_followed(name, allowed, method, motion):
+    rival = method(name)
+    found = errors(rival, motion("chatter"), rival.careful)
+    assert found.final < allowed
+    assert (found.missed, found.spurious) == (0, 0)
+
+
+def test_the_engine_is_exact_to_rounding(method, motion):
+    for name in ("periodic", "chatter"):
+        found = errors(method("this engine"), motion(name), "float64")
+        assert found.final < 1e-13
+        assert (found.missed, found.spurious) == (0, 0)
+
+
+def test_methods_report_the_same_impacts(method, motion):
+    system, state, cycles, reference = motion("periodic")
+    for name in ("this engine", "heyoka", "DOP853", "Moreau-Jean", "penalty, LSODA"):
+        rival = method(name)
+        impacts = rival.run(system, state, cycles, 0.0, rival.careful).impacts
+        assert impacts["module"].tolist() == reference.events["module"].tolist()
+        assert impacts["wall"].tolist() == reference.events["wall"].tolist()
+        assert np.abs(impacts["tau"] - reference.events["tau"]).max() < 1e-2
+        assert (impacts["speed"] > 0.1).all()
+
+
+def test_a_start_at_another_time_is_respected(method, motion):
+    """Mirroring the state and moving the clock by half a period is a symmetry of (10.2)."""
+    system, state, cycles, _ = motion("periodic")
+    for name in ("heyoka", "DOP853", "Moreau-Jean", "penalty, LSODA"):
+        rival = method(name)
+        setting = rival.ladder[-2]
+        one = rival.run(system, state, cycles, 0.0, setting).final
+        other = rival.run(system, [-value for value in state], cycles, 0.5 * system.period, setting).final
+        assert np.abs(one + other).max() < 1e-5  # what the tolerance of the loosest, the penalty's, allows

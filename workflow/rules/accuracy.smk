@@ -1,0 +1,59 @@
+# How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
+
+KINDS = "csv", "png", "pdf", "svg"
+TIMED = {"work_precision": (True, "short_seconds"), "work_precision_full": (False, "full_seconds")}
+JUDGED = {"hazards": False, "hazards_full": True}
+
+
+def accuracy_outputs(name):
+    return {kind: f"results/accuracy/{name}.{kind}" for kind in KINDS}
+
+
+def accuracy_scenes():
+    """Scenes of the chart with the parameters of their cases."""
+    scenes = config["accuracy"]["scenes"]
+    return {name: {"system": system_of(scene["case"]), "settings": scene} for name, scene in scenes.items()}
+
+
+for name, (short, seconds) in TIMED.items():
+
+    rule:
+        name:
+            name
+        output:
+            **accuracy_outputs(name),
+        params:
+            scenes=accuracy_scenes(),
+            seconds=config["accuracy"][seconds],
+            short=short,
+            code=code("workflow/scripts/work_precision.py"),
+        threads: workflow.cores
+        log:
+            f"results/logs/accuracy/{name}.log",
+        benchmark:
+            f"results/benchmarks/accuracy/{name}.tsv"
+        script:
+            "../scripts/work_precision.py"
+
+
+for name, all_of_them in JUDGED.items():
+
+    rule:
+        name:
+            name
+        output:
+            **accuracy_outputs(name),
+        params:
+            all_of_them=all_of_them,
+            code=code("workflow/scripts/hazards.py"),
+        log:
+            f"results/logs/accuracy/{name}.log",
+        benchmark:
+            f"results/benchmarks/accuracy/{name}.tsv"
+        script:
+            "../scripts/hazards.py"
+
+
+rule accuracy:
+    input:
+        [path for name in ("work_precision", "hazards") for path in accuracy_outputs(name).values()],

@@ -1,0 +1,21 @@
+"""Verdicts on every method in every hazard -> hazards.csv, and the table as a picture."""
+
+import pandas as pd
+
+from adapter import logging_to, write_csv
+from vibroimpact.accuracy.hazards import hazards, judge
+from vibroimpact.figures.hazards import draw
+from vibroimpact.figures.style import save
+from vibroimpact.rivals import METHODS
+
+
+def main(all_of_them: bool, outputs) -> None:
+    chosen = [hazard for hazard in hazards() if all_of_them or hazard.quick]
+    table = pd.DataFrame([row for hazard in chosen for row in judge(hazard, METHODS)])
+    write_csv(table, outputs["csv"])
+    save(draw(table), outputs)
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        main(snakemake.params.all_of_them, snakemake.output)

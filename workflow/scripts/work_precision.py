@@ -1,0 +1,26 @@
+"""Work-precision measurements of all scenes -> work_precision.csv, and the chart."""
+
+import pandas as pd
+
+from adapter import logging_to, write_csv
+from scenes import scene_of
+from vibroimpact.accuracy.timing import versions
+from vibroimpact.accuracy.work_precision import measure
+from vibroimpact.figures.style import save
+from vibroimpact.figures.work_precision import draw
+from vibroimpact.rivals import METHODS
+
+
+def main(scenes: dict, seconds: float, short: bool, outputs) -> None:
+    rows = []
+    for name, scene in scenes.items():
+        rows += measure(scene_of(name, scene["system"], scene["settings"]), METHODS, seconds, short)
+    table = pd.DataFrame(rows)
+    write_csv(table, outputs["csv"])
+    footer = "  ".join(f"{name} {version}" for name, version in versions().items())
+    save(draw(table, footer), outputs)
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        main(snakemake.params.scenes, snakemake.params.seconds, snakemake.params.short, snakemake.output)
