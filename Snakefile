@@ -14,6 +14,7 @@ check_config()
 include: "workflow/rules/fixed_points.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/regimes.smk"
 include: "workflow/rules/checks.smk"
 
 
@@ -22,3 +23,4 @@ rule all:
     input:
         "results/fixed_points.csv",
         rules.figures.input,
+        rules.regimes.input,

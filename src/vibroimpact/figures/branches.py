@@ -1,7 +1,6 @@
-"""Companion: branches of 1:1 responses against the forcing, theory above exact, attractors found by simulation below."""
+"""Companion: branches of 1:1 responses against the forcing, of the theory and exact, with simulated attractors."""
 
 import numpy as np
-import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 

@@ -18,11 +18,11 @@ PANELS = {
 MARKERS = "osD^vP*X"
 
 
-def compute(systems: dict, epsilon, fit_below: float, mixed: dict) -> dict:
+def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict) -> dict:
     """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
 
     Args:
-        systems: case -> system. epsilon: values, descending.
+        systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
         fit_below: the orders are fitted where epsilon is below this.
         mixed: `case` and `label` of the point whose multipliers are shown one by one and no order is fitted to.
 
@@ -30,6 +30,7 @@ def compute(systems: dict, epsilon, fit_below: float, mixed: dict) -> dict:
     "impact map" with the number of the multiplier), epsilon, error or rate; and "orders": columns case, label, panel,
     order, uncertainty.
     """
+    epsilon = np.geomspace(*epsilon, values)
     curves, orders = [], []
     for case, system in systems.items():
         points = fixed_points(system)
@@ -40,8 +41,8 @@ def compute(systems: dict, epsilon, fit_below: float, mixed: dict) -> dict:
                 continue
             for panel, errors in zip(PANELS, _errors(found), strict=True):
                 curves.append(curve(panel, f"{case}, {label}", epsilon=epsilon, error=errors))
-                small = np.asarray(epsilon) < fit_below
-                slope, uncertainty = order(np.asarray(epsilon)[small], errors[small])
+                small = epsilon < fit_below
+                slope, uncertainty = order(epsilon[small], errors[small])
                 named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
                 orders.append({"case": case, "label": label, **named})
     return {"csv": join(curves), "orders": pd.DataFrame(orders)}

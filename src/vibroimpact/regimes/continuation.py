@@ -1,8 +1,9 @@
 """Pseudo-arclength continuation of the roots of F(x, p) = 0, one parameter p (Keller 1977).
 
-A point z = (x, p) is stepped along the tangent and brought back at the p reached, or, where the tangent has little of p,
-within the plane across the tangent, so that folds in p are passed like any other point. A special point is a sign change of a function along the curve, found by Brent's method
-in the arclength; every evaluation is a root of F to rounding, so the zero is as sharp as the function itself.
+A point z = (x, p) is stepped along the tangent and brought back at the p reached, or, where the tangent has little of
+p, within the plane across the tangent, so that folds in p are passed like any other point. A special point is a sign
+change of a function along the curve, found by Brent's method in the arclength; every evaluation is a root of F to
+rounding, so the zero is as sharp as the function itself.
 """
 
 from collections.abc import Callable, Iterator

@@ -1,0 +1,19 @@
+"""One tile of the map of regimes -> CSV: a row per pair of forcing amplitudes."""
+
+from adapter import logging_to, write_csv
+
+from vibroimpact.figures.regime_map import compute_tile
+from vibroimpact.system import System
+
+
+def main(item: str, parameters: dict, settings: dict, observation: dict, output) -> None:
+    """Compute the tile `item`, "1-of-4" say."""
+    number, tiles = (int(part) for part in item.split("-of-"))
+    write_csv(compute_tile(System(**parameters), number - 1, tiles, observation=observation, **settings), output)
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        params = snakemake.params
+        item = snakemake.wildcards.scatteritem
+        main(item, params.system, params.settings, params.observation, snakemake.output[0])
