@@ -3,7 +3,7 @@ CORES ?= 2
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 
-.PHONY: help figures check-figures accept test lock clean set-up
+.PHONY: help figures check-figures accept benchmark test lock clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -19,6 +19,9 @@ accept: export REASON := $(REASON)
 accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...")
 	.venv/bin/snakemake --cores $(CORES) compare_figures
 	.venv/bin/python -m vibroimpact.checks.accept --reason "$$REASON" $(FIGURES)
+
+benchmark: set-up  ## time per impact of every method, with its error (a minute or two, one core)
+	.venv/bin/python workflow/scripts/benchmark.py
 
 test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check

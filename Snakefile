@@ -1,5 +1,5 @@
 # From one config to every figure of the chapter:
-# config -> fixed points -> simulations -> figures and notebooks -> checks.
+# config -> fixed points -> simulations -> figures and notebooks -> accuracy -> checks.
 
 
 include: "workflow/rules/common.smk"
@@ -15,6 +15,7 @@ include: "workflow/rules/fixed_points.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/regimes.smk"
+include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/checks.smk"
 
 
@@ -24,3 +25,4 @@ rule all:
         "results/fixed_points.csv",
         rules.figures.input,
         rules.regimes.input,
+        rules.accuracy.input,
