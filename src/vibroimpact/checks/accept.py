@@ -78,7 +78,7 @@ def _entry(verdict, new):
     sidecar = Path(new) / f"{verdict['figure']}.provenance.json"
     built = json.loads(sidecar.read_text(encoding="utf-8")) if sidecar.is_file() else {}
     commit = f" Built from {built['commit'][:10]} ({built['tree']} tree)." if built.get("commit") else ""
-    first, *more = verdict["reasons"] or ["drawn anew"]
+    first, *more = verdict["reasons"] or ["nothing that the check sees"]
     return f"- **{verdict['figure']}**: {first}" + (f", and {len(more)} more" if more else "") + f".{commit}"
 
 

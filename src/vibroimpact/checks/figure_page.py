@@ -20,7 +20,7 @@ def page(verdicts: list[dict], reference, new, limits: dict) -> str:
     )
     return template.render(
         verdicts=verdicts,
-        summary=lines(verdicts)[-1],
+        said=lines(verdicts),
         pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
         largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
         limits=limits,
@@ -32,12 +32,13 @@ def _pictures(figure, reference, new):
     found = {}
     for name, folder in (("reference", reference), ("new", new)):
         try:
-            found[name] = picture_difference.squares(picture_difference.grey(Path(folder) / f"{figure}.png"), SHRINK)
+            found[name] = picture_difference.grey(Path(folder) / f"{figure}.png")
         except UNREADABLE:
             continue  # the verdict says so
+    shown = {name: picture_difference.squares(picture, SHRINK) for name, picture in found.items()}
     if len(found) == 2 and found["reference"].shape == found["new"].shape:
-        found["difference"] = picture_difference.overlay(found["reference"], found["new"])
-    return {name: _address(picture) for name, picture in found.items()}
+        shown["difference"] = picture_difference.overlay(found["reference"], found["new"], SHRINK)
+    return {name: _address(picture) for name, picture in shown.items()}
 
 
 def _address(picture):

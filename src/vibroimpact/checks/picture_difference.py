@@ -4,9 +4,12 @@ import io
 
 import numpy as np
 from PIL import Image
+from scipy.ndimage import maximum_filter
 
 GONE, ADDED, KEPT = (200, 80, 0), (0, 90, 200), (215, 215, 215)
 """Colours of ink in the picture of a difference: in the reference alone, in the new picture alone, in both."""
+SPREAD = 5
+"""A changed pixel is shown as wide as 5, so that no change is too fine to be seen."""
 
 
 def grey(path) -> np.ndarray:
@@ -28,14 +31,19 @@ def distance(reference: np.ndarray, new: np.ndarray, size: int) -> float:
     return float(np.abs(squares(new, size) - squares(reference, size)).max())
 
 
-def overlay(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
-    """Picture (height, width, 3) of what is gone, added and kept, on white."""
-    old_ink, new_ink = (1 - picture[..., None] for picture in (reference, new))
-    kept = np.minimum(old_ink, new_ink)
-    paint = 255.0 - np.zeros(3)
-    for ink, colour in ((kept, KEPT), (old_ink - kept, GONE), (new_ink - kept, ADDED)):
-        paint = paint - ink * (255 - np.array(colour))
-    return np.clip(paint, 0, 255).astype(np.uint8)
+def overlay(reference: np.ndarray, new: np.ndarray, size: int) -> np.ndarray:
+    """Picture (height, width, 3) of what is gone, added and kept, on white, with squares of pixels as one."""
+    kept = squares(np.maximum(reference, new), size)
+    gone, added = (maximum_filter(1 - squares(1 - change, size), SPREAD) for change in _changes(reference, new))
+    paint = 255 - (1 - kept)[..., None] * (255 - np.array(KEPT))
+    for ink, colour in ((gone, GONE), (added, ADDED)):
+        paint = (1 - ink[..., None]) * paint + ink[..., None] * np.array(colour)
+    return np.round(paint).astype(np.uint8)
+
+
+def _changes(reference, new):
+    """Ink in one picture alone, 0 to 1, where it is more than half black."""
+    return [np.where(change > 0.5, change, 0.0) for change in (new - reference, reference - new)]
 
 
 def png(picture: np.ndarray) -> bytes:

@@ -42,7 +42,7 @@ def _from_png(path):
 
 
 def _from_svg(path):
-    return ElementTree.parse(path).getroot().find(f".//{DUBLIN_CORE}{PROVENANCE_KEYS['svg'].lower()}").text
+    return ElementTree.parse(path).findtext(f".//{DUBLIN_CORE}{PROVENANCE_KEYS['svg'].lower()}")
 
 
 def _from_pdf(path):
