@@ -25,4 +25,5 @@ rule all:
         "results/fixed_points.csv",
         rules.figures.input,
         rules.regimes.input,
+        list(rules.companion_horizon.output) if PRECISE else [],
         rules.accuracy.input,

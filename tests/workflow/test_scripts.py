@@ -41,7 +41,7 @@ def test_fixed_points_of_cases_are_gathered_as_they_are(tmp_path):
 
 
 def test_a_simulation_leaves_its_window_only(tmp_path):
-    outputs = {name: tmp_path / name for name in ("samples", "events", "summary")}
+    outputs = {name: tmp_path / name for name in ("samples", "events", "summary", "strobe")}
     simulate.main("equal", SYSTEM, SETTINGS, outputs)
     samples, events = pd.read_csv(outputs["samples"]), pd.read_csv(outputs["events"])
     summary = json.loads(outputs["summary"].read_text())

@@ -62,6 +62,11 @@ def figure_step(figure, scene):
     return step(NOTEBOOK_METHODS[scene["notebook"]], DOUBLE, *files, modules=modules)
 
 
+def digits(name, scene):
+    """Decimal digits that an input of a figure is computed with."""
+    return config["cases"][scene["case"]]["simulation"].get("digits", DOUBLE) if name == "samples" else DOUBLE
+
+
 def step(method, digits, *files, modules=()):
     """A step of the computation: its method, the decimal digits it works with, and the code that takes it."""
     fingerprint = code(*files, modules=modules)
@@ -76,7 +81,7 @@ def figure_origin(figure, scene):
     if "case" in scene:
         of_case = ["f10_hat", "f20_hat"] + ["simulation"] * ("samples" in read)
         values |= {f"cases.{scene['case']}.{name}": config["cases"][scene["case"]][name] for name in of_case}
-    before = [step(METHODS[name], DOUBLE, SCRIPTS[name]) for name in read if name in SCRIPTS]
+    before = [step(METHODS[name], digits(name, scene), SCRIPTS[name]) for name in read if name in SCRIPTS]
     return {
         "config": {f"figures.{figure}": scene, **values},
         "steps": [*before, figure_step(figure, scene)],

@@ -1,4 +1,8 @@
-"""Direct integration of one case -> its window after the transient: samples.csv, events.csv, summary.json."""
+"""Direct integration of one case -> its window after the transient: samples.csv, events.csv, summary.json; strobe.csv
+holds the state at the start of every forcing cycle of the whole run.
+
+With `digits` in the settings the run is carried with that many decimal digits and proved by doubling them.
+"""
 
 import json
 
@@ -6,24 +10,42 @@ import numpy as np
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from vibroimpact.exact.simulation import KINDS, Run, simulate
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.exact.simulation import KINDS, simulate
 from vibroimpact.figures.atomic import replacing
 from vibroimpact.system import System
 
+WINDOW = ("transient_cycles", "window_cycles", "samples_per_cycle")
 STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
 
 
 def main(case: str, parameters: dict, settings: dict, outputs) -> None:
     system = System(**parameters)
-    times = window(system.period, **{name: settings[name] for name in settings if name != "initial_state"})
     cycles = settings["transient_cycles"] + settings["window_cycles"]
-    run = simulate(system, settings["initial_state"], cycles, sample_times=times)
-    events = run.events[run.events["tau"] >= times[0]]
-    write_csv(samples_table(times, run), outputs["samples"])
+    strobe = np.arange(settings["transient_cycles"]) * system.period
+    times = window(system.period, *(settings[name] for name in WINDOW))
+    run, trust = integrate(system, settings, cycles, np.concatenate([strobe, times]))
+    samples, events = run.samples[len(strobe) :], run.events[run.events["tau"] >= times[0]]
+    every = slice(None, None, settings["samples_per_cycle"])
+    write_csv(states_table(times, samples), outputs["samples"])
     write_csv(events_table(events), outputs["events"])
+    starts = np.concatenate([run.samples[: len(strobe)], samples[every]])
+    write_csv(states_table(np.concatenate([strobe, times[every]]), starts), outputs["strobe"])
     with replacing(outputs["summary"]) as partial:
-        summary = {"case": case, "system": parameters, "settings": settings, **summarise(times, run, events, settings)}
+        numbers = summarise(times, samples, events, settings)
+        summary = {"case": case, "system": parameters, "settings": settings, **numbers, "trust": trust}
         partial.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+
+
+def integrate(system: System, settings: dict, cycles: int, times: np.ndarray):
+    """The run, and what vouches for it."""
+    if "digits" not in settings:
+        run = simulate(system, settings["initial_state"], cycles, sample_times=times)
+        certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
+        return run, {"method": "float64", "certificate": certificate}
+    proof = proven_run(system, settings["initial_state"], cycles, digits=settings["digits"], sample_times=times)
+    digits = [proof.coarse.digits, proof.run.digits]
+    return proof.run, {"method": "arbitrary precision", "digits": digits, "agreement": proof.agreement}
 
 
 def window(period: float, transient_cycles: int, window_cycles: int, samples_per_cycle: int) -> np.ndarray:
@@ -31,8 +53,8 @@ def window(period: float, transient_cycles: int, window_cycles: int, samples_per
     return (transient_cycles + np.arange(window_cycles * samples_per_cycle + 1) / samples_per_cycle) * period
 
 
-def samples_table(times: np.ndarray, run: Run) -> pd.DataFrame:
-    return pd.DataFrame(np.column_stack([times, run.samples]), columns=["tau", *STATE])
+def states_table(times: np.ndarray, states: np.ndarray) -> pd.DataFrame:
+    return pd.DataFrame(np.column_stack([times, states]), columns=["tau", *STATE])
 
 
 def events_table(events: np.ndarray) -> pd.DataFrame:
@@ -43,7 +65,7 @@ def events_table(events: np.ndarray) -> pd.DataFrame:
     return table
 
 
-def summarise(times: np.ndarray, run: Run, events: np.ndarray, settings: dict) -> dict:
+def summarise(times: np.ndarray, samples: np.ndarray, events: np.ndarray, settings: dict) -> dict:
     """Numbers of the window: events by kind and module, and how near the motion returns after 1 to 4 cycles."""
     counts = {
         name: {str(module): int(np.sum((events["kind"] == kind) & (events["module"] == module))) for module in (1, 2)}
@@ -51,14 +73,14 @@ def summarise(times: np.ndarray, run: Run, events: np.ndarray, settings: dict) -
     }
     per_cycle = settings["samples_per_cycle"]
     returns = {
-        str(cycles): float(np.abs(run.samples[cycles * per_cycle :] - run.samples[: -cycles * per_cycle]).max())
+        str(cycles): float(np.abs(samples[cycles * per_cycle :] - samples[: -cycles * per_cycle]).max())
         for cycles in range(1, min(4, settings["window_cycles"]) + 1)
     }
     return {
         "window": [times[0], times[-1]],
         "events": counts,
         "largest_change_after_cycles": returns,
-        "final": run.final.tolist(),
+        "final": samples[-1].tolist(),
     }
 
 

@@ -1,0 +1,22 @@
+"""How long a float64 run follows the true trajectory, measured against a run that is proved to be it."""
+
+import numpy as np
+
+from vibroimpact.exact.simulation import simulate
+
+
+def departure(system, state, truth: np.ndarray):
+    """Distance of the float64 run from the truth, and what the run's own certificate expects of it.
+
+    truth: (n + 1, 8) true states at the starts of cycles 0 to n, tau = 0 first. Returns the largest difference of a
+    state's component at each of these times (n + 1,), the certificate's error there (n + 1,), inf past the horizon,
+    and the horizon in forcing cycles (inf if it is not reached).
+    """
+    cycles = len(truth) - 1
+    whole = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period)
+    difference = np.abs(whole.samples - truth).max(axis=1)
+    horizon = whole.certificate.horizon / system.period
+    known = range(min(cycles, int(min(horizon, cycles))) + 1)
+    expected = np.full(cycles + 1, np.inf)
+    expected[: len(known)] = [simulate(system, state, n).certificate.error for n in known]
+    return difference, expected, horizon
