@@ -1,12 +1,12 @@
 """True states at the start of every cycle -> companion figure: where float64 leaves the true trajectory."""
 
-from adapter import logging_to, read_csv
+from adapter import logging_to
 from vibroimpact.figures import companion_horizon, style, tables
 from vibroimpact.system import System
 
 
 def main(strobe, parameters: dict, settings: dict, outputs: dict) -> None:
-    system, truth = System(**parameters), read_csv(strobe)
+    system, truth = System(**parameters), tables.read(strobe)
     table = companion_horizon.compute(system, settings["initial_state"], truth, settings["transient_cycles"])
     tables.write(table, outputs["csv"])
     style.save(companion_horizon.draw(table), outputs)

@@ -47,5 +47,5 @@ def draw(table: pd.DataFrame) -> Figure:
     start, end = select(table, "error", "window")["cycle"]
     axes.text((start + end) / 2, 3e-14, "window of\nfigure 10.11", ha="center")
     axes.set(xlim=(0, end), ylim=(1e-17, 30), xlabel="forcing cycle", ylabel="error of float64")
-    axes.legend(loc="lower center")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.2, 0.02))
     return figure

@@ -1,0 +1,43 @@
+"""The certificate's error against the measured one, and the companion figure that shows both."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.accuracy.horizon import departure
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.figures import companion_horizon
+
+WEAK = vi.System(
+    epsilon=0.1, kappa=0.65, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2, sigma20_hat=0.5,
+    sigma_e_hat=0.2, f10_hat=0.5, f20_hat=0.5,
+)  # fmt: skip
+START = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
+CYCLES = 60
+
+
+@pytest.fixture(scope="module")
+def truth():
+    return proven_run(WEAK, START, CYCLES, sample_times=np.arange(CYCLES + 1) * WEAK.period).run.samples
+
+
+def test_the_certificate_knows_its_error_and_its_horizon(truth):
+    difference, expected, horizon = departure(WEAK, START, truth)
+    known = np.flatnonzero(np.isfinite(expected))[2:]
+    ratio = difference[known] / expected[known]
+    assert 1e-3 < ratio.min()
+    assert ratio.max() < 10
+    # 1e-3 is passed at the horizon, and the float64 run is a different motion soon after
+    assert 30 < horizon < 50
+    assert difference[: int(horizon) - 5].max() < 1e-3 < difference[int(horizon) : int(horizon) + 12].max()
+    assert np.isinf(expected[int(horizon) + 1 :]).all()
+
+
+def test_the_figure_shows_both_and_the_window(truth):
+    strobe = pd.DataFrame(truth, columns=companion_horizon.STATE)
+    table = companion_horizon.compute(WEAK, START, strobe, 40)
+    assert set(table["series"]) == {"measured", "expected", "horizon", "window"}
+    (axes,) = companion_horizon.draw(table).axes
+    assert axes.get_yscale() == "log"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["measured", "expected"]
