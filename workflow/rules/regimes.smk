@@ -33,7 +33,7 @@ def companion_settings():
     forces = {case: [values["f10_hat"], values["f20_hat"]] for case, values in config["cases"].items()}
     return {
         "companion_branches": regime_settings("branches") | observation,
-        "companion_regime_map": {"cases": forces},
+        "companion_regime_map": {"points": REGIMES["map"]["points"], "cases": forces},
         "companion_modulation": regime_settings("modulation") | observation | {"systems": all_systems()},
         "companion_basins": regime_settings("basins") | observation,
         "companion_epsilon": regime_settings("epsilon") | {"systems": all_systems()},

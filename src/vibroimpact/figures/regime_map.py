@@ -38,13 +38,14 @@ def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_ra
         for f10, f20 in tile(f10_range, f20_range, points, number, tiles)
     ]
     rows = [dataclasses.asdict(c) for c in cells]
-    return pd.DataFrame({**row, **row.pop("shares")} for row in rows)
+    return pd.DataFrame({**row.pop("shares"), **row} for row in rows)
 
 
-def compute(tiles: list[pd.DataFrame], cases: dict) -> dict:
+def compute(tiles: list[pd.DataFrame], points: int, cases: dict) -> dict:
     """The map from its tiles, in the order of f10_hat, then f20_hat.
 
     Args:
+        points: cells along each axis.
         cases: name -> (f10_hat, f20_hat) of points to be marked.
 
     Returns "csv": columns panel, series ("cell" or "case"), label (regime from rest or name of the case), f10_hat,
@@ -54,9 +55,8 @@ def compute(tiles: list[pd.DataFrame], cases: dict) -> dict:
         ValueError: the tiles do not make up a full square of cells.
     """
     table = pd.concat(tiles).sort_values(["f10_hat", "f20_hat"], ignore_index=True)
-    full = table["f10_hat"].nunique() * table["f20_hat"].nunique()
-    if len(table) != full or table.duplicated(["f10_hat", "f20_hat"]).any():
-        raise ValueError(f"tiles: {len(table)} cells do not make up a full map of {full}")
+    if len(table) != points**2 or table.duplicated(["f10_hat", "f20_hat"]).any():
+        raise ValueError(f"tiles: {len(table)} cells do not make up a full map of {points**2}")
     table = table.rename(columns={"from_rest": "label"})
     marks = pd.DataFrame({"label": name, "f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in cases.items())
     table = pd.concat([table.assign(series="cell"), marks.assign(series="case")], ignore_index=True)

@@ -1,0 +1,171 @@
+"""Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour, files."""
+
+import matplotlib.colors
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.lines import Line2D
+
+import vibroimpact as vi
+from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
+from vibroimpact.figures.style import save
+
+OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
+FORCING = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
+CHAPTER = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+}
+SYSTEMS = {case: vi.System(**CHAPTER, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCING.items()}
+MODULES = {
+    "branches": branches,
+    "regime_map": regime_map,
+    "modulation": modulation,
+    "basins": basins,
+    "epsilon": epsilon_limit,
+}
+
+
+def map_tile(number, tiles):
+    system = SYSTEMS["equal"]
+    return regime_map.compute_tile(system, number, tiles, 6, (0.2, 1.4), (0.2, 1.4), 3, 1, OBSERVATION)
+
+
+@pytest.fixture(scope="module")
+def tables():
+    return {
+        "branches": branches.compute(
+            SYSTEMS["unequal"],
+            paths=[{"along": ["f20_hat"], "range": [0.7, 1.2]}],
+            longest_step=0.1,
+            seeds=2,
+            attractors={"values": 3, "starts": 3, "seed": 1},
+            observation=OBSERVATION,
+        ),
+        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, FORCING),
+        "modulation": modulation.compute(
+            SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=5, observation=OBSERVATION
+        ),
+        "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
+        "epsilon": epsilon_limit.compute(
+            SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}
+        ),
+    }
+
+
+@pytest.fixture(scope="module")
+def figures(tables):
+    drawn = {name: module.draw(tables[name]) for name, module in MODULES.items()}
+    for figure in drawn.values():
+        figure.draw_without_rendering()
+    return drawn
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_nothing_is_told_by_colour(figures, name):
+    for line in figures[name].findobj(Line2D):
+        red, green, blue = matplotlib.colors.to_rgb(line.get_color())
+        assert red == green == blue
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_files_are_written(figures, tables, name, tmp_path):
+    outputs = {kind: tmp_path / f"{name}.{kind}" for kind in ("png", "pdf", "svg")}
+    save(figures[name], outputs)
+    assert all(path.stat().st_size > 1000 for path in outputs.values())
+    assert {"panel", "series"} <= set(tables[name]["csv"])
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_nothing_leaves_the_paper(figures, name):
+    figure = figures[name]
+    needed, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+    assert needed.x0 > -0.02
+    assert needed.y0 > -0.02
+    assert needed.x1 < width + 0.02
+    assert needed.y1 < height + 0.02
+
+
+def test_stable_pieces_are_bold_solid_and_unstable_ones_dashed(tables, figures):
+    table = tables["branches"]["csv"]
+    theory, exact = figures["branches"].axes
+    for _, piece in table[table["branch"].notna()].groupby(["series", "branch", "piece"]):
+        if not piece["admissible"].iloc[0]:
+            continue
+        axes = theory if piece["series"].iloc[0] == "fixed point" else exact
+        (line,) = [l for l in axes.lines if np.array_equal(l.get_xydata(), piece[["p", "C2"]].to_numpy())]
+        assert (line.get_linestyle() == "-") == piece["stable"].iloc[0]
+        assert (line.get_linewidth() > 1.5) == piece["stable"].iloc[0]
+
+
+def test_special_points_are_marked_by_kind(tables, figures):
+    special = tables["branches"]["special_points"]
+    exact = special[(special["family"] != "fixed point") & special["admissible"]]
+    assert len(exact)
+    for kind, rows in exact.groupby("kind"):
+        shown = [line for line in figures["branches"].axes[1].lines if line.get_marker() == branches.MARKERS[kind]]
+        assert any(np.array_equal(np.sort(line.get_xdata()), np.sort(rows["p"])) for line in shown)
+
+
+def test_simulated_attractors_lie_on_the_stable_branch(tables):
+    table = tables["branches"]["csv"]
+    simulated = table[(table["series"] == "attractor") & (table["label"] == "asymmetric")]
+    stable = table[(table["series"] == "asymmetric orbit") & table["stable"].eq(True)].sort_values("p")
+    assert len(simulated)
+    for module in ("C1", "C2"):
+        np.testing.assert_allclose(simulated[module], np.interp(simulated["p"], stable["p"], stable[module]), atol=0.02)
+
+
+def test_tiles_make_up_the_map(tables):
+    whole = regime_map.compute([map_tile(0, 1)], 6, FORCING)["csv"]
+    pd.testing.assert_frame_equal(whole, tables["regime_map"]["csv"])
+    with pytest.raises(ValueError, match="tiles"):
+        regime_map.compute([map_tile(0, 2)], 6, FORCING)
+
+
+def test_borders_run_between_cells_that_differ():
+    x, y = np.array([0.5, 1.5, 2.5]), np.array([0.5, 1.5])
+    borders = regime_map._borders(x, y, np.array([[1.0, 1.0, 3.0], [1.0, 1.0, 1.0]]))
+    assert borders.tolist() == [[[2.0, 0.0], [2.0, 1.0]], [[2.0, 1.0], [3.0, 1.0]]]
+
+
+def test_measures_have_uncertainties_over_starts(tables):
+    measures = tables["modulation"]["measures"]
+    assert set(measures["case"]) == set(FORCING)
+    spread = measures[(measures["start"] == "spread") & (measures["quantity"] != "burst length")]
+    assert spread["uncertainty"].notna().all()
+    rest = measures[(measures["case"] == "weak") & (measures["start"] == "rest")]
+    assert set(rest["regime"]) == {"one ball idle"}
+    shares = measures[measures["quantity"] == "share of starts"].groupby("case")["mean"].sum()
+    np.testing.assert_allclose(shares, 1)
+    exponents = measures[measures["quantity"] == "largest Lyapunov exponent"].set_index(["case", "start"])["mean"]
+    assert exponents["equal", "spread"] < 0 < exponents["weak", "spread"]
+
+
+def test_basins_name_every_start_and_the_orbit_in_its_own(tables):
+    table, shares = tables["basins"]["csv"], tables["basins"]["shares"]
+    assert (table["series"] == "start").sum() == 81
+    assert shares["share"].sum() == pytest.approx(1)
+    orbit = table[table["series"] == "orbit"].iloc[0]
+    starts = table[table["series"] == "start"]
+    nearest = starts.iloc[np.hypot(starts["W1"] - orbit["W1"], starts["W2"] - orbit["W2"]).argmin()]
+    assert nearest["label"] == orbit["label"]
+
+
+def test_basins_need_a_stable_asymmetric_orbit():
+    with pytest.raises(ValueError, match="system"):
+        basins.compute(SYSTEMS["weak"], 3, OBSERVATION)
+
+
+def test_orders_are_one_and_the_mixed_point_is_left_out(tables):
+    orders = tables["epsilon"]["orders"]
+    np.testing.assert_allclose(orders["order"], 1, atol=0.05)
+    assert not ((orders["case"] == "unequal") & (orders["label"] == "b")).any()
+    mixed = tables["epsilon"]["csv"].query("panel == 'mixed'")
+    assert set(mixed["label"]) == {"unequal, b"}

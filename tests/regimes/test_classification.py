@@ -1,0 +1,120 @@
+"""Regimes that are known by other means: exact orbits with their multipliers, closed forms, longer runs, symmetry."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.regimes.classification import (
+    ASYMMETRIC,
+    IDLE,
+    MODULATED,
+    NO_IMPACTS,
+    OTHER,
+    SYMMETRIC,
+    attracting_cycle,
+    observe,
+    settle,
+    starts,
+)
+from vibroimpact.system.matrices import dynamic_stiffness
+
+OBSERVATION = dict(cycles=250, rounds=3, window=24, nearness=0.02)
+
+
+def stable_orbits(system):
+    return [orbit for orbit in vi.orbits(system) if orbit.admissible and abs(orbit.multipliers[0]) < 1]
+
+
+def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter):
+    system = chapter()
+    regimes = settle(system, starts(12, seed=3), **OBSERVATION)
+    assert {regime.name for regime in regimes} == {ASYMMETRIC}
+    orbits = stable_orbits(system)
+    for regime in regimes:
+        assert min(np.abs(regime.run.final - orbit.state).max() for orbit in orbits) < 1e-9
+        harmonic = 2 / (1 / orbits[0].C).sum(axis=1)
+        np.testing.assert_allclose(regime.mean_amplitudes, harmonic, rtol=0.02)
+    assert {np.sign(regime.lean) for regime in regimes} == {1, -1}
+
+
+@pytest.mark.parametrize(("f10", "f20", "name"), [(1.3, 1.25, SYMMETRIC), (1.0, 1.2, ASYMMETRIC)])
+def test_an_exact_stable_orbit_is_recognised(chapter, f10, f20, name):
+    system = chapter(f10, f20)
+    orbits = stable_orbits(system)
+    assert orbits
+    for orbit in orbits:
+        assert orbit.symmetric == (name == SYMMETRIC)
+        assert observe(system, orbit.state, 24, 0.02).name == name
+        nudged = attracting_cycle(system, orbit.state + 1e-4, 1, reach=0.01)
+        np.testing.assert_allclose(nudged, orbit.state, atol=1e-9)
+
+
+def test_an_unstable_orbit_is_no_regime(chapter):
+    system = chapter()
+    for orbit in vi.orbits(system):
+        if orbit.admissible and abs(orbit.multipliers[0]) > 1.5:
+            assert attracting_cycle(system, orbit.state, 1, reach=0.2) is None
+
+
+def test_weak_forces_lead_to_modulation_and_from_rest_to_an_idle_ball(chapter):
+    system = chapter(0.5, 0.5)
+    rest, *others = settle(system, starts(10, seed=4), **OBSERVATION)
+    assert rest.name == IDLE
+    assert not rest.impacts["module"].tolist().count(2)
+    assert not rest.run.samples[:, [3, 7]].any()
+    assert {regime.name for regime in others} == {MODULATED}
+
+
+def test_an_idle_ball_is_not_held_there(chapter):
+    """Its position is neutral: the least push takes it to a wall, and the regime is lost."""
+    system = chapter(0.5, 0.5)
+    state = np.zeros(8)
+    state[7] = 1e-3
+    regime = settle(system, [state], **OBSERVATION)[0]
+    assert regime.name == MODULATED
+    assert 2 in regime.impacts["module"]
+
+
+def test_modulation_outlasts_longer_runs(chapter):
+    """None of the motions that are called modulated settles in ten times the time."""
+    for f20 in (0.89, 0.5):
+        system = chapter(1.0 if f20 == 0.89 else 0.5, f20)
+        late = settle(system, starts(8, seed=5)[1:], cycles=2500, rounds=3, window=24, nearness=0.02)
+        assert {regime.name for regime in late} == {MODULATED}
+
+
+def test_without_impacts_the_boxes_follow_the_linear_response(chapter):
+    system = chapter(0.05, 0.05)
+    assert abs(np.linalg.solve(dynamic_stiffness(system), system.forcing.astype(complex))).max() < 0.9
+    regime = settle(system, np.zeros((1, 8)), **OBSERVATION)[0]
+    assert regime.name == NO_IMPACTS
+    assert regime.mean_amplitudes.tolist() == [0, 0]
+
+
+def test_other_periodic_motions_repeat(chapter):
+    system = chapter(0.3, 1.4)
+    regimes = settle(system, starts(6, seed=1)[1:], **OBSERVATION)
+    periodic = [regime for regime in regimes if regime.name == OTHER]
+    assert periodic
+    for regime in periodic:
+        later = vi.simulate(system, regime.run.final, regime.repeats)
+        np.testing.assert_allclose(later.final, regime.run.final, atol=1e-8)
+
+
+def test_mirrored_starts_under_mirrored_forces_end_in_mirrored_regimes(chapter):
+    """State to minus state with the forces reversed is a symmetry of the equations, kept to the last bit."""
+    states = starts(6, seed=7)
+    for f10, f20 in ((1.0, 1.0), (1.0, 0.89), (0.3, 1.4)):
+        ours = settle(chapter(f10, f20), states, **OBSERVATION)
+        mirrored = settle(chapter(-f10, -f20), -states, **OBSERVATION)
+        assert [a.name for a in ours] == [b.name for b in mirrored]
+        for a, b in zip(ours, mirrored, strict=True):
+            np.testing.assert_allclose(a.run.final, -b.run.final, atol=1e-8)
+
+
+def test_starts_are_admissible_and_begin_with_rest():
+    states = starts(200, seed=1, reach=0.7)
+    assert not states[0].any()
+    assert np.all(np.abs(states[:, [0, 2]] - states[:, [1, 3]]) < 1)
+    assert np.abs(states[:, [0, 2, 4, 5, 6, 7]]).max() <= 0.7
+    assert np.array_equal(states, starts(200, seed=1, reach=0.7))
