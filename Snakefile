@@ -1,5 +1,5 @@
 # From one config to every figure of the chapter:
-# config -> fixed points -> simulations -> figures and notebooks -> accuracy -> checks.
+# config -> fixed points -> orbits -> simulations -> figures and notebooks -> accuracy -> checks.
 
 
 include: "workflow/rules/common.smk"
@@ -12,6 +12,7 @@ check_config()
 
 
 include: "workflow/rules/fixed_points.smk"
+include: "workflow/rules/stability.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/regimes.smk"
@@ -22,7 +23,7 @@ include: "workflow/rules/checks.smk"
 rule all:
     default_target: True
     input:
-        "results/fixed_points.csv",
+        rules.stability.input,
         rules.figures.input,
         rules.regimes.input,
         list(rules.companion_horizon.output) if PRECISE else [],

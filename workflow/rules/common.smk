@@ -55,6 +55,10 @@ def system_of(case):
     return config_checks.case_parameters(config, case)
 
 
+def all_systems():
+    return {case: system_of(case) for case in config["cases"]}
+
+
 if workflow.is_main_process:
     BUILD_LOCK = one_build_at_a_time()
 

@@ -18,10 +18,6 @@ scattergather:
     regime_map=REGIMES["map"]["tiles"],
 
 
-def all_systems():
-    return {case: system_of(case) for case in config["cases"]}
-
-
 def regime_settings(name, *without):
     """The slice of one companion, its case given as a system."""
     settings = {key: value for key, value in REGIMES[name].items() if key not in ("case", *without)}

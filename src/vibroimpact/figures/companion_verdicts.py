@@ -9,13 +9,32 @@ from vibroimpact.theory.penetration import stays_within_walls
 
 CRITERIA = (*verdicts.CRITERIA, "floquet")
 NO_ORBIT = "no orbit"
+_SIDES = [(module, wall) for module in (1, 2) for wall in ("plus", "minus")]
+_PHASES = [f"phase{module}_{wall}" for module, wall in _SIDES]
+_SPEEDS = [f"speed{module}_{wall}" for module, wall in _SIDES]
+_MODULI = [f"modulus_{k}" for k in range(1, 9)]
+_OF_ORBIT = [
+    "case",
+    "label",
+    "symmetric",
+    "admissible",
+    "C1",
+    "C2",
+    *_PHASES,
+    *_SPEEDS,
+    *_MODULI,
+    "residual",
+    *CRITERIA,
+]
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
     """A row per exact orbit, in order: what it is and what the criteria say.
 
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (mean ball speed
-    times a quarter period), one column per criterion.
+    times a quarter period), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
+    (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, residual, one column per
+    criterion.
     """
     counts = {True: 0, False: 0}
     rows = []
@@ -24,9 +43,10 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
         C = verdicts.slow_variables(orbit)[1]
         says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
-        kind = {"symmetric": orbit.symmetric, "admissible": orbit.admissible}
-        rows.append({"case": case, "label": label, **kind, "C1": C[0], "C2": C[1], **says})
-    return pd.DataFrame(rows, columns=["case", "label", "symmetric", "admissible", "C1", "C2", *CRITERIA])
+        kind = [case, label, orbit.symmetric, orbit.admissible]
+        numbers = [*C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
+        rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
+    return pd.DataFrame(rows, columns=_OF_ORBIT)
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:

@@ -1,0 +1,108 @@
+"""The proof that no fixed point is missing: against closed forms, planted omissions, and a fold left undecided."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from vibroimpact.system import System
+from vibroimpact.theory import certify_fixed_points
+from vibroimpact.theory.certify_fixed_points import certify
+from vibroimpact.theory.fixed_points import FixedPointSearch, search
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact.theory.slow_flow import rates
+
+CHAPTER = System(
+    epsilon=0.1,
+    kappa=0.65,
+    alpha12_hat=1,
+    gamma1_hat=0.2,
+    gamma2_hat=0.2,
+    gamma12_hat=0.2,
+    sigma20_hat=0.5,
+    sigma_e_hat=0.2,
+    f10_hat=1,
+    f20_hat=1,
+)
+FOLD = 0.6977803686883265  # f20_hat at which two fixed points of the chapter's system merge
+
+
+def middle(box):
+    return np.mean(box, axis=1)
+
+
+@pytest.mark.parametrize(("f10", "f20", "points"), [(1, 1, 4), (1, 0.89, 4), (0.5, 0.5, 2)])
+def test_the_chapter_s_cases_are_complete(f10, f20, points):
+    certificate = certify(CHAPTER.with_(f10_hat=f10, f20_hat=f20))
+    assert certificate.complete
+    assert certificate.undecided == []
+    assert len(certificate.isolated) == points
+
+
+@pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
+def test_uncoupled_modules_have_the_roots_of_two_quadratics(kappa):
+    """|(e_i (1 - (1 + i rho) C) + mu C)| = |f_i| in closed form, every pair of roots."""
+    system = CHAPTER.with_(alpha12_hat=0, gamma12_hat=0, kappa=kappa)
+    r, mu = 2 * (1 - kappa) / (math.pi * (1 + kappa)), 8 / math.pi**2
+    roots = []
+    for e in (-0.4 + 0.2j, 0.1 + 0.2j):
+        slope = mu - e * (1 + 1j * r)
+        both = np.roots([abs(slope) ** 2, 2 * (e.conjugate() * slope).real, abs(e) ** 2 - 1])
+        roots.append(both[np.isreal(both)].real)
+    expected = sorted(itertools.product(*roots))
+    certificate = certify(system)
+    assert certificate.complete
+    assert len(expected) > 0
+    np.testing.assert_allclose([middle(box) for box in certificate.isolated], expected, atol=1e-5)
+
+
+def test_boxes_are_disjoint_and_small():
+    boxes = certify(CHAPTER).isolated
+    for one, other in itertools.combinations(boxes, 2):
+        assert any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one, other, strict=True))
+    assert max(high - low for box in boxes for low, high in box) < 1e-5
+
+
+def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
+    listed = search(CHAPTER)
+    for points in (listed.points[1:], [*listed.points, listed.points[0]]):
+        spoilt = FixedPointSearch(points, listed.outside, listed.radius)
+        monkeypatch.setattr(certify_fixed_points, "search", lambda system, spoilt=spoilt: spoilt)
+        assert not certify(CHAPTER).complete
+
+
+def test_a_fold_stays_open_and_its_neighbours_do_not():
+    certificate = certify(CHAPTER.with_(f20_hat=FOLD))
+    assert not certificate.complete
+    assert certificate.undecided
+    for box in certificate.undecided:
+        np.testing.assert_allclose(middle(box), [0.62661, 1.86850], atol=1e-4)
+    before, after = (certify(CHAPTER.with_(f20_hat=FOLD + shift)) for shift in (-1e-6, 1e-6))
+    assert before.complete
+    assert after.complete
+    assert len(after.isolated) - len(before.isolated) == 2
+
+
+def test_each_box_holds_a_zero_of_the_slow_flow():
+    """The phases are those that make (10.22) vanish; found by least squares over a grid of phases."""
+    r = rho(CHAPTER.kappa)
+
+    def residual(x):
+        C, psi = x[:2], x[2:]
+        return np.concatenate(rates(CHAPTER, B_of_C(C, r), psi, C))
+
+    for box in certify(CHAPTER).isolated:
+        starts = itertools.product(np.arange(-3, 4), repeat=2)
+        fits = (least_squares(residual, [*middle(box), *psi], xtol=1e-15, ftol=1e-15, gtol=1e-15) for psi in starts)
+        assert any(
+            np.abs(fit.fun).max() < 1e-12
+            and all(low <= c <= high for (low, high), c in zip(box, fit.x[:2], strict=True))
+            for fit in fits
+        )
+
+
+def test_nothing_moves_without_forcing():
+    with pytest.raises(ValueError, match=r"^system: f10_hat and f20_hat are 0"):
+        certify(CHAPTER.with_(f10_hat=0, f20_hat=0))

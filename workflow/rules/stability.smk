@@ -1,0 +1,105 @@
+# Is it stable? Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, how
+# complete both lists are, and the companion figures. The tables of all cases feed no figure of the chapter.
+
+STABILITY_FIGURES = {
+    "companion_10_04": config["stability"]["companion_10_04"] | {"kappa": config["system"]["kappa"]},
+    "companion_10_05": config["stability"]["companion_10_05"],
+    "companion_stability": {"systems": all_systems()},
+}
+GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/orbits/{case}.csv"}
+
+
+def stability_outputs(name):
+    return {kind: f"results/figures/{name}.{kind}" for kind in ("csv", "png", "pdf", "svg")}
+
+
+rule orbits:
+    output:
+        "results/orbits/{case}.csv",
+    params:
+        system=lambda wildcards: system_of(wildcards.case),
+        code=code("workflow/scripts/orbits.py"),
+    log:
+        "results/logs/orbits/{case}.log",
+    benchmark:
+        "results/benchmarks/orbits/{case}.tsv"
+    script:
+        "../scripts/orbits.py"
+
+
+rule verdicts:
+    input:
+        fixed_points="results/fixed_points/{case}.csv",
+        orbits="results/orbits/{case}.csv",
+    output:
+        "results/verdicts/{case}.csv",
+    params:
+        system=lambda wildcards: system_of(wildcards.case),
+        code=code("workflow/scripts/verdicts.py"),
+    log:
+        "results/logs/verdicts/{case}.log",
+    benchmark:
+        "results/benchmarks/verdicts/{case}.tsv"
+    script:
+        "../scripts/verdicts.py"
+
+
+for name, per_case in GATHERED.items():
+
+    rule:
+        name:
+            f"gather_{name}"
+        input:
+            expand(per_case, case=config["cases"]),
+        output:
+            f"results/{name}.csv",
+        params:
+            code=code("workflow/scripts/gather.py"),
+        log:
+            f"results/logs/gather_{name}.log",
+        benchmark:
+            f"results/benchmarks/gather_{name}.tsv"
+        script:
+            "../scripts/gather.py"
+
+
+rule certificates:
+    output:
+        "results/certificates.json",
+    params:
+        systems=all_systems(),
+        code=code("workflow/scripts/certificates.py"),
+    log:
+        "results/logs/certificates.log",
+    benchmark:
+        "results/benchmarks/certificates.tsv"
+    script:
+        "../scripts/certificates.py"
+
+
+for name, settings in STABILITY_FIGURES.items():
+
+    rule:
+        name:
+            name
+        input:
+            **({"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"} if "systems" in settings else {}),
+        output:
+            **stability_outputs(name),
+        params:
+            module=name,
+            settings=settings,
+            code=code("workflow/scripts/companions.py", modules=[f"vibroimpact.figures.{name}"]),
+        log:
+            f"results/logs/stability/{name}.log",
+        benchmark:
+            f"results/benchmarks/stability/{name}.tsv"
+        script:
+            "../scripts/companions.py"
+
+
+rule stability:
+    input:
+        [f"results/{name}.csv" for name in GATHERED],
+        rules.certificates.output,
+        [path for name in STABILITY_FIGURES for path in stability_outputs(name).values()],
