@@ -54,6 +54,30 @@ for name, all_of_them in JUDGED.items():
             "../scripts/hazards.py"
 
 
+MODELLED = {figure: scene for figure, scene in config["figures"].items() if "model" in scene}
+
+
+rule scene_models:
+    input:
+        [path for scene in MODELLED.values() for path in figure_inputs(scene).values()],
+        tables=[figure_outputs(figure, scene)["csv"] for figure, scene in MODELLED.items()],
+    output:
+        "results/accuracy/scene_models.csv",
+    params:
+        figures={figure: [scene, figure_settings(scene)["system"]] for figure, scene in MODELLED.items()},
+        simulations={case: values["simulation"] for case, values in config["cases"].items()},
+        seconds=config["accuracy"]["short_seconds"],
+        code=code("workflow/scripts/scene_models.py"),
+    threads: workflow.cores
+    log:
+        "results/logs/accuracy/scene_models.log",
+    benchmark:
+        "results/benchmarks/accuracy/scene_models.tsv"
+    script:
+        "../scripts/scene_models.py"
+
+
 rule accuracy:
     input:
+        "results/accuracy/scene_models.csv",
         [path for name in ("work_precision", "hazards") for path in accuracy_outputs(name).values()],

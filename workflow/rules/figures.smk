@@ -7,11 +7,11 @@ CASE_FILES = {
     "events": "results/simulations/{case}/events.csv",
     "summary": "results/simulations/{case}/summary.json",
 }
-NOTEBOOK_INPUTS = {
-    "drawings": [],
+# What a figure is given to read is what its model needs, and no more; a drawing has none.
+MODEL_INPUTS = {
+    None: [],
     "closed_form": [],
-    "fixed_points": ["fixed_points"],
-    "theoretical_response": ["fixed_points"],
+    "slow_flow": ["fixed_points"],
     "simulation": ["fixed_points", "samples", "events", "summary"],
 }
 WITHOUT_TABLE = "drawings"
@@ -37,7 +37,7 @@ DOUBLE = sys.float_info.dig
 
 def figure_inputs(scene):
     """Results of the figure's case that its notebook reads."""
-    return {name: CASE_FILES[name].format(case=scene["case"]) for name in NOTEBOOK_INPUTS[scene["notebook"]]}
+    return {name: CASE_FILES[name].format(case=scene["case"]) for name in MODEL_INPUTS[scene.get("model")]}
 
 
 def figure_outputs(figure, scene):
@@ -49,7 +49,8 @@ def figure_outputs(figure, scene):
 def figure_settings(scene):
     """The figure's own slice of the config: its scene and the system parameters that it depends on."""
     scene = dict(scene)
-    notebook, used = scene.pop("notebook"), scene.pop("parameters", [])
+    scene.pop("notebook"), scene.pop("model", None)
+    used = scene.pop("parameters", [])
     system = system_of(scene["case"]) if "case" in scene else {name: config["system"][name] for name in used}
     return {**scene, "system": system}
 
@@ -75,7 +76,7 @@ def step(method, digits, *files, modules=()):
 
 def figure_origin(figure, scene):
     """What decides on a figure: its slice of the config, by the path of each key, and the steps up to its files."""
-    read = NOTEBOOK_INPUTS[scene["notebook"]]
+    read = MODEL_INPUTS[scene.get("model")]
     used = config["system"] if "case" in scene else scene.get("parameters", [])
     values = {f"system.{name}": config["system"][name] for name in used}
     if "case" in scene:
