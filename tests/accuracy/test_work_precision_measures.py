@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.reference import reference_run
 from vibroimpact.accuracy.work_precision import Scene, fitted_order, measure
 from vibroimpact.exact.simulation import EVENT
 from vibroimpact.rivals import METHODS
@@ -110,15 +112,19 @@ def test_the_short_form_keeps_the_finest_setting():
     assert settings[-1] == str(euler.ladder[-1])
 
 
-def test_unavoidable_error_is_that_of_the_closed_form():
-    """Without impacts and forces the motion is linear: an undamped, uncoupled box turns, a ball stays."""
-    free = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, alpha12_hat=0.0)
-    x, y = 0.5, 0.25
-    found = benchmark.unavoidable_error(Scene("free", free, (x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 1))
-    turn = free.period
-    final = np.abs([x * np.cos(turn), y, x * np.sin(turn)])
-    start = np.array([x * abs(np.cos(turn)), y, x * abs(np.sin(turn))])
-    assert found == pytest.approx(2.0**-53 * np.max(start + final), rel=1e-6)
+def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
+    once = Scene("once", SYSTEM, SCENE.state, 1)
+    mp.dps = 40
+    end = [mpf(text) for text in reference_run(SYSTEM, SCENE.state, 1, 40).final_text]
+    assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)
+
+
+def test_unavoidable_error_grows_with_the_sensitivity_of_the_motion():
+    weak = SYSTEM.with_(f10_hat=0.5, f20_hat=0.5)
+    steady = benchmark.unavoidable_error(Scene("settled", SYSTEM, SCENE.state, 10))
+    modulated = benchmark.unavoidable_error(Scene("modulated", weak, (0.0,) * 8, 10))
+    assert 2.0**-54 < steady < 1e-14
+    assert modulated > steady
 
 
 def test_judgements_take_the_most_accurate_heyoka_and_the_fastest_sufficient_dop853():

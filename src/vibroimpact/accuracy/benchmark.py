@@ -52,26 +52,25 @@ def measure(scene: Scene, methods, seconds: float) -> list[dict]:
     return [{**row, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
-def unavoidable_error(scene: Scene, step: float = 1e-20, digits: int = 60) -> float:
-    """Error of the final state that rounding start and result to float64 alone can cause (largest coordinate).
+def unavoidable_error(scene: Scene, digits: int = 40) -> float:
+    """Error that rounding the state to float64 once per forcing cycle causes, all else being exact.
 
-    u (|J| |start| + |final|) with the unit roundoff u and the derivative J of the final state by the start, from
-    differences of reference runs.
+    The largest difference of a coordinate, at any whole cycle of the scene, between the motion and the one whose state
+    is rounded there: what no method can avoid whose states are float64 numbers, the conditioning of the motion
+    included.
     """
-    start = np.array(scene.state)
-    runs = [_final(scene, shifts, step, digits) for shifts in [None, *range(8)]]
-    J = np.array([[float((b - a) / step) for a, b in zip(runs[0], run, strict=True)] for run in runs[1:]]).T
-    final = np.array([float(value) for value in runs[0]])
-    roundoff = 0.5 * np.finfo(float).eps
-    return float(np.max(roundoff * (np.abs(J) @ np.abs(start) + np.abs(final))))
+    exact = rounded = [Fraction(repr(float(value))) for value in scene.state]
+    largest = Fraction(0)
+    for _ in range(scene.cycles):
+        exact = _after_one_cycle(scene.system, exact, digits)
+        rounded = [Fraction(float(value)) for value in _after_one_cycle(scene.system, rounded, digits)]
+        largest = max(largest, *(abs(a - b) for a, b in zip(exact, rounded, strict=True)))
+    return float(largest)
 
 
-def _final(scene, shifted, step, digits):
-    """Final state with `digits` decimals from the start with one coordinate moved by a step, or none."""
-    state = [Fraction(repr(float(value))) for value in scene.state]
-    if shifted is not None:
-        state[shifted] += Fraction(step)
-    return reference_run(scene.system, state, scene.cycles, digits).final_exact
+def _after_one_cycle(system, state, digits):
+    """The state (8,) a forcing period later, as rational numbers good to the digits."""
+    return [Fraction(text) for text in reference_run(system, state, 1, digits).final_text]
 
 
 def judgements(rows: list[dict], unavoidable: float) -> list[dict]:

@@ -10,8 +10,8 @@ from vibroimpact.figures.style import DOUBLE_COLUMN, GREY, LIGHT_GREY, letter_pa
 
 ERRORS = {"error_state": "error of the final state", "error_time": r"error of impact times [$\tau$]"}
 SMALLEST, LARGEST = 1e-16, 30.0
-LANE = 3e3
-"""Errors are drawn between SMALLEST and LARGEST; beyond, at LANE, are the runs that failed."""
+LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4
+"""Errors are drawn between SMALLEST and LARGEST; beyond, around LANE, are the runs that failed."""
 
 
 @styled
@@ -38,7 +38,7 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
             here = table[table["scene"] == scene]
             _panel(axes, here, error, look)
             _lane(axes, here, look, numbers)
-            axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, 3e4), xlabel=label)
+            axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel=label)
             axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
             axes.minorticks_off()
             axes.tick_params(labelbottom=True)
@@ -66,17 +66,20 @@ def _panel(axes, here, error, look):
 
 def _lane(axes, here, look, numbers):
     """The margin for runs without a result."""
-    axes.axvspan(LARGEST * 2, 3e4, color=LIGHT_GREY, linewidth=0, zorder=0)
+    axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
     failed = here[(here["outcome"] != "finished") & here["seconds_per_cycle"].notna()]
     for row in failed.itertuples():
-        axes.plot(LANE / 6, row.seconds_per_cycle, markersize=4.0, clip_on=False, **look[row.method])
+        x = LANE * LANE_STEP ** (
+            numbers[_failure(row)] % 3 - 1
+        )  # side by side, so that equal costs do not cover each other
+        axes.plot(x, row.seconds_per_cycle, markersize=4.0, **look[row.method])
         axes.annotate(
             numbers[_failure(row)],
-            (LANE / 6, row.seconds_per_cycle),
-            xytext=(4, 0),
+            (x, row.seconds_per_cycle),
+            xytext=(0, 5),
             textcoords="offset points",
             fontsize=6.5,
-            va="center",
+            ha="center",
         )
 
 

@@ -1,0 +1,50 @@
+"""The work-precision chart and the hazards picture show every row that they are given, failures included."""
+
+import pandas as pd
+
+from vibroimpact.figures import hazards, work_precision
+
+ROW = dict(scene="s", method="a", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0)
+ROW |= dict(seconds_per_cycle=1e-3, outcome="finished", reason="", order=None)
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text"))]
+
+
+def test_chart_keeps_failed_and_unavailable_methods():
+    rows = [
+        ROW,
+        ROW | dict(setting="2", missed=1),
+        ROW | dict(method="b", error_state=float("inf"), error_time=float("inf"), outcome="refused", reason="gave up"),
+        ROW | dict(method="c", seconds_per_cycle=None, outcome="unavailable", reason="not installed"),
+    ]
+    figure = work_precision.draw(pd.DataFrame(rows), footer="versions")
+    shown = "\n".join(texts(figure))
+    for expected in ("1  b: gave up", "c: unavailable (not installed)", "versions"):
+        assert expected in shown
+    points = [
+        line for line in figure.findobj(lambda a: hasattr(a, "get_xdata")) if line.get_marker() not in ("", "None")
+    ]
+    drawn = {(x, y) for line in points for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}
+    assert {(1e-6, 1e-3), (1e-7, 1e-3)} <= drawn
+    assert any(x > work_precision.LARGEST and y == 1e-3 for x, y in drawn)
+
+
+def test_fitted_orders_are_in_the_legend():
+    rows = [ROW | dict(order=4.96), ROW | dict(method="b")]
+    shown = texts(work_precision.draw(pd.DataFrame(rows), footer=""))
+    assert "a (order 5.0)" in shown
+    assert "b" in shown
+
+
+def test_every_verdict_has_its_mark_and_number():
+    rows = [
+        dict(group="g", hazard=verdict, method="m", verdict=verdict, error_state=3e-5, missed=1, spurious=2)
+        for verdict in hazards.VERDICTS
+    ]
+    shown = texts(hazards.draw(pd.DataFrame(rows)))
+    for verdict, (mark, _) in hazards.VERDICTS.items():
+        assert mark in shown
+        assert f"{mark}  {verdict}" in shown
+    assert shown.count("3e-5 −1 +2") == len(rows)
