@@ -3,8 +3,8 @@
 from importlib import import_module
 
 import pandas as pd
-from adapter import logging_to, write_csv
 
+from adapter import logging_to, write_csv
 from vibroimpact.figures.style import save
 from vibroimpact.system import System
 

@@ -90,10 +90,17 @@ def _across_fields(config):
                 found[f"cases.{case}.simulation.initial_state"] = (
                     f"ball {module} starts beyond a wall: X{module} - Y{module} = {W} is not between -1 and 1"
                 )
-    for figure, scene in config["figures"].items():
+    for place, scene in _scenes(config):
         if "case" in scene and scene["case"] not in config["cases"]:
-            found[f"figures.{figure}.case"] = f"unknown case {scene['case']!r}{_hint(scene['case'], config['cases'])}"
+            found[f"{place}.case"] = f"unknown case {scene['case']!r}{_hint(scene['case'], config['cases'])}"
     return list(found.items())
+
+
+def _scenes(config):
+    """Everything that may name a case, with its place."""
+    yield from ((f"figures.{figure}", scene) for figure, scene in config["figures"].items())
+    yield from ((f"regimes.{name}", config["regimes"][name]) for name in ("branches", "basins"))
+    yield "regimes.epsilon.mixed", config["regimes"]["epsilon"]["mixed"]
 
 
 def _type(error):

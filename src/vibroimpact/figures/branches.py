@@ -151,6 +151,7 @@ def _is(special, kind):
 
 def _legend(special):
     kinds = [kind for kind in MARKERS if _is(special, kind).any()]
+    marked = {MARKERS[kind]: [other for other in kinds if MARKERS[other] == MARKERS[kind]] for kind in kinds}
     grey = {"color": COLOURS[AsymmetricOrbits.name]}
     return [
         Line2D([], [], **STABLE, label="stable"),
@@ -159,7 +160,7 @@ def _legend(special):
         Line2D([], [], **UNSTABLE | grey, label="asymmetric, unstable"),
         Line2D([], [], **DOTS[False], label="simulated, not modulated"),
         Line2D([], [], **DOTS[True], label="simulated, modulated"),
-        *(Line2D([], [], marker=MARKERS[kind], label=kind, **_SPECIAL) for kind in kinds),
+        *(Line2D([], [], marker=marker, label=", ".join(names), **_SPECIAL) for marker, names in marked.items()),
     ]
 
 
