@@ -193,3 +193,25 @@ def test_uncoupled_modules_do_not_feel_the_other_force(chapter):
         for branch in branches(family, path, (1.0, 1.1), [1.05], longest=0.1):
             C1 = np.array([node.amplitudes[0] for node in branch.nodes])
             np.testing.assert_allclose(C1, C1[0], rtol=1e-9)
+
+
+def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
+    """A step towards negative epsilon is shortened; what is reached is a root, and the theory's is 10 epsilon away."""
+    system = chapter()
+    path = Path(system, ("epsilon",))
+    found = branches(SymmetricOrbits, path, (0.01, 0.1), [0.1], longest=0.1)
+    ends = [node for branch in found for node in (branch.nodes[0], branch.nodes[-1]) if node.p <= 0.01]
+    assert ends
+    for node in ends:
+        assert node.p > 0
+        assert abs(SymmetricOrbits.equations(path(node.p), node.x)[0]).max() < 1e-10
+        assert min(np.linalg.norm(point.C - node.amplitudes) for point in vi.fixed_points(system)) < 10 * node.p
+
+
+def test_fixed_points_do_not_depend_on_epsilon(chapter):
+    """Straight branches, each found once from several seeds."""
+    system = chapter()
+    found = branches(FixedPoints, Path(system, ("epsilon",)), (0.01, 0.1), [0.02, 0.05, 0.09], longest=0.1)
+    amplitudes = sorted(branch.nodes[0].amplitudes.tolist() for branch in found)
+    np.testing.assert_allclose(amplitudes, [point.C for point in vi.fixed_points(system)], atol=1e-9)
+    assert not any(branch.special for branch in found)

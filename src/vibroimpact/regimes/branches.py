@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from vibroimpact.regimes.continuation import Curve
+from vibroimpact.regimes.continuation import Curve, Lost
 from vibroimpact.regimes.families import SPEED_ZERO, AsymmetricOrbits, flight_fractions
 
 _SAME = 1e-6
@@ -94,7 +94,7 @@ def _branch(family, path, interval, start, longest):
 def _half(family, path, interval, start, ahead, longest):
     """Nodes on one side of the start."""
     low, high = interval
-    curve = Curve(lambda x, p: family.equations(path(p), x))
+    curve = Curve(lambda x, p: family.equations(_system(path, p), x))
     nodes, before = [], None
     for place in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
@@ -111,6 +111,14 @@ def _half(family, path, interval, start, ahead, longest):
         nodes.append(_node(family, path, z, member=member))
         before = place, tests
     return nodes
+
+
+def _system(path, p):
+    """The system at p; where there is none, a shorter step may still find one."""
+    try:
+        return path(p)
+    except ValueError as error:
+        raise Lost(str(error)) from None
 
 
 def _node(family, path, z, kind="", member=None):
@@ -156,7 +164,7 @@ def _passes(branch, path, p, root):
         if p0 != p1 and min(p0, p1) <= p <= max(p0, p1):
             chord = x1 - x0
             x = _polished(branch.family, path(p), x0 + (p - p0) / (p1 - p0) * chord)
-            if np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) and _same(branch.family, path(p), x, root):
+            if np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) + _SAME and _same(branch.family, path(p), x, root):
                 return True
     return False
 
