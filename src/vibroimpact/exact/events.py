@@ -32,9 +32,10 @@ from vibroimpact.system.restitution import after_impact
 
 IMPACT, STICK, RELEASE = 0, 1, 2
 FINISHED, PENETRATED, STALLED = 0, 1, 2
-FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, CLEARED, PIERCED = range(8)
+FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, CLEARED, PIERCED, CLEARED_BY, PIERCED_AT = range(10)
 """Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact, the sum of what completed chatters
-neglect, the smallest gap at a turn before a wall, and the smallest depth that an impact cut off."""
+neglect, the smallest gap at a turn before a wall, the smallest depth that an impact cut off, and the times by which
+and at which these two happened."""
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
@@ -192,7 +193,8 @@ def _settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rem
             brake = -wall * _acceleration(q, walls, boxes, sine)[i]
             if brake > 0.0:
                 depth = velocity * velocity / (2.0 * brake)
-                ledger[PIERCED] = min(ledger[PIERCED], depth)
+                if depth < ledger[PIERCED]:
+                    ledger[PIERCED], ledger[PIERCED_AT] = depth, elapsed
                 ledger[UNDECIDED] += depth <= gap_rounding(boxes, balls, i)
             box, ball = _impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = _with_velocity(boxes, i, box), _with_velocity(balls, i, ball)
@@ -322,7 +324,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
     """
     q = flow.coefficients
     events, count = np.empty((64, 12)), 0
-    ledger = np.zeros(8)
+    ledger = np.zeros(10)
     ledger[CLEARED] = ledger[PIERCED] = math.inf
     walls, touching, due = (0, 0), (0, 0), -1
     phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
@@ -338,6 +340,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
         )
         if remaining == 0.0:
             break
+        nearest = ledger[CLEARED]
         t, due, later, there = _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger)
         while sampled < len(sample_times) and sample_times[sampled] < elapsed + t:
             lag = max(sample_times[sampled] - elapsed, 0.0)
@@ -362,6 +365,8 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
             if phase >= TWO_PI:
                 phase, tail, revolutions = phase - TWO_PI, tail - TWO_PI_TAIL, revolutions + 1
         elapsed = (revolutions * TWO_PI + (phase - start_phase) + tail) / q.omega
+        if ledger[CLEARED] < nearest:
+            ledger[CLEARED_BY] = elapsed
     while sampled < len(sample_times):
         pack(boxes, balls, samples[sampled])
         sampled += 1

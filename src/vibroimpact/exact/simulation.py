@@ -44,7 +44,8 @@ class Run:
     def _variation(self):
         flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
         duration = self.cycles * self.system.period
-        return propagate(flow, self.start, self._rows, _phase(self.system, self.tau0), duration, limit)
+        marks = self._ledger[[kernel.CLEARED_BY, kernel.PIERCED_AT]]
+        return propagate(flow, self.start, self._rows, _phase(self.system, self.tau0), duration, limit, marks)
 
     @property
     def jacobian(self) -> np.ndarray:
@@ -54,8 +55,8 @@ class Run:
     @cached_property
     def certificate(self) -> Certificate:
         """What the run can vouch for."""
-        _, covariance, horizon = self._variation
-        return certify(self._ledger, covariance, self.tau0 + horizon)
+        _, covariance, horizon, marked = self._variation
+        return certify(self._ledger, covariance, self.tau0 + horizon, marked)
 
 
 def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times=None) -> Run:

@@ -112,17 +112,18 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 
 @compiled
-def propagate(flow, start, events, start_phase, duration, limit):
+def propagate(flow, start, events, start_phase, duration, limit, marks):
     """Carry perturbations along a run, given by its start (8,) in public order and the events (m, 12) of the kernel.
 
     Returns the Jacobian (8, 8) of the final state by the first one; the covariance (8, 8) that unit rounding errors in
-    the start and after every event leave at the end, infinite past the horizon; and that horizon: the time at which the
-    square root of the covariance's trace first exceeds the limit (inf if never). Matrices are in [boxes, balls].
+    the start and after every event leave at the end, infinite past the horizon; that horizon: the time at which the
+    square root of the covariance's trace first exceeds the limit (inf if never); and that root at the marks (n,), times
+    of events, just before them. Matrices are in [boxes, balls].
     """
     q = flow.coefficients
     jacobian, covariance = np.eye(8), np.zeros((8, 8))
     _add_rounding(covariance, start)
-    matrix = np.empty((8, 8))
+    matrix, marked = np.empty((8, 8)), np.full(len(marks), math.inf)
     walls, now, horizon = (0, 0), 0.0, math.inf
     for n in range(len(events) + 1):
         stop = events[n, 0] if n < len(events) else duration
@@ -135,6 +136,10 @@ def propagate(flow, start, events, start_phase, duration, limit):
                 if horizon == math.inf:
                     covariance = matrix @ covariance @ matrix.T
                 now += step
+        spread = math.sqrt(np.trace(covariance)) if horizon == math.inf else math.inf
+        for k in range(len(marks)):
+            if marked[k] == math.inf and now >= marks[k]:
+                marked[k] = spread
         if n == len(events):
             break
         row = events[n]
@@ -166,10 +171,10 @@ def propagate(flow, start, events, start_phase, duration, limit):
             continue
         covariance = matrix @ covariance @ matrix.T
         _add_rounding(covariance, row[4:])
-        if math.sqrt(np.trace(covariance)) > limit:
+        if not np.trace(covariance) <= limit * limit:  # also where it is no number: an impact without velocity
             horizon = now
             covariance[:] = math.inf
-    return jacobian, covariance, horizon
+    return jacobian, covariance, horizon, marked
 
 
 @compiled
