@@ -3,7 +3,7 @@ CORES ?= 2
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 
-.PHONY: help figures check-figures accept benchmark test lock clean set-up
+.PHONY: help figures check-figures accept check-bytes benchmark test lock clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -22,6 +22,9 @@ accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES
 
 benchmark: set-up  ## time per impact of every method, with its error (a minute or two, one core)
 	.venv/bin/python workflow/scripts/benchmark.py
+
+check-bytes: set-up  ## build the commit twice from nothing and compare the bytes
+	CORES=$(CORES) workflow/build_twice.sh
 
 test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check

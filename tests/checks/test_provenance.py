@@ -13,7 +13,7 @@ import pytest
 import vibroimpact
 from vibroimpact.checks import provenance
 from vibroimpact.checks.sources import Sources
-from vibroimpact.figures import style
+from vibroimpact.figures import style, tables
 
 ROOT = Path(__file__).parents[2]
 AWKWARD = {"method": r"all zeros of (10.24) \ by 'Newton' & \"more\" <κ> )", "digits": 15}
@@ -44,20 +44,26 @@ def test_a_file_without_a_record_is_refused(figures, tmp_path, kind):
 
 
 def test_same_figure_and_record_same_bytes(figures, tmp_path):
-    """In two processes that order sets and dictionaries of texts differently."""
+    """In processes that order sets of texts differently."""
+    figure_tables = {"fig10_08": "fig10_08", "fig10_09": "fig10_06"}
+    for name, like in figure_tables.items():
+        tables.write(figures[like].compute(), tmp_path / f"{name}.csv")
     code = (
-        "import json, sys\nfrom vibroimpact.figures import fig10_04, style\n"
-        "outputs = {kind: f'{sys.argv[1]}/fig10_04.{kind}' for kind in ('png', 'pdf', 'svg', 'artists')}\n"
-        "style.save(fig10_04.draw(fig10_04.compute(0.65, 2.0)), outputs, json.loads(sys.argv[2]))"
+        "import json, sys\nfrom pathlib import Path\n"
+        "from vibroimpact.figures import fig10_06, fig10_08, style, tables\n"
+        "source, target, record = Path(sys.argv[1]), sys.argv[2], json.loads(sys.argv[3])\n"
+        "for name, module in (('fig10_08', fig10_08), ('fig10_09', fig10_06)):\n"
+        "    outputs = {kind: f'{target}/{name}.{kind}' for kind in ('png', 'pdf', 'svg', 'artists')}\n"
+        "    style.save(module.draw(tables.read(source / f'{name}.csv')), outputs, record)"
     )
     made = []
-    for seed in ("1", "2"):
+    for seed in ("0", "1", "2"):
         (tmp_path / seed).mkdir()
-        arguments = [sys.executable, "-c", code, str(tmp_path / seed), json.dumps(AWKWARD)]
+        arguments = [sys.executable, "-c", code, str(tmp_path), str(tmp_path / seed), json.dumps(AWKWARD)]
         subprocess.run(arguments, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
         made.append({path.name: digest(path) for path in (tmp_path / seed).iterdir()})
-    assert made[0] == made[1]
-    assert len(made[0]) == 4
+    assert made[0] == made[1] == made[2]
+    assert len(made[0]) == 8
 
 
 @pytest.fixture

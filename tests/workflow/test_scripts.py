@@ -70,7 +70,7 @@ AGREED = ["figure", "settings", "inputs", "outputs", "provenance"]
 
 
 def parameters(**settings):
-    return dict.fromkeys(AGREED, {}) | {"figure": "fig10_03", "settings": settings}
+    return {name: {} for name in AGREED} | {"figure": "fig10_03", "settings": settings}
 
 
 @pytest.mark.parametrize("names", [AGREED[:3], [*AGREED, "colour"]])

@@ -24,6 +24,7 @@ SCRIPTS = {
 METHODS = {
     "fixed_points": "all solutions of (10.23): real zeros of (10.24), refined by Newton's method",
     "samples": "direct integration of (10.1), event by event, with free flight in closed form",
+    "exact samples": "direct integration of (10.1), event by event, in ball arithmetic, proved by doubling the digits",
 }
 NOTEBOOK_METHODS = {
     "drawings": "drawn to scale, nothing computed",
@@ -43,7 +44,14 @@ def figure_inputs(scene):
 def figure_outputs(figure, scene):
     kinds = ["png", "pdf", "svg"] + ["csv"] * (scene["notebook"] != WITHOUT_TABLE)
     told = {name: f"results/figures/{figure}.{name}.json" for name in ("artists", "provenance")}
+    if scene["notebook"] == "simulation" and exact(scene["case"]):
+        told["statistics"] = f"results/figures/{figure}.statistics.csv"
     return {kind: f"results/figures/{figure}.{kind}" for kind in kinds} | told
+
+
+def exact(case):
+    """Whether the motion of a case is computed with so many digits that all its numbers can be reproduced."""
+    return "digits" in config["cases"][case]["simulation"]
 
 
 def figure_settings(scene):
@@ -63,9 +71,11 @@ def figure_step(figure, scene):
     return step(NOTEBOOK_METHODS[scene["notebook"]], DOUBLE, *files, modules=modules)
 
 
-def digits(name, scene):
-    """Decimal digits that an input of a figure is computed with."""
-    return config["cases"][scene["case"]]["simulation"].get("digits", DOUBLE) if name == "samples" else DOUBLE
+def step_before(name, scene):
+    """How an input of a figure is made."""
+    if name == "samples" and exact(scene["case"]):
+        return step(METHODS["exact samples"], config["cases"][scene["case"]]["simulation"]["digits"], SCRIPTS[name])
+    return step(METHODS[name], DOUBLE, SCRIPTS[name])
 
 
 def step(method, digits, *files, modules=()):
@@ -82,7 +92,7 @@ def figure_origin(figure, scene):
     if "case" in scene:
         of_case = ["f10_hat", "f20_hat"] + ["simulation"] * ("samples" in read)
         values |= {f"cases.{scene['case']}.{name}": config["cases"][scene["case"]][name] for name in of_case}
-    before = [step(METHODS[name], digits(name, scene), SCRIPTS[name]) for name in read if name in SCRIPTS]
+    before = [step_before(name, scene) for name in read if name in SCRIPTS]
     return {
         "config": {f"figures.{figure}": scene, **values},
         "steps": [*before, figure_step(figure, scene)],

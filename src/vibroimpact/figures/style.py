@@ -57,7 +57,8 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
             versions that drew it.
         provenance: where the figure comes from, JSON data that goes into the metadata of each file.
     """
-    for kind in _METADATA.keys() & outputs.keys():
+    # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
+    for kind in (kind for kind in _METADATA if kind in outputs):
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
         with replacing(outputs[kind]) as path:
             figure.savefig(path, format=kind, metadata=metadata)
