@@ -3,7 +3,7 @@ CORES ?= 2
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 
-.PHONY: help figures check-figures accept check-bytes benchmark test lock clean set-up
+.PHONY: help figures check-figures accept report check-bytes benchmark test lock clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -14,6 +14,9 @@ figures: set-up  ## build every figure into results/ (CORES=2)
 
 check-figures: set-up  ## compare results/figures/ with the reference set figures/
 	.venv/bin/snakemake --cores $(CORES) figure_check
+
+report: set-up  ## build the report, results/report/index.html and a PDF of the same
+	.venv/bin/snakemake --cores $(CORES) report
 
 accept: export REASON := $(REASON)
 accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...")

@@ -1,0 +1,46 @@
+-- What a page needs beyond plain Markdown, for HTML and for Typst alike.
+local page = nil
+
+local function is_typst() return FORMAT:match("typst") ~= nil end
+
+function Meta(meta)
+  page = pandoc.utils.stringify(meta.page)
+end
+
+-- Numbers of equations stand after them: neither MathML nor Typst knows \tag.
+function Math(math)
+  math.text = math.text:gsub("%s*\\tag{(.-)}", "\\qquad\\text{(%1)}")
+  return math
+end
+
+-- Headings keep apart when all pages become one document: the first bears the name of its page.
+local first = true
+function Header(header)
+  if first then
+    header.identifier, first = page, false
+  elseif is_typst() and not header.classes:includes("figure-title") then
+    header.identifier = page .. "-" .. header.identifier
+  end
+  return header
+end
+
+-- Links between documents become links between pages, or between chapters of the one document.
+function Link(link)
+  local name, anchor = link.target:match("^([%w_]+)%.md(#?.*)$")
+  if not name then name, anchor = link.target:match("^([%w_]+)%.html(#?.*)$") end
+  if not name then return nil end
+  if is_typst() then
+    link.target = anchor ~= "" and anchor or "#" .. name
+  else
+    link.target = name .. ".html" .. anchor
+  end
+  return link
+end
+
+-- A wide table scrolls by itself, and can be reached by keyboard.
+function Table(tbl)
+  if is_typst() then return nil end
+  return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, { tabindex = "0", role = "region", ["aria-label"] = "Table" }))
+end
+
+return { { Meta = Meta }, { Math = Math, Header = Header, Link = Link, Table = Table } }

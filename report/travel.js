@@ -1,0 +1,86 @@
+// The fixed points on the slow invariant manifold, for the value of f20 that the slider stands at.
+"use strict";
+
+const WIDTH = 360, HEIGHT = 270, LEFT = 44, BOTTOM = 38, TOP = 10, RIGHT = 10;
+const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
+
+function shape(parent, kind, attributes, text = "") {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", kind);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.textContent = text;
+  parent.append(made);
+  return made;
+}
+
+class Plane {
+  constructor(svg, module, manifold) {
+    this.svg = svg;
+    const all = Object.values(manifold).flat();
+    const ends = [Math.max(...all.map(([C]) => C)), 1.05 * Math.max(...all.map(([, B]) => B))];
+    this.x = (C) => LEFT + (C / ends[0]) * (WIDTH - LEFT - RIGHT);
+    this.y = (B) => HEIGHT - BOTTOM - (B / ends[1]) * (HEIGHT - BOTTOM - TOP);
+    svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
+    svg.setAttribute("font-size", 13);
+    svg.setAttribute("font-family", "system-ui, sans-serif");
+    shape(svg, "rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
+    for (let C = 0; C <= ends[0]; C += 0.5) shape(svg, "text", { x: this.x(C), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, C);
+    for (let B = 0; B <= ends[1]; B += 0.5) shape(svg, "text", { x: LEFT - 6, y: this.y(B) + 4, "text-anchor": "end" }, B);
+    shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, `C${"₁₂"[module]}`);
+    shape(svg, "text", { x: 2, y: TOP + 30, "font-style": "italic" }, `B${"₁₂"[module]}`);
+    for (const [series, line] of Object.entries(manifold)) {
+      const stable = series === "SIM stable";
+      shape(svg, "polyline", {
+        points: line.map(([C, B]) => `${this.x(C)},${this.y(B)}`).join(" "), fill: "none", stroke: "#1a1a1a",
+        "stroke-width": stable ? 2.4 : 1.3, "stroke-dasharray": stable ? "none" : "6 4",
+      });
+    }
+    this.layer = shape(svg, "g", {});
+  }
+
+  show(points, module) {
+    this.layer.replaceChildren();
+    for (const { track, C, B, verdicts } of points) {
+      const colour = COLOURS[(track - 1) % COLOURS.length], [x, y] = [this.x(C[module]), this.y(B[module])];
+      const fill = verdicts.slow_flow === "stable" ? colour : "#fff";
+      shape(this.layer, "circle", { cx: x, cy: y, r: 6, fill, stroke: colour, "stroke-width": 2, "data-track": track });
+      shape(this.layer, "text", { x: x + 9, y: y - 7, fill: colour, "font-weight": 600 }, track);
+    }
+  }
+}
+
+class Travel {
+  constructor(root) {
+    this.data = JSON.parse(document.getElementById(root.dataset.source).textContent);
+    this.slider = root.querySelector("input");
+    this.output = root.querySelector("output");
+    this.rows = root.querySelector("tbody");
+    this.planes = [...root.querySelectorAll("svg")].map((svg, module) => new Plane(svg, module, this.data.manifold));
+    this.slider.max = this.data.values.length - 1;
+    this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
+    for (const button of root.querySelectorAll("button")) {
+      button.addEventListener("click", () => this.show(this.nearest(Number(button.dataset.value))));
+    }
+    this.show(this.nearest(Number(root.dataset.start)));
+  }
+
+  nearest(value) {
+    const gaps = this.data.values.map((other) => Math.abs(other - value));
+    return gaps.indexOf(Math.min(...gaps));
+  }
+
+  show(index) {
+    const points = this.data.points[index], value = this.data.values[index].toFixed(2);
+    this.slider.value = index;
+    this.slider.setAttribute("aria-valuetext", `${value}, ${points.length} fixed points`);
+    this.output.textContent = value;
+    this.planes.forEach((plane, module) => plane.show(points, module));
+    this.rows.replaceChildren(...points.map(({ track, C, B, verdicts }) => {
+      const row = document.createElement("tr");
+      const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));
+      for (const text of [track, ...places, ...Object.values(verdicts)]) row.insertCell().textContent = text;
+      return row;
+    }));
+  }
+}
+
+for (const root of document.querySelectorAll("[data-travel]")) new Travel(root);

@@ -1,0 +1,78 @@
+# The report: one site that reads offline and one PDF, from the results of all stages.
+
+REPORT_SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+REPORT_SHOWS = {
+    "chapter": list(config["figures"]),
+    "companions": [*STABILITY_FIGURES, *["companion_horizon"] * bool(PRECISE), *COMPANION_TABLES],
+    "accuracy": ["work_precision", "hazards"],
+    "models": [],
+    "animations": list(REPORT_SETTINGS["animations"]),
+    "travel": ["travel"],
+}
+PICTURES = "png", "pdf", "svg"
+
+
+for name, scene in REPORT_SETTINGS["animations"].items():
+
+    rule:
+        name:
+            name
+        input:
+            samples=CASE_FILES["samples"].format(case=scene["case"]),
+            events=CASE_FILES["events"].format(case=scene["case"]),
+        output:
+            json=f"results/animations/{name}.json",
+            **{kind: f"results/animations/{name}.{kind}" for kind in PICTURES},
+        params:
+            system=system_of(scene["case"]),
+            cycles=scene["cycles"],
+            code=code("workflow/scripts/animation.py"),
+        log:
+            f"results/logs/report/{name}.log",
+        benchmark:
+            f"results/benchmarks/report/{name}.tsv"
+        script:
+            "../scripts/animation.py"
+
+
+rule travel:
+    output:
+        json="results/travel/travel.json",
+        csv="results/travel/travel.csv",
+        **{kind: f"results/travel/travel.{kind}" for kind in PICTURES},
+    params:
+        system=system_of(REPORT_SETTINGS["travel"]["case"]),
+        settings=REPORT_SETTINGS["travel"],
+        code=code("workflow/scripts/travel.py"),
+    log:
+        "results/logs/report/travel.log",
+    benchmark:
+        "results/benchmarks/report/travel.tsv"
+    script:
+        "../scripts/travel.py"
+
+
+rule report:
+    input:
+        rules.figures.input,
+        rules.regimes.input,
+        rules.stability.input,
+        rules.accuracy.input,
+        list(rules.companion_horizon.output) if PRECISE else [],
+        rules.travel.output,
+        [path for name in REPORT_SETTINGS["animations"] for path in getattr(rules, name).output],
+        "results/claims.json",
+        [page["source"] for page in REPORT_SETTINGS["pages"]],
+        sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
+    output:
+        directory("results/report"),
+    params:
+        shown=REPORT_SHOWS,
+        config={name: config[name] for name in ("system", "cases")},
+        code=code("workflow/scripts/report.py"),
+    log:
+        "results/logs/report/report.log",
+    benchmark:
+        "results/benchmarks/report/report.tsv"
+    script:
+        "../scripts/report.py"

@@ -1,0 +1,55 @@
+"""Results -> the report: a site that reads offline, and a PDF."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import yaml
+
+from adapter import logging_to
+from report_pages import Pages
+from report_results import Results
+from report_site import write
+
+SETTINGS = "report/report.yaml"
+
+
+def main(root, results, shown: dict, config: dict, folder) -> None:
+    """Write the report into a new folder.
+
+    Args:
+        root: the checkout.
+        results: directory of the results.
+        shown: names of figures by group.
+        config: of the pipeline.
+    """
+    settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
+    results, folder = Results(results), Path(folder)
+    for group in shown.values():
+        for figure in group:
+            collect(results, figure, folder)
+    pages = Pages(root, results, settings, config, shown)
+    write(folder, root, pages, settings, f"Built from {version(root)}.")
+
+
+def collect(results, figure: str, folder: Path) -> None:
+    """Copy the files of a figure, and the notebook that made it, into the report."""
+    files = list(results.files(figure).values())
+    notebook = results.notebook(figure)
+    for path, part in [*((path, "figures") for path in files), *([(notebook, "notebooks")] if notebook else [])]:
+        target = folder / part / path.name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, target)
+
+
+def version(root) -> str:
+    """The commit of the checkout, as far as git tells."""
+    run = subprocess.run(
+        ["git", "describe", "--always", "--dirty=, with changes"], cwd=root, capture_output=True, text=True, check=False
+    )
+    return f"commit {run.stdout.strip()}" if run.returncode == 0 else "a copy without its history"
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        main(".", "results", snakemake.params.shown, snakemake.params.config, snakemake.output[0])

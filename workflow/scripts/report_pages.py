@@ -1,0 +1,102 @@
+"""The pages of the report as Markdown: templates and documents, filled with what the results say."""
+
+import re
+from collections import Counter
+from functools import lru_cache
+from pathlib import Path
+from types import SimpleNamespace
+
+import jinja2
+import pypandoc
+import yaml
+
+
+class Pages:
+    """Pages of the report, filled from results.
+
+    Args:
+        root: the checkout.
+        results: a `report_results.Results`.
+        settings: report/report.yaml.
+        config: the config of the pipeline.
+        shown: names of figures by group, in the order in which they are shown.
+    """
+
+    def __init__(self, root, results, settings: dict, config: dict, shown: dict):
+        self.root, self.results, self.settings, self.config = Path(root), results, settings, config
+        self.about = yaml.safe_load((self.root / "report/figures.yaml").read_text(encoding="utf-8"))
+        self.environment = jinja2.Environment(
+            loader=jinja2.FileSystemLoader(self.root),
+            undefined=jinja2.StrictUndefined,
+            comment_start_string="{##",  # since {# begins the name of a heading
+            comment_end_string="##}",
+            trim_blocks=True,
+            lstrip_blocks=True,
+            keep_trailing_newline=True,
+        )
+        self.environment.filters |= {"digits": digits, "cell": cell, "said": said, "setting": setting}
+        self.environment.globals |= {
+            "results": results,
+            "config": config,
+            "settings": settings,
+            "shown": shown,
+            "about": self.about,
+            "caption": lru_cache(self.caption),
+            "count": Counter,
+            "table": markdown_table,
+        }
+
+    def markdown(self, page: dict, target: str) -> str:
+        """One page for a target, "html" or "pdf". Documents are taken as they are, templates are filled."""
+        if page["source"].startswith("docs/"):
+            return (self.root / page["source"]).read_text(encoding="utf-8")
+        return self.environment.get_template(page["source"]).render(target=target)
+
+    def caption(self, figure: str) -> str:
+        """The caption of a figure, written for `snakemake --report` too, as Markdown in one line."""
+        source = (self.root / f"report/captions/{figure}.rst").read_text(encoding="utf-8")
+        filled = jinja2.Template(source, undefined=jinja2.StrictUndefined).render(
+            snakemake=SimpleNamespace(config=self.config)
+        )
+        return pypandoc.convert_text(filled, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
+
+
+def digits(value, number: int = 3) -> str:
+    """A number with so many significant digits; tiny and huge ones as a power of ten, as mathematics."""
+    if value is None or value != value:
+        return "–"
+    rounded = float(f"{value:.{number}g}")
+    if rounded == 0 or 1e-4 <= abs(rounded) < 1e6:
+        return f"{rounded:.15g}"
+    mantissa, exponent = f"{rounded:.{number - 1}e}".split("e")
+    return rf"${mantissa}\cdot 10^{{{int(exponent)}}}$"
+
+
+def setting(value) -> str:
+    """A setting of a method, which is a number or a word."""
+    try:
+        return digits(float(value))
+    except ValueError:
+        return cell(value)
+
+
+def cell(text) -> str:
+    """Text that can stand in a cell of a table."""
+    return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
+
+
+def said(numbers) -> str:
+    """Numbers behind a claim in one line."""
+    if isinstance(numbers, dict):
+        return "; ".join(f"{name.replace('_', ' ')}: {said(value)}" for name, value in numbers.items())
+    if isinstance(numbers, list):
+        return ", ".join(said(value) for value in numbers)
+    if isinstance(numbers, bool) or not isinstance(numbers, (int, float)):
+        return cell(numbers)
+    return digits(numbers, 4)
+
+
+def markdown_table(heads: list[str], rows) -> str:
+    """A pipe table."""
+    lines = [heads, ["---"] * len(heads), *([cell(value) for value in row] for row in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

@@ -1,0 +1,87 @@
+"""What the report quotes: tables, costs, provenance and claims, read from the results."""
+
+import json
+import re
+from pathlib import Path
+
+import pandas as pd
+
+KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
+FOLDERS = ("figures", "accuracy", "travel", "animations")
+COSTS = ("figures", "regimes", "stability", "accuracy", "simulations", "report", "")
+"""Folders of results/benchmarks in which the cost of a rule may stand."""
+
+
+class Results:
+    """The results of a build below one directory."""
+
+    def __init__(self, root):
+        self.root = Path(root)
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A CSV file, by its path below the results."""
+        return pd.read_csv(self.root / name)
+
+    def text(self, name: str) -> str:
+        return (self.root / name).read_text(encoding="utf-8")
+
+    def files(self, figure: str) -> dict[str, Path]:
+        """Files of a figure, by kind.
+
+        Raises:
+            ValueError: no folder holds the figure.
+        """
+        for folder in FOLDERS:
+            found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
+            found = {kind: path for kind, path in found.items() if path.is_file()}
+            if found:
+                return found
+        raise ValueError(f"figure: there are no files of {figure!r} in {self.root}")
+
+    def notebook(self, figure: str) -> Path | None:
+        path = self.root / f"notebooks/{figure}.html"
+        return path if path.is_file() else None
+
+    def cost(self, rule: str) -> dict | None:
+        """Seconds, processor seconds and memory [MB] of the last run of a rule, or None where they were not recorded."""
+        paths = [self.root / "benchmarks" / folder / f"{rule}.tsv" for folder in COSTS]
+        path = next((path for path in paths if path.is_file()), None)
+        if path is None:
+            return None
+        row = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
+        return {"seconds": row["s"], "processor": row["cpu_time"], "memory": row["max_rss"]}
+
+    def provenance(self, figure: str) -> dict | None:
+        """The sidecar of a figure, or None where it has none."""
+        path = self.files(figure)["svg"].with_name(f"{figure}.provenance.json")
+        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+    def claims(self) -> list[dict]:
+        return json.loads(self.text("claims.json"))
+
+    def claims_about(self, figure: str) -> list[dict]:
+        """Claims whose place names a figure of the chapter, `fig10_06` by "10.6" after the word for figures."""
+        number = figure.removeprefix("fig10_").lstrip("0")
+        named = re.compile(rf"[Ff]ig[a-z]*\.?[^()]*\b10\.{number}(?!\d)")
+        return [claim for claim in self.claims() if named.search(claim["place"])]
+
+    def most_accurate(self) -> pd.DataFrame:
+        """For each scene and method the finished run with the smallest error, and its time as a multiple of ours."""
+        table = self.table("accuracy/work_precision.csv")
+        whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
+        best = whole.loc[whole.groupby(["scene", "method"], sort=False)["error_state"].idxmin()]
+        ours = best[best["method"] == table["method"].iloc[0]].set_index("scene")["seconds_per_cycle"]
+        return best.assign(ratio=best["seconds_per_cycle"] / best["scene"].map(ours))
+
+    def failed_runs(self) -> pd.DataFrame:
+        """Scene, method, outcome and reason of every run of the chart that gave no result, and how many they are."""
+        table = self.table("accuracy/work_precision.csv")
+        failed = table[table["outcome"] != "finished"].fillna({"reason": ""})
+        keys = ["scene", "method", "outcome", "reason"]
+        return failed.groupby(keys, sort=False).size().rename("runs").reset_index()
+
+    def verdict_counts(self) -> pd.DataFrame:
+        """How often each verdict falls to each method over all hazards; a row per method."""
+        table = self.table("accuracy/hazards.csv")
+        order = list(dict.fromkeys(table["method"]))
+        return pd.crosstab(table["method"], table["verdict"]).reindex(order)

@@ -1,0 +1,41 @@
+"""Fixed points over a range of one forcing amplitude -> CSV, JSON for the report's control, and a picture."""
+
+import json
+
+import numpy as np
+
+from adapter import logging_to, write_csv
+from vibroimpact.figures.atomic import replacing
+from vibroimpact.figures.style import save
+from vibroimpact.figures.travel import compute, draw
+from vibroimpact.system import System
+from vibroimpact.theory.verdicts import CRITERIA
+
+
+def main(parameters: dict, settings: dict, outputs: dict) -> None:
+    low, high = settings["range"]
+    values = np.round(np.linspace(low, high, settings["values"]), 6).tolist()
+    systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
+    tables = compute(systems, settings["C_max"])
+    write_csv(tables["points"], outputs["csv"])
+    with replacing(outputs["json"]) as partial:
+        partial.write_text(json.dumps(for_page(tables, values), separators=(",", ":")) + "\n", encoding="utf-8")
+    save(draw(tables, r"\hat f_{20}"), outputs)
+
+
+def for_page(tables: dict, values: list) -> dict:
+    """What the control shows: both branches of the manifold, and the points at each value."""
+    manifold = {
+        series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in tables["manifold"].groupby("series")
+    }
+    points = {value: [] for value in values}
+    for row in tables["points"].round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4)).to_dict("records"):
+        said = {name: row[name] for name in CRITERIA}
+        place = {"track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
+        points[row["value"]].append(place | {"verdicts": said})
+    return {"manifold": manifold, "values": values, "points": list(points.values())}
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        main(snakemake.params.system, snakemake.params.settings, dict(snakemake.output.items()))
