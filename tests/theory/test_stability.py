@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vibroimpact.theory import manifold
-from vibroimpact.theory.stability import SYMMETRY_BREAKING_C, impact_multipliers, printed_limit
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers
+from vibroimpact.theory.stability import printed_limit
 
 
 @given(st.floats(0.001, 0.999))

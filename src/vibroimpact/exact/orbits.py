@@ -88,9 +88,9 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
         raise ValueError(f"system: {system!r} is not a System")
     if not isinstance(starts, int) or starts < 1:
         raise ValueError(f"starts: {starts!r} is not a positive integer")
-    symmetric = [_symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
     roots, hits = asymmetric_solutions(system, starts)
-    asymmetric = [_asymmetric_orbit(system, root) for root in roots]
+    asymmetric = [asymmetric_orbit(system, root) for root in roots]
     fewest = int(hits.min()) if len(hits) else 0
     return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
 
@@ -123,14 +123,16 @@ def _order(orbit):
     return (not orbit.symmetric, *speeds, *orbit.impact_phases.ravel().round(9))
 
 
-def _symmetric_orbit(system, root):
+def symmetric_orbit(system, root) -> Orbit:
+    """The orbit of a root (4,) of the symmetric equations: impact times of both modules at one wall, then C_1, C_2."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
     changes = 8 * C / system.period
     return _orbit(system, np.stack([times, later], axis=1), changes, np.full(2, 0.5), sign=-1)
 
 
-def _asymmetric_orbit(system, root):
+def asymmetric_orbit(system, root) -> Orbit:
+    """The orbit of a root of the asymmetric equations: impact times (module, wall) flattened, then what they carry."""
     times = root[:4].reshape(2, 2)
     fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
     return _orbit(system, times, root[4:], fractions, sign=1)
@@ -186,10 +188,10 @@ def _within_walls(system, state, impacts, passage):
     """Whether |W_i| <= 1 throughout; it is 1 at the impacts themselves, so only the extrema inside flights matter."""
     starts, ends = [0.0, *impacts], [*impacts, system.period]
     flights = zip([state, *passage.after], starts, ends, strict=True)
-    return all(_extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in flights)
+    return all(extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in flights)
 
 
-def _extremes(system, state, start, end):
+def extremes(system, state, start, end):
     """|W_i| at its extrema inside one free flight from `state` at time `start` to time `end`."""
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil((end - start) * fastest / _STEP)

@@ -3,8 +3,7 @@
 import numpy as np
 
 from vibroimpact.exact.floquet import follow
-from vibroimpact.exact.orbits import Orbit
-from vibroimpact.exact.orbits import _extremes as extremes
+from vibroimpact.exact.orbits import Orbit, extremes
 
 _MODULES = np.array([1, 1, 2, 2])
 

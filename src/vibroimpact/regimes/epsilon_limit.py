@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from vibroimpact.exact.orbits import _symmetric_orbit as symmetric_orbit
+from vibroimpact.exact.orbits import symmetric_orbit
 from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.response import impact_times
-from vibroimpact.theory.stability import impact_multipliers
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,15 +12,13 @@ from itertools import combinations
 import numpy as np
 
 from vibroimpact.exact.asymmetric import AsymmetricConditions, asymmetric_solutions
-from vibroimpact.exact.orbits import _asymmetric_orbit as asymmetric_orbit
-from vibroimpact.exact.orbits import _symmetric_orbit as symmetric_orbit
-from vibroimpact.exact.orbits import half_period_multipliers
+from vibroimpact.exact.orbits import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.symmetric import SymmetricConditions, symmetric_solutions, wrapped
 from vibroimpact.regimes.clearance import largest_excursion
 from vibroimpact.theory.fixed_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 from vibroimpact.theory.slow_flow import linearisation, rates, slow_eigenvalues
-from vibroimpact.theory.stability import SYMMETRY_BREAKING_C
 
 FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
