@@ -29,3 +29,4 @@ rule all:
         rules.regimes.input,
         list(rules.companion_horizon.output) if PRECISE else [],
         rules.accuracy.input,
+        list(rules.claims.output) if claims_apply() else [],

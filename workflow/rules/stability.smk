@@ -6,6 +6,9 @@ STABILITY_FIGURES = {
     "companion_10_05": config["stability"]["companion_10_05"],
     "companion_stability": {"systems": all_systems()},
 }
+# Cases whose direct integrations the claims are judged by.
+CLAIMED_SIMULATIONS = ["equal", "weak"]
+CLAIMS = "docs/claims.yaml"
 GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/orbits/{case}.csv"}
 
 
@@ -103,3 +106,39 @@ rule stability:
         [f"results/{name}.csv" for name in GATHERED],
         rules.certificates.output,
         [path for name in STABILITY_FIGURES for path in stability_outputs(name).values()],
+
+
+def claims_apply():
+    """Whether the config has the chapter's parameters, which the claims are about."""
+    chapter = yaml.safe_load((ROOT / CLAIMS).read_text(encoding="utf-8"))["parameters"]
+    forced = all(values.items() <= config["cases"].get(case, {}).items() for case, values in chapter["cases"].items())
+    return forced and chapter["system"] == config["system"]
+
+
+# The chapter's claims: each verdict follows from the results of the stages before.
+rule claims:
+    input:
+        claims=CLAIMS,
+        fixed_points="results/fixed_points.csv",
+        orbits="results/orbits.csv",
+        certificates="results/certificates.json",
+        modulation="results/regimes/modulation.csv",
+        special_points="results/regimes/special_points.csv",
+        epsilon_orders="results/regimes/epsilon_orders.csv",
+        **{
+            f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
+            for case in CLAIMED_SIMULATIONS
+            for name in ("samples.csv", "events.csv", "summary.json")
+        },
+    output:
+        json="results/claims.json",
+        markdown="results/claims.md",
+    params:
+        systems=all_systems(),
+        code=code("workflow/scripts/claims.py"),
+    log:
+        "results/logs/claims.log",
+    benchmark:
+        "results/benchmarks/claims.tsv"
+    script:
+        "../scripts/claims.py"

@@ -1,0 +1,52 @@
+"""What the checks of claims look at: the cases and the tables that the pipeline has written."""
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from vibroimpact.system import System
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """The window of a direct integration: samples and events, a row per instant, and its summary."""
+
+    samples: pd.DataFrame
+    events: pd.DataFrame
+    summary: dict
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Results of a build.
+
+    systems: case -> system. fixed_points, orbits, modulation, special_points, epsilon_orders: the tables of these
+    names. certificates: case -> what is proved of the lists. simulations: case -> Simulation.
+    """
+
+    systems: dict[str, System]
+    fixed_points: pd.DataFrame
+    orbits: pd.DataFrame
+    certificates: dict
+    modulation: pd.DataFrame
+    special_points: pd.DataFrame
+    epsilon_orders: pd.DataFrame
+    simulations: dict[str, Simulation]
+
+    @property
+    def system(self) -> System:
+        """A system with the parameters that all cases share."""
+        return next(iter(self.systems.values()))
+
+    def points(self, case: str) -> pd.DataFrame:
+        """Fixed points of a case, a row each, by label."""
+        return self.fixed_points[self.fixed_points["case"] == case].set_index("label")
+
+    def motions(self, case: str) -> pd.DataFrame:
+        """Exact orbits of a case that stay between the walls."""
+        return self.orbits[(self.orbits["case"] == case) & self.orbits["admissible"]]
+
+    def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
+        """Rows of the table of modulation for one quantity, of spread starts or the one from rest."""
+        table = self.modulation
+        return table[(table["case"] == case) & (table["start"] == start) & (table["quantity"] == quantity)]

@@ -1,0 +1,268 @@
+"""Claims: the list is sound, verdicts follow from what is computed, and other evidence leads to other verdicts."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from vibroimpact.checks import claims_equations, claims_manifold, claims_points
+from vibroimpact.checks.claims import CHECKS, judge, problems, to_markdown
+from vibroimpact.checks.claims_evidence import Evidence, Simulation
+from vibroimpact.checks.claims_finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, misprint
+from vibroimpact.exact.orbits import orbits
+from vibroimpact.exact.simulation import KINDS, simulate
+from vibroimpact.figures import epsilon_limit, modulation
+from vibroimpact.figures.companion_verdicts import fixed_point_rows, orbit_rows
+from vibroimpact.system import System
+from vibroimpact.theory.certify_fixed_points import certify
+from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.labels import labels
+
+ROOT = Path(__file__).parents[2]
+DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
+CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
+EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
+STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
+OBSERVATION = {"cycles": 250, "rounds": 2, "window": 24, "nearness": 0.02}
+
+
+def points_of(case, system, exact):
+    listed = fixed_points(system)
+    named = list(zip(labels(system, listed), listed, strict=True))
+    rows = fixed_point_rows(case, system, named, exact)
+    place = {label: [*point.B, *point.psi] for label, point in named}
+    rows[["B1", "B2", "psi1", "psi2"]] = [place[label] for label in rows["label"]]
+    return rows
+
+
+def simulation(system, state, cycles, per_cycle=50):
+    """A window of a simulation as the pipeline writes it."""
+    times = np.arange(cycles * per_cycle + 1) * system.period / per_cycle
+    run = simulate(system, state, cycles, sample_times=times)
+    events = pd.DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
+    events["kind"] = [KINDS[kind] for kind in run.events["kind"]]
+    events[STATE] = run.events["state"]
+    impacts = events[events["kind"] == "impact"]["module"].value_counts()
+    summary = {
+        "settings": {"window_cycles": cycles},
+        "events": {"impact": {str(i): int(impacts.get(i, 0)) for i in (1, 2)}},
+        "largest_change_after_cycles": {"1": float(np.abs(run.samples[per_cycle:] - run.samples[:-per_cycle]).max())},
+    }
+    return Simulation(pd.DataFrame(np.column_stack([times, run.samples]), columns=["tau", *STATE]), events, summary)
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    """What the pipeline would hand over, from shorter runs."""
+    shared = DOCUMENT["parameters"]["system"]
+    systems = {case: System(**shared, **forces) for case, forces in DOCUMENT["parameters"]["cases"].items()}
+    exact = {case: orbits(system) for case, system in systems.items()}
+    rows = {case: orbit_rows(case, found) for case, found in exact.items()}
+    attracting = next(orbit for orbit in exact["equal"] if np.abs(orbit.multipliers).max() < 1)
+    proofs = {case: certify(system) for case, system in systems.items()}
+    return Evidence(
+        systems=systems,
+        fixed_points=pd.concat([points_of(case, systems[case], rows[case]) for case in systems], ignore_index=True),
+        orbits=pd.concat(rows.values(), ignore_index=True),
+        certificates={
+            case: {"fixed_points": {"proved": len(proof.isolated), "complete": proof.complete}}
+            for case, proof in proofs.items()
+        },
+        modulation=modulation.compute(
+            {"weak": systems["weak"]}, starts=4, seed=2, cycles=300, blocks=40, block=5, observation=OBSERVATION
+        )["measures"],
+        # The fold as docs/derivation.md has it, section 8.
+        special_points=pd.DataFrame(
+            [["f20_hat", "fixed point", "fold", 0.69778, 0.62661, 1.86850]],
+            columns=["path", "family", "kind", "p", "C1", "C2"],
+        ),
+        epsilon_orders=epsilon_limit.compute(
+            systems, (0.01, 0.0001), 5, fit_below=0.002, mixed={"case": "unequal", "label": "b"}
+        )["orders"],
+        simulations={
+            "equal": simulation(systems["equal"], attracting.state, 6),
+            "weak": simulation(systems["weak"], [0, 0, 0, 0, 0, 0.5, 0, 0.5], 100),
+        },
+    )
+
+
+@pytest.fixture(scope="module")
+def verdicts(evidence):
+    return {claim["id"]: claim["verdict"] for claim in judge(list(CLAIMS.values()), evidence)}
+
+
+def verdict(claim, evidence):
+    return judge([CLAIMS[claim]], evidence)[0]["verdict"]
+
+
+# The list
+
+
+def test_the_list_is_sound_and_every_check_is_used():
+    assert problems(list(CLAIMS.values())) == []
+    assert len(DOCUMENT["claims"]) == len(CLAIMS) >= 25
+    assert {claim["check"] for claim in CLAIMS.values()} == set(CHECKS)
+
+
+def test_problems_of_a_list_are_named():
+    sound = {"id": "one", "place": "p", "statement": "s", "check": "fourier_series", "refuted_by": "r"}
+    assert problems([sound]) == []
+    assert problems([sound, sound]) == ["one: id given twice"]
+    assert problems([sound | {"check": "nothing"}]) == ["one: no check is called 'nothing'"]
+    assert problems([sound | {"verdict": "holds"}]) == ["one: unknown field 'verdict'"]
+    assert problems([{key: sound[key] for key in sound if key != "place"}]) == ["one: place is missing"]
+    with pytest.raises(ValueError, match=r"^claims: one: id given twice"):
+        judge([sound, sound], None)
+
+
+# Verdicts
+
+
+@pytest.mark.parametrize("claim", EXPECTED)
+def test_the_verdict_on_a_claim_has_not_changed(verdicts, claim):
+    assert verdicts[claim] == EXPECTED[claim]
+
+
+def test_every_claim_has_an_expected_verdict():
+    assert EXPECTED.keys() == CLAIMS.keys()
+
+
+@pytest.mark.parametrize(
+    ("parts", "expected"),
+    [
+        ([True], HOLDS),
+        ([True, True], HOLDS),
+        ([True, False], IN_PART),
+        ([False, False], REFUTED),
+        ([None], OPEN),
+        ([True, None], OPEN),
+        ([np.bool_(False)], REFUTED),
+    ],
+)
+def test_a_verdict_follows_from_the_parts(parts, expected):
+    assert Finding({str(k): part for k, part in enumerate(parts)}).verdict == expected
+
+
+def test_a_finding_has_parts():
+    with pytest.raises(ValueError, match=r"^parts: "):
+        Finding({})
+
+
+def test_a_misprint_is_judged_as_printed():
+    finding = misprint(False, True, value=np.float64(2.0))
+    assert finding.verdict == REFUTED
+    assert finding.numbers == {"value": 2.0, "as corrected": HOLDS}
+    assert type(finding.numbers["value"]) is float
+
+
+# Other evidence, other verdicts
+
+
+def with_table(evidence, name, change):
+    table = getattr(evidence, name).copy()
+    change(table)
+    return dataclasses.replace(evidence, **{name: table})
+
+
+def at(table, where, column, value):
+    table.loc[table.eval(where), column] = value
+
+
+CHANGED_TABLES = {
+    "equal-b": ("fixed_points", 'case == "equal" and label == "b"', "floquet", "stable", IN_PART),
+    "equal-c": ("fixed_points", 'case == "equal" and label == "c"', "floquet", "stable", HOLDS),
+    "weak-a": ("fixed_points", 'case == "weak"', "floquet", "undecided", OPEN),
+    "one-stable-unequal": ("fixed_points", 'case == "unequal" and label == "b"', "printed_10_26", "unstable", IN_PART),
+    "equal-a-left": ("fixed_points", 'case == "equal" and label == "a"', "C1", 1.0, REFUTED),
+    "weak-left-arms": ("fixed_points", 'case == "weak"', "C2", 1.0, IN_PART),
+    "points-move-left": ("fixed_points", 'case == "unequal"', ["C1", "C2"], 0.1, HOLDS),
+    "stable-point-moves-down": ("fixed_points", 'case == "unequal" and label == "c"', "C1", 0.9, IN_PART),
+    "assesses-stability": ("fixed_points", 'label != "z"', "printed_10_26", "unstable", HOLDS),
+    "no-practical-importance": ("orbits", 'case == "weak"', "floquet", "stable", REFUTED),
+    "falling-amplitudes": ("orbits", 'case == "weak"', "floquet", "stable", IN_PART),
+    "only-possible-behaviour": ("modulation", 'start == "rest"', "regime", "modulated", HOLDS),
+    "resonant-intervals": ("modulation", 'quantity == "resonant share"', "mean", 0.3, IN_PART),
+    "beating": ("modulation", 'quantity == "modulation depth"', "mean", 0.4, REFUTED),
+    "order-of-the-expansion": ("epsilon_orders", 'panel == "distance"', "order", 0.5, REFUTED),
+}
+
+
+@pytest.mark.parametrize("claim", CHANGED_TABLES)
+def test_other_tables_lead_to_the_verdict_that_they_mean(evidence, claim):
+    table, where, column, value, expected = CHANGED_TABLES[claim]
+    assert verdict(claim, with_table(evidence, table, lambda rows: at(rows, where, column, value))) == expected
+
+
+def test_a_list_not_proved_complete_counts_nothing(evidence):
+    certificates = evidence.certificates | {"weak": {"fixed_points": {"proved": 1, "complete": False}}}
+    doubtful = dataclasses.replace(evidence, certificates=certificates)
+    assert verdict("points-weak", doubtful) == REFUTED
+    assert verdict("phases-can-be-eliminated", doubtful) == IN_PART
+
+
+def test_a_missing_point_is_noticed(evidence):
+    fewer = dataclasses.replace(evidence, fixed_points=evidence.fixed_points.iloc[1:])
+    assert verdict("points-equal", fewer) == REFUTED
+
+
+def test_a_point_beyond_the_largest_C_leaves_the_box(evidence):
+    far = with_table(evidence, "fixed_points", lambda rows: at(rows, 'case == "weak"', "C1", 6.0))
+    (before,), (after,) = (judge([CLAIMS["no-penetration"]], given) for given in (evidence, far))
+    assert (before["parts"]["all fixed points"], after["parts"]["all fixed points"]) == (True, False)
+
+
+def test_singular_points_everywhere_are_near_the_fold(evidence, monkeypatch):
+    monkeypatch.setattr(
+        claims_points, "singular_points", lambda system, point, module: np.array([[point.C[module - 1], 0.0]])
+    )
+    (judged,) = judge([CLAIMS["singular-bifurcation"]], evidence)
+    assert judged["parts"]["a point is singular where two merge"]
+
+
+def test_another_motion_is_not_similar(evidence):
+    """The modulated motion of the weak case neither repeats nor has the amplitudes of point (c)."""
+    other = dataclasses.replace(evidence, simulations={"equal": evidence.simulations["weak"]})
+    assert verdict("steady-response", other) == REFUTED
+    assert verdict("similar-results", other) == REFUTED
+
+
+def test_a_right_limit_would_not_be_refuted_at_the_limit(evidence, monkeypatch):
+    monkeypatch.setattr(claims_manifold, "printed_limit", lambda rho: 1 / (1 + rho**2))
+    assert verdict("printed-condition", evidence) == IN_PART
+
+
+def test_another_function_has_other_harmonics(evidence, monkeypatch):
+    monkeypatch.setattr(claims_equations, "sawtooth", lambda tau, C, theta: C * np.cos(tau - theta))
+    assert verdict("fourier-series", evidence) == REFUTED
+    assert verdict("leading-order-solution", evidence) == IN_PART
+
+
+def test_lighter_boxes_would_make_the_misprint_right(evidence):
+    heavy = {case: system.with_(epsilon=5.0) for case, system in evidence.systems.items()}
+    assert verdict("small-balls", dataclasses.replace(evidence, systems=heavy)) == HOLDS
+
+
+def test_a_weaker_damper_makes_the_coupling_weak(evidence):
+    weaker = {case: system.with_(gamma12_hat=0.02) for case, system in evidence.systems.items()}
+    assert verdict("weak-coupling", dataclasses.replace(evidence, systems=weaker)) == HOLDS
+
+
+# The readable table
+
+
+def test_the_table_has_a_row_per_claim_and_its_verdict(evidence):
+    chosen = [CLAIMS[name] for name in ("fourier-series", "singular-squares", "left-arm")]
+    text = to_markdown(judge([*chosen, CLAIMS["small-balls"] | {"statement": "a | b\nc"}], evidence))
+    rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
+    assert [row.split(" | ")[0] for row in rows] == [
+        "| fourier-series",
+        "| singular-squares",
+        "| left-arm",
+        "| small-balls",
+    ]
+    assert "**cannot be decided from the text**" in rows[1]
+    assert "a \\| b c" in rows[3]
+    assert "4 claims of sections 10.2 to 10.5: 1 holds, 0 holds in part, 2 refuted, 1 cannot be decided" in text
