@@ -57,6 +57,7 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
             versions that drew it.
         provenance: where the figure comes from, JSON data that goes into the metadata of each file.
     """
+    outputs = dict(outputs.items())  # of the pipeline's own kind of mapping, `in` looks at the values
     # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
