@@ -18,7 +18,7 @@ local first = true
 function Header(header)
   if first then
     header.identifier, first = page, false
-  elseif is_typst() and not header.classes:includes("figure-title") then
+  elseif is_typst() then
     header.identifier = page .. "-" .. header.identifier
   end
   return header
@@ -26,11 +26,15 @@ end
 
 -- Links between documents become links between pages, or between chapters of the one document.
 function Link(link)
+  if is_typst() and link.target:sub(1, 1) == "#" then
+    link.target = "#" .. page .. "-" .. link.target:sub(2)
+    return link
+  end
   local name, anchor = link.target:match("^([%w_]+)%.md(#?.*)$")
   if not name then name, anchor = link.target:match("^([%w_]+)%.html(#?.*)$") end
   if not name then return nil end
   if is_typst() then
-    link.target = anchor ~= "" and anchor or "#" .. name
+    link.target = "#" .. name .. (anchor ~= "" and "-" .. anchor:sub(2) or "")
   else
     link.target = name .. ".html" .. anchor
   end

@@ -43,7 +43,7 @@ class Results:
         return path if path.is_file() else None
 
     def cost(self, rule: str) -> dict | None:
-        """Seconds, processor seconds and memory [MB] of the last run of a rule, or None where they were not recorded."""
+        """Seconds, processor seconds and memory [MB] of the last run of a rule, or None where nothing recorded them."""
         paths = [self.root / "benchmarks" / folder / f"{rule}.tsv" for folder in COSTS]
         path = next((path for path in paths if path.is_file()), None)
         if path is None:

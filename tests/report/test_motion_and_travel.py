@@ -1,0 +1,106 @@
+"""What the animation and the control show: the frames of a simulated motion, fixed points along a force."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.exact.simulation import KINDS
+from vibroimpact.figures import animation, travel
+from vibroimpact.theory.manifold import B_of_C, rho
+
+SYSTEM = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+    "f10_hat": 1.0,
+}
+COORDINATES = ["X1", "Y1", "X2", "Y2"]
+
+
+@pytest.fixture(scope="module")
+def window():
+    """Samples and events of three cycles, with the system's period."""
+    system = vi.System(**SYSTEM, f20_hat=1.0)
+    times = np.linspace(60, 63, 121) * system.period
+    run = vi.simulate(system, [0.0] * 8, 63, sample_times=times)
+    events = run.events[run.events["tau"] >= times[0]]
+    table = pd.DataFrame({name: events[name] for name in ("tau", "module", "wall")})
+    table["kind"] = [KINDS[kind] for kind in events["kind"]]
+    table[COORDINATES] = events["state"][:, :4]
+    samples = pd.DataFrame(np.column_stack([times, run.samples[:, :4]]), columns=["tau", *COORDINATES])
+    return samples, table, system.period
+
+
+def test_frames_have_every_corner_of_the_motion(window):
+    samples, events, period = window
+    tables = animation.compute(samples, events, period, 2)
+    motion, impacts = tables["motion"], tables["impacts"]
+    assert motion["t"].is_monotonic_increasing
+    assert (motion["t"].iloc[0], motion["t"].iloc[-1]) == pytest.approx((0.0, 2.0), abs=1e-9)
+    assert len(impacts) == 8  # two per cycle and module
+    for hit in impacts.itertuples():
+        at_impact = np.interp(hit.t, motion["t"], motion[f"X{hit.module}"] - motion[f"Y{hit.module}"])
+        assert at_impact == pytest.approx(hit.wall, abs=1e-9)
+
+
+def test_between_frames_the_ball_flies_straight(window):
+    """Y moves uniformly between impacts, so that the frames follow it exactly, whatever their distance."""
+    samples, events, period = window
+    fine = animation.compute(samples, events, period, 2)["motion"]
+    coarse = animation.compute(samples.iloc[::20], events, period, 2)["motion"]
+    for name in ("Y1", "Y2"):
+        np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
+
+
+def test_more_cycles_than_the_window_has_are_refused(window):
+    with pytest.raises(ValueError, match="cycles: 4"):
+        animation.compute(*window, 4)
+
+
+def test_the_still_shows_instants_of_one_cycle(window):
+    figure = animation.draw(animation.compute(*window, 1))
+    texts = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert texts == [f"t = {n / animation.INSTANTS:.2f} T" for n in range(animation.INSTANTS)]
+
+
+@pytest.fixture(scope="module")
+def travelled():
+    values = np.round(np.arange(0.6, 1.3001, 0.01), 6)
+    return travel.compute({value: vi.System(**SYSTEM, f20_hat=value) for value in values}, 2.5)
+
+
+def test_travelling_points_are_all_points_and_on_the_manifold(travelled):
+    points = travelled["points"]
+    for value, count in ((0.6, 1), (0.89, 3), (1.0, 3)):
+        assert (points["value"] == value).sum() == count
+    for module in (1, 2):
+        np.testing.assert_allclose(points[f"B{module}"], B_of_C(points[f"C{module}"].to_numpy(), rho(0.65)), rtol=1e-12)
+
+
+def test_a_track_moves_without_jumps_and_keeps_to_one_point(travelled):
+    """Away from the fold at 0.69778, where two points appear and move with the square root."""
+    points = travelled["points"]
+    points = points[points["value"] > 0.72]
+    assert points["track"].nunique() == 3
+    for _, track in points.groupby("track"):
+        assert track["value"].is_unique
+        steps = np.abs(np.diff(track[["C1", "C2"]].to_numpy(), axis=0))
+        assert steps.max() < 0.06
+
+
+def test_a_point_that_is_new_starts_a_track_of_its_own():
+    names, count = travel._continued(
+        [1, 2], np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([[1.1, 1.0], [5.0, 5.0], [0, 0]]), 2
+    )
+    assert (names, count) == ([2, 3, 1], 3)
+
+
+def test_the_picture_of_the_travel_names_every_track(travelled):
+    figure = travel.draw(travelled, "x")
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["point 1", "point 2", "point 3"]

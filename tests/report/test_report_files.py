@@ -1,0 +1,96 @@
+"""The report as files: links lead somewhere, data are those of the build, the PDF holds the same pages."""
+
+import json
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pandas as pd
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+PAGES = [page["name"] for page in SETTINGS["pages"]]
+MEGABYTE = 1e6
+
+
+class Page(HTMLParser):
+    """The links of a page, what it loads, and its names."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.links, self.names = [], []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.links += [attrs[name] for name in ("href", "src", "srcset", "data", "poster") if attrs.get(name)]
+        if "id" in attrs:
+            self.names.append(attrs["id"])
+
+
+@pytest.fixture(scope="module")
+def pages(site):
+    return {path.name: Page(path) for path in site.glob("*.html")}
+
+
+def test_all_pages_are_there(pages):
+    assert set(pages) == {f"{name}.html" for name in PAGES}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_links_are_alive(site, pages, name):
+    page = pages[f"{name}.html"]
+    assert len(page.links) > len(PAGES)  # the navigation at least
+    assert len(page.names) == len(set(page.names))
+    for link in page.links:
+        parts = urlsplit(link)
+        if parts.scheme == "data":
+            continue
+        assert not parts.scheme, f"{link} leads to another host"
+        assert not parts.netloc, f"{link} leads to another host"
+        target = unquote(parts.path) or f"{name}.html"
+        assert (site / target).is_file(), f"{link} leads nowhere"
+        if parts.fragment:
+            assert parts.fragment in pages[target].names, f"{link} leads to no place on its page"
+
+
+def test_every_table_of_a_figure_can_be_downloaded(site, pages):
+    offered = {link for page in pages.values() for link in page.links}
+    made = [path for folder in ("figures", "accuracy", "travel") for path in (site.parent / folder).glob("*.csv")]
+    assert len(made) > 10
+    for path in (path for path in made if path.stem not in ("scene_models",) and "full" not in path.stem):
+        assert f"figures/{path.name}" in offered
+        assert (site / "figures" / path.name).read_bytes() == path.read_bytes()
+
+
+def test_numbers_on_a_page_are_those_of_the_results(site):
+    html = (site / "fixed_points.html").read_text(encoding="utf-8")
+    points = pd.read_csv(site.parent / "fixed_points.csv")
+    for value in points["C1"]:
+        assert f"<td>{float(f'{value:.5g}'):.15g}</td>" in html
+    claims = json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))
+    rows = (site / "claims.html").read_text(encoding="utf-8").count("<tr>")
+    assert rows >= len(claims) > 24
+
+
+def test_every_figure_tells_where_it_comes_from_and_what_it_cost(site):
+    html = (site / "figures.html").read_text(encoding="utf-8")
+    sidecars = sorted((site.parent / "figures").glob("fig10_*.provenance.json"))
+    assert len(sidecars) == 11
+    for path in sidecars:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        assert str(record["lock"])[:12] in html
+    assert html.count("Where it comes from") == 11
+    assert html.count("MB of memory") == 11
+    assert "not recorded" not in html
+
+
+def test_the_pdf_is_whole_and_the_report_is_light(site):
+    pdf = (site / "report.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF")
+    assert pdf.rstrip().endswith(b"%%EOF")
+    assert 0.3 * MEGABYTE < len(pdf) < 10 * MEGABYTE
+    assert (site / "motion.html").stat().st_size < 1.5 * MEGABYTE
+    assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE

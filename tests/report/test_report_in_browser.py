@@ -1,0 +1,279 @@
+"""The report as a reader's browser shows it."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import pandas as pd
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+PAGES = [page["name"] for page in SETTINGS["pages"]]
+WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]
+NARROW = 400
+DECENT_CONTRAST = 4.5
+"""Of text, by the Web Content Accessibility Guidelines, level AA."""
+
+
+@pytest.fixture(scope="module")
+def screenshots(site):
+    """Where pictures of the pages are kept for a look, beside the report."""
+    return site.parent / "screenshots"
+
+
+def address(site, page):
+    return (site / f"{page}.html").as_uri()
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_opens_without_trouble_and_asks_nobody_else(browser, site, screenshots, page):
+    browser.open(address(site, page))
+    browser.screenshot(screenshots / f"{page}.png")
+    assert browser.problems == []
+    assert address(site, page) in browser.requests
+    outside = [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))]
+    assert outside == []
+
+
+@pytest.mark.parametrize("figure", ["fig10_04", "fig10_06", "fig10_08"])
+def test_a_notebook_reads_offline(browser, site, figure):
+    url = (site / f"notebooks/{figure}.html").as_uri()
+    browser.open(url)
+    assert browser.problems == []
+    assert [request for request in browser.requests if not request.startswith("data:")] == [url]
+    heights = browser.run(
+        "[...document.querySelectorAll('math')].map(formula => formula.getBoundingClientRect().height)"
+    )
+    assert heights
+    assert min(heights) > 5
+    assert browser.run("[...document.images].every(image => image.complete && image.naturalWidth > 100)")
+
+
+def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
+    """The checks above can fail: a page with everything wrong on it."""
+    page = tmp_path / "wrong.html"
+    page.write_text(
+        "<!DOCTYPE html><img src='missing.png'><img src='http://127.0.0.1:9/outside.png'>"
+        "<script>console.error('said'); undefinedFunction();</script>"
+    )
+    browser.open(page.as_uri())
+    found = " ".join(browser.problems)
+    assert "ERR_FILE_NOT_FOUND" in found
+    assert "said" in found
+    assert "undefinedFunction" in found
+    assert any(url.startswith("http://127.0.0.1") for url in browser.requests)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_all_pictures_are_there_and_described(browser, site, page):
+    browser.open(address(site, page))
+    pictures = browser.run(
+        "[...document.images].map(i => [i.getAttribute('src'), i.complete && i.naturalWidth, i.alt])"
+    )
+    assert [name for name, width, _ in pictures if not width] == []
+    assert [name for name, _, alt in pictures if len(alt) < 20] == []
+    unnamed = "[...document.querySelectorAll('svg')].filter(s => !(s.getAttribute('aria-label') || '').trim()).length"
+    assert browser.run(unnamed) == 0
+
+
+def test_every_figure_is_shown(browser, site):
+    shown = []
+    for page in PAGES:
+        browser.open(address(site, page))
+        shown += browser.run("[...document.images].map(image => image.src.split('/').pop())")
+    kept = {path.name for path in (site / "figures").glob("*.svg")}
+    assert kept <= set(shown)
+    assert {f"fig10_{number:02d}.svg" for number in range(1, 12)} <= kept
+
+
+TALL_FORMULAS = """() => [...document.querySelectorAll('mfrac')].filter(fraction => {
+  const [over, under] = [...fraction.children].map(part => part.getBoundingClientRect());
+  return over.height > 0 && over.bottom <= under.top + 1;
+}).length"""
+
+
+@pytest.mark.parametrize("page", WITH_MATHEMATICS)
+def test_mathematics_is_set(browser, site, page):
+    browser.open(address(site, page))
+    fractions = browser.run("document.querySelectorAll('mfrac').length")
+    assert fractions > 0
+    assert browser.run(f"({TALL_FORMULAS})()") == fractions
+    text = browser.run("document.querySelector('main').innerText")
+    assert [sign for sign in ("$", "\\frac", "\\tag", "\\hat") if sign in text] == []
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_narrow_window_scrolls_down_only(browser, site, screenshots, page):
+    browser.open(address(site, page), width=NARROW)
+    browser.screenshot(screenshots / f"{page}_narrow.png")
+    assert browser.run("document.documentElement.scrollWidth") <= NARROW
+
+
+FIXED_POINTS = """(() => {
+  const all = (kind) => [...document.querySelectorAll('[data-travel] ' + kind)];
+  return {
+    value: all('output')[0].textContent,
+    places: all('circle').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
+    rows: all('tbody tr').map(row => [...row.cells].map(cell => cell.textContent)),
+  };
+})()"""
+
+
+def found_C(shown):
+    return sorted((float(row[1]), float(row[3])) for row in shown["rows"])
+
+
+def expected_C(site, case):
+    points = pd.read_csv(site.parent / f"fixed_points/{case}.csv")
+    return sorted(zip(points["C1"], points["C2"], strict=True))
+
+
+def test_the_control_moves_the_fixed_points_by_keyboard(browser, site, screenshots):
+    browser.open(address(site, "fixed_points"))
+    start = browser.run(FIXED_POINTS)
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("ArrowLeft", times=11)
+    moved = browser.run(FIXED_POINTS)
+    browser.screenshot(screenshots / "fixed_points_moved.png")
+    assert (float(start["value"]), float(moved["value"])) == (1.0, 0.89)
+    assert len(start["places"]) == len(moved["places"]) == 6
+    gaps = [abs(a[0] - b[0]) for a, b in zip(start["places"], moved["places"], strict=True)]
+    assert min(gaps) > 1.0  # each circle has moved by more than a pixel
+    for case, shown in (("equal", start), ("unequal", moved)):
+        for found, expected in zip(found_C(shown), expected_C(site, case), strict=True):
+            assert found == pytest.approx(expected, abs=6e-4)
+    browser.press("Home")
+    assert len(browser.run(FIXED_POINTS)["rows"]) == 1
+
+
+def test_the_points_stay_on_the_manifold(browser, site):
+    browser.open(address(site, "fixed_points"))
+    kappa = 0.65
+    rho = 2 * (1 - kappa) / (3.141592653589793 * (1 + kappa))
+    browser.run("document.querySelector('#f20').focus()")
+    for _ in range(4):
+        browser.press("ArrowRight", times=7)
+        rows = browser.run(FIXED_POINTS)["rows"]
+        assert rows
+        for C, B in [(float(row[i]), float(row[i + 1])) for row in rows for i in (1, 3)]:
+            on_manifold = 1 - 2 * C + (1 + rho**2) * C**2
+            assert pytest.approx(on_manifold, abs=4e-3) == B**2
+
+
+def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelectorAll('[data-travel] button')[1].focus()")
+    browser.press("Enter")
+    assert float(browser.run(FIXED_POINTS)["value"]) == 0.89
+
+
+@pytest.mark.parametrize("number", range(len(SETTINGS["animations"])))
+def test_an_animation_plays_pauses_and_obeys_the_keyboard(browser, site, screenshots, number):
+    name, scene = list(SETTINGS["animations"].items())[number]
+    browser.open(address(site, "motion"))
+    root = f"document.querySelectorAll('[data-animation]')[{number}]"
+    ball = f"Number({root}.querySelector('circle').getAttribute('cx'))"
+    wait = "new Promise(done => setTimeout(done, 300))"
+    before = browser.run(ball)
+    browser.run(wait)
+    assert browser.run(ball) != before, "does not play"
+    browser.run(f"{root}.querySelector('button').focus()")
+    browser.press("Enter")
+    before = browser.run(ball)
+    browser.run(wait)
+    assert browser.run(ball) == before, "does not pause"
+    browser.run(f"{root}.querySelector('input').focus()")
+    browser.press("Home")
+    samples = pd.read_csv(site.parent / f"simulations/{scene['case']}/samples.csv")
+    places = [-3.0, 3.0]
+    for module, place in enumerate(places, start=1):
+        circle = f"{root}.querySelectorAll('circle')[{module - 1}]"
+        assert browser.run(f"Number({circle}.getAttribute('cx'))") == pytest.approx(
+            place + samples[f"Y{module}"].iloc[0], abs=1e-3
+        )
+        box = f"{root}.querySelectorAll('svg g')[{module - 1}].transform.baseVal[0].matrix.e"
+        assert browser.run(box) == pytest.approx(place + samples[f"X{module}"].iloc[0], abs=1e-3)
+    browser.press("ArrowRight", times=5)
+    assert browser.run(ball) != before
+    browser.screenshot(screenshots / f"motion_{name}.png")
+
+
+def test_a_wall_lights_up_when_it_is_hit(browser, site):
+    browser.open(address(site, "motion"))
+    root = "document.querySelector('[data-animation]')"
+    browser.run(f"{root}.querySelector('button').click()")
+    hit = browser.run("JSON.parse(document.getElementById('data-periodic').textContent).impacts[0]")
+    lights = f"[...{root}.querySelectorAll('rect[opacity]')].map(rect => Number(rect.getAttribute('opacity')))"
+    slider = f"const slider = {root}.querySelector('input'); slider.step = 'any'"
+    moment = f"(t => {{ {slider}; slider.value = t; slider.dispatchEvent(new Event('input')); }})"
+    browser.run(f"{moment}({hit[0] + 0.005})")
+    lit = browser.run(lights)
+    browser.run(f"{moment}({max(hit[0] - 0.005, 0)})")
+    dark = browser.run(lights)
+    assert max(lit) > 0.9
+    index = lit.index(max(lit))
+    assert dark[index] == 0
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_can_be_read_by_everybody(browser, site, page):
+    browser.open(address(site, page))
+    assert browser.run("document.documentElement.lang") == "en"
+    assert browser.run("document.title").endswith(SETTINGS["title"])
+    levels = browser.run("[...document.querySelectorAll('h1, h2, h3, h4')].map(head => Number(head.tagName[1]))")
+    assert levels.count(1) == 1
+    assert all(after - before <= 1 for before, after in pairwise(levels))
+    unlabelled = "[...document.querySelectorAll('input')].filter(i => i.labels.length === 0).length"
+    assert browser.run(unlabelled) == 0
+    assert browser.run("[...document.querySelectorAll('button')].filter(b => !b.textContent.trim()).length") == 0
+    browser.press("Tab")
+    assert browser.run("document.activeElement.className") == "skip"
+    browser.press("Enter")
+    assert browser.run("location.hash") == "#content"
+
+
+def luminance(colour):
+    parts = [value / 255 for value in colour]
+    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+COLOURS = """[...document.querySelectorAll('body *')].filter(
+  e => e instanceof HTMLElement && e.getClientRects().length
+    && [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim())
+).map(element => {
+  const paper = e => getComputedStyle(e).backgroundColor;
+  let behind = element;
+  while (behind && paper(behind) === 'rgba(0, 0, 0, 0)') behind = behind.parentElement;
+  const numbers = text => text.match(/[\\d.]+/g).slice(0, 3).map(Number);
+  return [element.tagName, numbers(getComputedStyle(element).color), behind ? numbers(paper(behind)) : [255, 255, 255]];
+})"""
+
+
+@pytest.mark.parametrize("page", ["index", "fixed_points", "motion", "figures"])
+def test_text_stands_out_from_its_background(browser, site, page):
+    browser.open(address(site, page))
+    texts = browser.run(COLOURS)
+    assert len(texts) > 20
+    for tag, ink, paper in texts:
+        light, dark = sorted((luminance(ink), luminance(paper)), reverse=True)
+        assert (light + 0.05) / (dark + 0.05) >= DECENT_CONTRAST, (tag, ink, paper)
+
+
+def test_print_shows_stills_in_place_of_controls(browser, site):
+    browser.open(address(site, "motion"))
+    state = "['.still', '.live', 'header nav'].map(name => getComputedStyle(document.querySelector(name)).display)"
+    assert browser.run(state) == ["none", "block", "block"]
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    assert browser.run(state) == ["block", "none", "none"]
+    browser.call("Emulation.setEmulatedMedia", media="")
+
+
+def test_motion_waits_for_those_who_want_less_of_it(browser, site):
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+    browser.open(address(site, "motion"))
+    assert (
+        browser.run("[...document.querySelectorAll('[data-animation] button')].map(b => b.textContent)") == ["Play"] * 2
+    )
+    browser.call("Emulation.setEmulatedMedia", features=[])

@@ -1,0 +1,124 @@
+"""How the report's text is made: numbers, captions, formulas, links."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+import yaml
+
+from report_pages import Pages, cell, digits, markdown_table, said, setting
+from report_results import Results
+from report_site import convert
+
+ROOT = Path(__file__).parents[2]
+SOURCES = ROOT / "report"
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+SETTINGS = yaml.safe_load((SOURCES / "report.yaml").read_text(encoding="utf-8"))
+KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1.0, "1"),
+        (12345.678, "12300"),
+        (0.00012344, "0.000123"),
+        (2.345e-15, r"$2.35\cdot 10^{-15}$"),
+        (1e-300, r"$1.00\cdot 10^{-300}$"),
+        (-2.5e7, r"$-2.50\cdot 10^{7}$"),
+        (0, "0"),
+        (math.nan, "–"),
+        (None, "–"),
+    ],
+)
+def test_a_number_in_the_text(value, text):
+    assert digits(value) == text
+
+
+def test_settings_of_methods_are_numbers_or_words():
+    assert [setting(value) for value in ("1e-08", "float64", 100000)] == [r"$1.00\cdot 10^{-8}$", "float64", "100000"]
+
+
+def test_numbers_behind_a_claim_are_one_line():
+    numbers = {"fixed_points": 3, "C": [0.957251, 1e-9], "holds": True, "where": "a | b"}
+    expected = r"fixed points: 3; C: 0.9573, $1.000\cdot 10^{-9}$; holds: True; where: a \| b"
+    assert said(numbers) == expected
+
+
+def test_a_table_survives_what_its_cells_say():
+    html = convert("# Here\n\n" + markdown_table(["a", "b"], [["x | y", "two\nlines"]]), "html", SOURCES, KNOWN)
+    assert "<td>x | y</td>" in html.replace(' style="text-align: left;"', "")
+    assert "two lines" in html
+    assert cell("a\n b") == "a b"
+
+
+@pytest.mark.parametrize("caption", sorted(path.stem for path in (SOURCES / "captions").glob("*.rst")))
+def test_captions_fill_from_the_config(caption):
+    pages = Pages(ROOT, None, SETTINGS, CONFIG, {})
+    text = pages.caption(caption)
+    assert len(text) > 20
+    assert "{{" not in text
+    assert ":math:" not in text
+
+
+def test_a_caption_says_the_force_of_its_case():
+    pages = Pages(ROOT, None, SETTINGS, CONFIG, {})
+    assert str(CONFIG["cases"]["unequal"]["f20_hat"]) in pages.caption("fig10_09")
+
+
+@pytest.mark.parametrize(
+    ("target", "parts"),
+    [
+        (
+            "html",
+            ["(10.25)", "<mfrac>", 'href="errata.html#misprints"', 'href="stability.html"', 'id="here"', '"#part"'],
+        ),
+        (
+            "typst",
+            [
+                "(10.25)",
+                "#link(<errata-misprints>)",
+                "#link(<stability>)",
+                "#link(<here-part>)",
+                "<here>",
+                "<here-part>",
+            ],
+        ),
+    ],
+)
+def test_formulas_headings_and_links_for_both_readers(target, parts):
+    links = "[e](errata.md#misprints), [s](stability.html), [p](#part)"
+    source = f"# Title\n\n$$\\frac{{a}}{{b}} \\tag{{10.25}}$$\n\n{links}\n\n## Part\n"
+    text = convert(source, target, SOURCES, KNOWN)
+    assert [part for part in parts if part not in text] == []
+    assert "tag" not in text.split("<annotation")[0]
+
+
+def test_an_equation_number_at_the_start_of_a_line_begins_no_list():
+    assert "<ol" not in convert("# Title\n\n(3) holds.\n", "html", SOURCES, KNOWN)
+
+
+def test_a_formula_that_cannot_be_set_is_an_error():
+    with pytest.raises(RuntimeError, match="nosuchcommand"):
+        convert("# Title\n\n$\\nosuchcommand{x}$\n", "html", SOURCES, KNOWN)
+
+
+def claims(tmp_path, *places):
+    entries = [{"id": str(n), "place": place, "statement": "", "verdict": "holds"} for n, place in enumerate(places)]
+    (tmp_path / "claims.json").write_text(json.dumps(entries))
+    return Results(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("figure", "found"),
+    [("fig10_01", []), ("fig10_06", ["0", "1"]), ("fig10_10", ["2"]), ("fig10_11", ["2", "3"])],
+)
+def test_claims_are_found_by_the_figure_they_name(tmp_path, figure, found):
+    results = claims(tmp_path, "Fig. 10.6", "figures 10.6 and 10.9", "Figs. 10.10 and 10.11", "figure 10.11", "(10.6)")
+    assert [claim["id"] for claim in results.claims_about(figure)] == found
+
+
+def test_a_figure_without_files_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="fig10_99"):
+        Results(tmp_path).files("fig10_99")
