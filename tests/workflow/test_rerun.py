@@ -38,41 +38,65 @@ def test_the_amplitude_of_a_case_rebuilds_the_figures_of_this_case(rebuilt, case
 
 def test_the_scene_of_a_figure_rebuilds_this_figure(rebuilt):
     rebuilt.edit("config/config.yaml", "fixed_point: c, periods: 2", "fixed_point: c, periods: 3")
-    assert rebuilt.planned() == {"fig10_07"}
+    assert rebuilt.planned("figures") == {"fig10_07"}
 
 
 def test_a_longer_simulation_rebuilds_no_algebra(rebuilt):
-    assert rebuilt.planned("--config", "cases={weak: {simulation: {transient_cycles: 7}}}") == {
-        "simulation",
-        "fig10_11",
-    }
+    shorter = ("--config", "cases={weak: {simulation: {transient_cycles: 7}}}")
+    assert rebuilt.planned("figures", *shorter) == {"simulation", "fig10_11"}
+    assert not rebuilt.planned("stability", *shorter)
 
 
 def test_an_edited_library_module_rebuilds_what_uses_it(rebuilt):
     with open(rebuilt / "src/vibroimpact/exact/simulation.py", "a") as module:
         module.write("\n# edited\n")
-    assert rebuilt.planned() == {"simulation", "fig10_08", "fig10_11"}
+    assert rebuilt.planned("figures") == {"simulation", "fig10_08", "fig10_11"}
 
 
 def test_an_edited_figure_module_rebuilds_the_figures_it_draws(rebuilt):
     with open(rebuilt / "src/vibroimpact/figures/fig10_04.py", "a") as module:
         module.write("\n# edited\n")
-    assert rebuilt.planned() == {"fig10_04"}
+    assert rebuilt.planned("figures") == {"fig10_04"}
 
 
 def test_an_edited_notebook_rebuilds_its_figures(rebuilt):
     rebuilt.edit("notebooks/closed_form.ipynb", "What follows in closed form", "What follows")
-    assert rebuilt.planned() == CLOSED_FORM
+    assert rebuilt.planned("figures") == CLOSED_FORM
 
 
 def test_an_edited_script_rebuilds_what_it_makes(rebuilt):
     rebuilt.edit("workflow/scripts/gather.py", "one table", "a single table")
-    assert rebuilt.planned() == {"gather_fixed_points"}
+    planned = rebuilt.planned("stability", "claims")
+    assert planned == {"gather_fixed_points", "gather_orbits", "companion_stability", "claims"}
+
+
+def test_an_edited_claim_rebuilds_the_claims_alone(rebuilt):
+    rebuilt.edit("docs/claims.yaml", "The mass M of a box", "The mass of a box")
+    assert rebuilt.planned("stability", "claims") == {"claims"}
+
+
+def test_claims_are_left_out_of_a_build_with_other_parameters(rebuilt):
+    (rebuilt / "results/claims.json").unlink()
+    assert rebuilt.planned("stability", "claims") == {"claims"}
+    assert "claims" not in rebuilt.planned("--config", "cases={weak: {f20_hat: 0.6}}")
+
+
+def test_the_amplitude_of_a_case_rebuilds_its_orbits_and_what_shows_all_cases(rebuilt):
+    planned = rebuilt.planned("stability", "--config", "cases={weak: {f20_hat: 0.6}}")
+    assert planned == {
+        "fixed_points",
+        "orbits",
+        "verdicts",
+        "gather_fixed_points",
+        "gather_orbits",
+        "certificates",
+        "companion_stability",
+    }
 
 
 def test_a_deleted_figure_is_made_again_alone(rebuilt):
     (rebuilt / "results/figures/fig10_05.svg").unlink()
-    assert rebuilt.planned() == {"fig10_05"}
+    assert rebuilt.planned("figures") == {"fig10_05"}
 
 
 def test_a_figure_is_a_target(rebuilt):

@@ -1,0 +1,81 @@
+"""Stability and claims as a build leaves them: orbits, certificates, verdicts as pinned, numbers of the findings."""
+
+import json
+import re
+from pathlib import Path
+
+import pandas as pd
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+EXPECTED = yaml.safe_load((ROOT / "tests/checks/expected_verdicts.yaml").read_text(encoding="utf-8"))
+FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
+SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", FINDINGS)
+"""Numbers of the findings with the place that each is taken from."""
+
+
+def test_orbits_of_all_cases_are_gathered(built):
+    table = pd.read_csv(built / "results/orbits.csv")
+    assert table.groupby("case", sort=False)["symmetric"].sum().to_dict() == {"equal": 4, "unequal": 4, "weak": 2}
+    assert table["residual"].max() < 1e-11
+    moduli = table.filter(like="modulus_")
+    assert moduli.shape[1] == 8
+    assert ((moduli["modulus_1"] < 1) == (table["floquet"] == "stable")).all()
+    assert table.filter(like="phase").stack().between(0, 1, inclusive="left").all()
+
+
+def test_fixed_points_and_symmetric_orbits_are_proved_complete(built):
+    certificates = json.loads((built / "results/certificates.json").read_text())
+    assert set(certificates) == {"equal", "unequal", "weak"}
+    for proofs in certificates.values():
+        assert proofs["fixed_points"]["complete"]
+        assert proofs["symmetric_orbits"]["complete"]
+        assert proofs["fixed_points"]["undecided"] == proofs["symmetric_orbits"]["undecided"] == []
+
+
+def test_verdicts_are_those_expected(built):
+    claims = json.loads((built / "results/claims.json").read_text())
+    assert {claim["id"]: claim["verdict"] for claim in claims} == EXPECTED
+
+
+def test_the_readable_table_tells_the_same(built):
+    text = (built / "results/claims.md").read_text(encoding="utf-8")
+    assert all(f"| {name} | " in text for name in EXPECTED)
+    assert text.count("**refuted**") == list(EXPECTED.values()).count("refuted")
+
+
+@pytest.mark.parametrize(("quoted", "source"), SOURCED)
+def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
+    """The number as quoted is the one of the results, rounded to as many decimals."""
+    decimals = len(quoted.partition(".")[2])
+    scale = 100 if source.startswith("percent | ") else 1
+    found = scale * value(built / "results", *source.removeprefix("percent | ").split(" | "))
+    assert round(found, decimals) == float(quoted.replace("−", "-"))
+
+
+def test_the_findings_list_what_does_not_hold():
+    listed = dict(re.findall(r"^\| `(\S+)` \| ([^|]+) \|", FINDINGS, flags=re.MULTILINE))
+    assert listed == {name: verdict for name, verdict in EXPECTED.items() if verdict != "holds"}
+
+
+def test_the_findings_quote_numbers_and_show_figures_that_exist(built):
+    assert len(SOURCED) > 25
+    figures = re.findall(r"\]\(\.\./(\S+)\)", FINDINGS)
+    assert figures
+    assert not [figure for figure in figures if not (built / figure).exists()]
+
+
+def value(results, file, *path):
+    """A number in a table (file | query | column) or in JSON (file | key | key ...; an id picks an entry of a list)."""
+    if file.endswith(".csv"):
+        query, column = path
+        (found,) = pd.read_csv(results / file, float_precision="round_trip").query(query)[column].unique()
+        return found
+    found = json.loads((results / file).read_text())
+    for key in path:
+        if isinstance(found, list):
+            found = found[int(key)] if key.isdigit() else next(entry for entry in found if entry["id"] == key)
+        else:
+            found = found[key]
+    return found
