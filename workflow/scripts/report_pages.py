@@ -69,7 +69,8 @@ def digits(value, number: int = 3) -> str:
     if rounded == 0 or 1e-4 <= abs(rounded) < 1e6:
         return f"{rounded:.15g}"
     mantissa, exponent = f"{rounded:.{number - 1}e}".split("e")
-    return rf"${mantissa}\cdot 10^{{{int(exponent)}}}$"
+    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):.15g}\cdot "
+    return rf"${factor}10^{{{int(exponent)}}}$"
 
 
 def setting(value) -> str:
