@@ -5,7 +5,7 @@ REPORT_SHOWS = {
     "chapter": list(config["figures"]),
     "companions": [*STABILITY_FIGURES, *["companion_horizon"] * bool(PRECISE), *COMPANION_TABLES],
     "accuracy": ["work_precision", "hazards"],
-    "models": [],
+    "models": ["scene_models"],
     "animations": list(REPORT_SETTINGS["animations"]),
     "travel": ["travel"],
 }
