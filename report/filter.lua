@@ -24,10 +24,27 @@ function Header(header)
   return header
 end
 
+-- A figure among the results is one of the report's own.
+local function figure(target)
+  return target:match("^%.%./results/%w+/([%w_]+)%.%w+$")
+end
+
+function Image(image)
+  local name = figure(image.src)
+  if name then image.src = "figures/" .. name .. ".svg" end
+  return image
+end
+
 -- Links between documents become links between pages, or between chapters of the one document.
 function Link(link)
   if is_typst() and link.target:sub(1, 1) == "#" then
     link.target = "#" .. page .. "-" .. link.target:sub(2)
+    return link
+  end
+  local picture = figure(link.target)
+  if picture then
+    if is_typst() then return link.content end
+    link.target = "figures/" .. picture .. ".svg"
     return link
   end
   local name, anchor = link.target:match("^([%w_]+)%.md(#?.*)$")
@@ -47,4 +64,4 @@ function Table(tbl)
   return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, { tabindex = "0", role = "region", ["aria-label"] = "Table" }))
 end
 
-return { { Meta = Meta }, { Math = Math, Header = Header, Link = Link, Table = Table } }
+return { { Meta = Meta }, { Math = Math, Header = Header, Link = Link, Image = Image, Table = Table } }

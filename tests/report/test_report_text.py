@@ -41,8 +41,8 @@ def test_settings_of_methods_are_numbers_or_words():
 
 
 def test_numbers_behind_a_claim_are_one_line():
-    numbers = {"fixed_points": 3, "C": [0.957251, 1e-9], "holds": True, "where": "a | b"}
-    expected = r"fixed points: 3; C: 0.9573, $10^{-9}$; holds: True; where: a \| b"
+    numbers = {"fixed_points": 3, "C": [0.957251, 1e-9], "holds": True, "left": None, "where": "a | b"}
+    expected = r"fixed points: 3; C: 0.9573, $10^{-9}$; holds: yes; left: open; where: a \| b"
     assert said(numbers) == expected
 
 
@@ -93,6 +93,15 @@ def test_formulas_headings_and_links_for_both_readers(target, parts):
     text = convert(source, target, SOURCES, KNOWN)
     assert [part for part in parts if part not in text] == []
     assert "tag" not in text.split("<annotation")[0]
+
+
+@pytest.mark.parametrize("target", ["html", "typst"])
+def test_figures_of_the_results_are_those_of_the_report(target):
+    source = "# Title\n\n![What it is](../results/figures/one.png)\n\n[two](../results/accuracy/two.png)\n"
+    text = convert(source, target, SOURCES, KNOWN)
+    assert "figures/one.svg" in text
+    assert ("figures/two.svg" in text) == (target == "html")
+    assert "results" not in text
 
 
 def test_an_equation_number_at_the_start_of_a_line_begins_no_list():

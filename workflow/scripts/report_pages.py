@@ -87,12 +87,14 @@ def cell(text) -> str:
 
 
 def said(numbers) -> str:
-    """Numbers behind a claim in one line."""
+    """Numbers and answers behind a claim in one line."""
+    if numbers is None or isinstance(numbers, bool):
+        return {True: "yes", False: "no", None: "open"}[numbers]
     if isinstance(numbers, dict):
         return "; ".join(f"{name.replace('_', ' ')}: {said(value)}" for name, value in numbers.items())
     if isinstance(numbers, list):
         return ", ".join(said(value) for value in numbers)
-    if isinstance(numbers, bool) or not isinstance(numbers, (int, float)):
+    if not isinstance(numbers, int | float):
         return cell(numbers)
     return digits(numbers, 4)
 
