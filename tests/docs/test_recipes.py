@@ -1,0 +1,114 @@
+"""The recipes of docs/howto_*.md, followed step by step in a copy of the project."""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).parents[2]
+RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
+
+_spec = importlib.util.spec_from_file_location("pipeline_trees", ROOT / "tests/workflow/conftest.py")
+_trees = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(_trees)
+
+BLOCK = r"\s+```\w*\n(.*?)```"
+STEPS = re.compile(
+    rf"Write\s+`(?P<write>[^`]+)`:{BLOCK}"
+    rf"|Append\s+to\s+`(?P<append>[^`]+)`:{BLOCK}"
+    rf"|Add\s+to\s+`(?P<add>[^`]+)`,\s+below\s+`(?P<line>[^`]+)`:{BLOCK}"
+    rf"|In\s+`(?P<replace>[^`]+)`,\s+replace{BLOCK}\s+by{BLOCK}"
+    rf"|(?P<run>Run):{BLOCK}",
+    re.DOTALL,
+)
+
+
+@pytest.fixture
+def project(tmp_path):
+    """A copy of the project with its tests, which uses its own library."""
+    tree = _trees.copied(ROOT, tmp_path / "project")
+    shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
+    return tree
+
+
+def follow(recipe: str, project) -> list[str]:
+    """Do every step of a recipe; returns what its commands print."""
+    printed = []
+    for step in STEPS.finditer((ROOT / f"docs/{recipe}.md").read_text(encoding="utf-8")):
+        texts = [
+            text
+            for name, text in zip(range(1, STEPS.groups + 1), step.groups(), strict=True)
+            if text and name not in STEPS.groupindex.values()
+        ]
+        if step["write"]:
+            assert not (project / step["write"]).exists()
+            (project / step["write"]).write_text(texts[0], encoding="utf-8")
+        elif step["append"]:
+            with open(project / step["append"], "a", encoding="utf-8") as file:
+                file.write(texts[0])
+        elif step["add"]:
+            project.edit(step["add"], step["line"] + "\n", step["line"] + "\n" + texts[0])
+        elif step["replace"]:
+            project.edit(step["replace"], texts[0].strip(), texts[1].strip())
+        else:
+            printed.append(run(texts[0], project))
+    return printed
+
+
+def run(command: str, project) -> str:
+    """Run a command of a recipe as a reader would, with the environment of these tests active."""
+    paths = {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": str(project / "src")}
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST", "NUMBA"))}
+    done = subprocess.run(
+        ["bash", "-ec", command],
+        cwd=project.path,
+        env={**environment, **paths},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def test_every_recipe_is_followed():
+    assert RECIPES == ["howto_claim", "howto_figure", "howto_hazard", "howto_integrator"]
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_every_block_of_a_recipe_is_a_step(recipe):
+    text = (ROOT / f"docs/{recipe}.md").read_text(encoding="utf-8")
+    assert sum(step.group().count("```") for step in STEPS.finditer(text)) == text.count("```")
+
+
+def test_a_figure_can_be_added(project):
+    follow("howto_figure", project)
+    table = pd.read_csv(project / "results/figures/companion_speed.csv")
+    # Half a period of free flight at W' - U' = -2 C / pi takes the ball from wall to wall: (10.14) at kappa = 1.
+    assert table["speed"].iloc[-1] == pytest.approx(4 * table["C"].iloc[-1] / (3.141592653589793 * 1.65))
+    for kind in ("png", "pdf", "svg"):
+        assert (project / f"results/figures/companion_speed.{kind}").stat().st_size > 1000
+
+
+def test_an_integrator_can_be_added(project):
+    (printed,) = follow("howto_integrator", project)
+    assert "." in printed.splitlines()[0]
+    listed = run("python -c 'from vibroimpact.rivals import METHODS; print([m.name for m in METHODS])'", project)
+    assert "symplectic Euler" in listed
+
+
+def test_a_hazard_can_be_added(project):
+    (printed,) = follow("howto_hazard", project)
+    assert "'this engine': 'right'" in printed
+
+
+def test_a_claim_can_be_added(project):
+    (printed,) = follow("howto_claim", project)
+    assert "1 failed" not in printed
