@@ -60,9 +60,15 @@ def test_every_table_of_a_figure_can_be_downloaded(site, pages):
     offered = {link for page in pages.values() for link in page.links}
     made = [path for folder in ("figures", "accuracy", "travel") for path in (site.parent / folder).glob("*.csv")]
     assert len(made) > 10
-    for path in (path for path in made if path.stem not in ("scene_models",) and "full" not in path.stem):
+    for path in (path for path in made if "full" not in path.stem):
         assert f"figures/{path.name}" in offered
         assert (site / "figures" / path.name).read_bytes() == path.read_bytes()
+
+
+def test_further_tables_can_be_downloaded(site, pages):
+    for name in ("fixed_points.csv", "orbits.csv", "claims.json"):
+        assert f"data/{name}" in pages["rerun.html"].links
+        assert (site / "data" / name).read_bytes() == (site.parent / name).read_bytes()
 
 
 def test_numbers_on_a_page_are_those_of_the_results(site):

@@ -99,6 +99,11 @@ def test_mathematics_is_set(browser, site, page):
     fractions = browser.run("document.querySelectorAll('mfrac').length")
     assert fractions > 0
     assert browser.run(f"({TALL_FORMULAS})()") == fractions
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_no_formula_is_left_as_it_was_typed(browser, site, page):
+    browser.open(address(site, page))
     text = browser.run("document.querySelector('main').innerText")
     assert [sign for sign in ("$", "\\frac", "\\tag", "\\hat") if sign in text] == []
 

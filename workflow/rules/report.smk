@@ -9,6 +9,12 @@ REPORT_SHOWS = {
     "animations": list(REPORT_SETTINGS["animations"]),
     "travel": ["travel"],
 }
+REPORT_TABLES = [
+    "results/fixed_points.csv",
+    "results/orbits.csv",
+    "results/claims.json",
+    *(path for tables in COMPANION_TABLES.values() for path in tables.values()),
+]
 PICTURES = "png", "pdf", "svg"
 
 
@@ -61,13 +67,14 @@ rule report:
         list(rules.companion_horizon.output) if PRECISE else [],
         rules.travel.output,
         [path for name in REPORT_SETTINGS["animations"] for path in getattr(rules, name).output],
-        "results/claims.json",
+        REPORT_TABLES,
         [page["source"] for page in REPORT_SETTINGS["pages"]],
         sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
     output:
         directory("results/report"),
     params:
         shown=REPORT_SHOWS,
+        tables=REPORT_TABLES,
         config={name: config[name] for name in ("system", "cases")},
         code=code("workflow/scripts/report.py"),
     log:

@@ -14,13 +14,14 @@ from report_site import write
 SETTINGS = "report/report.yaml"
 
 
-def main(root, results, shown: dict, config: dict, folder) -> None:
+def main(root, results, shown: dict, tables, config: dict, folder) -> None:
     """Write the report into a new folder.
 
     Args:
         root: the checkout.
         results: directory of the results.
         shown: names of figures by group.
+        tables: paths of further results to download.
         config: of the pipeline.
     """
     settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
@@ -28,18 +29,23 @@ def main(root, results, shown: dict, config: dict, folder) -> None:
     for group in shown.values():
         for figure in group:
             collect(results, figure, folder)
-    pages = Pages(root, results, settings, config, shown)
+    for table in tables:
+        copy(table, folder / "data")
+    pages = Pages(root, results, settings, config, shown, tables)
     write(folder, root, pages, settings, f"Built from {version(root)}.")
 
 
 def collect(results, figure: str, folder: Path) -> None:
     """Copy the files of a figure, and the notebook that made it, into the report."""
-    files = list(results.files(figure).values())
-    notebook = results.notebook(figure)
-    for path, part in [*((path, "figures") for path in files), *([(notebook, "notebooks")] if notebook else [])]:
-        target = folder / part / path.name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, target)
+    for path in results.files(figure).values():
+        copy(path, folder / "figures")
+    if notebook := results.notebook(figure):
+        copy(notebook, folder / "notebooks")
+
+
+def copy(path, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.copy(path, folder)
 
 
 def version(root) -> str:
@@ -52,4 +58,5 @@ def version(root) -> str:
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        main(".", "results", snakemake.params.shown, snakemake.params.config, snakemake.output[0])
+        given = snakemake.params
+        main(".", "results", given.shown, given.tables, given.config, snakemake.output[0])

@@ -20,9 +20,10 @@ class Pages:
         settings: report/report.yaml.
         config: the config of the pipeline.
         shown: names of figures by group, in the order in which they are shown.
+        tables: paths of further results to download.
     """
 
-    def __init__(self, root, results, settings: dict, config: dict, shown: dict):
+    def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=()):
         self.root, self.results, self.settings, self.config = Path(root), results, settings, config
         self.about = yaml.safe_load((self.root / "report/figures.yaml").read_text(encoding="utf-8"))
         self.environment = jinja2.Environment(
@@ -40,6 +41,7 @@ class Pages:
             "config": config,
             "settings": settings,
             "shown": shown,
+            "tables": [Path(path) for path in tables],
             "about": self.about,
             "caption": lru_cache(self.caption),
             "count": Counter,

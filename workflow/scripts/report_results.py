@@ -26,7 +26,7 @@ class Results:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Files of a figure, by kind.
+        """Files of a figure, by kind; a further table of it, <figure>.<name>.csv, by its name.
 
         Raises:
             ValueError: no folder holds the figure.
@@ -35,7 +35,8 @@ class Results:
             found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
             found = {kind: path for kind, path in found.items() if path.is_file()}
             if found:
-                return found
+                further = sorted((self.root / folder).glob(f"{figure}.*.csv"))
+                return found | {path.suffixes[0][1:]: path for path in further}
         raise ValueError(f"figure: there are no files of {figure!r} in {self.root}")
 
     def notebook(self, figure: str) -> Path | None:
@@ -53,7 +54,7 @@ class Results:
 
     def provenance(self, figure: str) -> dict | None:
         """The sidecar of a figure, or None where it has none."""
-        path = self.files(figure)["svg"].with_name(f"{figure}.provenance.json")
+        path = self.root / f"figures/{figure}.provenance.json"
         return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
     def claims(self) -> list[dict]:
