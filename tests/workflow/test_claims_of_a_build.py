@@ -71,7 +71,7 @@ def test_the_findings_list_what_does_not_hold():
 
 def test_the_findings_quote_numbers_and_show_figures_that_exist(built):
     assert len(SOURCED) > 25
-    figures = re.findall(r"\]\(\.\./(\S+)\)", FINDINGS)
+    figures = re.findall(r"\]\(\.\./([^)]+)\)", FINDINGS)
     assert figures
     assert not [figure for figure in figures if not (built / figure).exists()]
 
@@ -80,7 +80,7 @@ def value(results, file, *path):
     """A number in a table (file | query | column) or in JSON (file | key | key ...; an id picks an entry of a list)."""
     if file.endswith(".csv"):
         query, column = path
-        (found,) = pd.read_csv(results / file, float_precision="round_trip").query(query)[column].unique()
+        (found,) = pd.read_csv(results / file).query(query)[column].unique()
         return found
     found = json.loads((results / file).read_text())
     for key in path:

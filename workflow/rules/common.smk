@@ -56,7 +56,8 @@ def system_of(case):
 
 
 def all_systems():
-    return {case: system_of(case) for case in config["cases"]}
+    """Parameters of every case, in an order that overrides on the command line do not change."""
+    return {case: system_of(case) for case in sorted(config["cases"])}
 
 
 if workflow.is_main_process:

@@ -53,7 +53,7 @@ for name, per_case in GATHERED.items():
         name:
             f"gather_{name}"
         input:
-            expand(per_case, case=config["cases"]),
+            expand(per_case, case=all_systems()),
         output:
             f"results/{name}.csv",
         params:

@@ -21,11 +21,6 @@ def logging_to(path):
         yield
 
 
-def read_csv(path) -> pd.DataFrame:
-    """Read a table that `write_csv` wrote, equal to the last digit."""
-    return pd.read_csv(path, float_precision="round_trip")
-
-
 def write_csv(table: pd.DataFrame, path) -> None:
     """Write a table with as many digits as tell its numbers apart, at once or not at all."""
     with replacing(path) as partial:

@@ -3,9 +3,10 @@
 import json
 from pathlib import Path
 
+import pandas as pd
 import yaml
 
-from adapter import logging_to, read_csv
+from adapter import logging_to
 from vibroimpact.checks.claims import judge, to_markdown
 from vibroimpact.checks.claims_evidence import Evidence, Simulation
 from vibroimpact.figures.atomic import replacing
@@ -30,12 +31,12 @@ def evidence(systems: dict, inputs: dict) -> Evidence:
         systems={case: System(**parameters) for case, parameters in systems.items()},
         certificates=json.loads(Path(inputs["certificates"]).read_text(encoding="utf-8")),
         simulations={case: simulation(case, inputs) for case in sorted(simulated)},
-        **{name: read_csv(inputs[name]) for name in TABLES},
+        **{name: pd.read_csv(inputs[name]) for name in TABLES},
     )
 
 
 def simulation(case: str, inputs: dict) -> Simulation:
-    samples, events = (read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
+    samples, events = (pd.read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
     summary = json.loads(Path(inputs[f"{case}_summary"]).read_text(encoding="utf-8"))
     return Simulation(samples, events, summary)
 

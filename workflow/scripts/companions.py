@@ -2,7 +2,9 @@
 
 from importlib import import_module
 
-from adapter import logging_to, read_csv, write_csv
+import pandas as pd
+
+from adapter import logging_to, write_csv
 from vibroimpact.figures.style import save
 from vibroimpact.system import System
 
@@ -11,7 +13,7 @@ def main(module: str, settings: dict, inputs: dict, outputs: dict) -> None:
     """Compute the figure of a library module from its settings and the tables it reads, by name, and draw it."""
     figure = import_module(f"vibroimpact.figures.{module}")
     made = {key: systems_of(value) if key == "systems" else value for key, value in settings.items()}
-    table = figure.compute(**made, **{name: read_csv(path) for name, path in inputs.items()})
+    table = figure.compute(**made, **{name: pd.read_csv(path) for name, path in inputs.items()})
     write_csv(table, outputs["csv"])
     save(figure.draw(table), outputs)
 

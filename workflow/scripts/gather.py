@@ -2,11 +2,11 @@
 
 import pandas as pd
 
-from adapter import logging_to, read_csv, write_csv
+from adapter import logging_to, write_csv
 
 
 def main(inputs, output) -> None:
-    write_csv(pd.concat([read_csv(path) for path in inputs], ignore_index=True), output)
+    write_csv(pd.concat([pd.read_csv(path) for path in inputs], ignore_index=True), output)
 
 
 if "snakemake" in globals():

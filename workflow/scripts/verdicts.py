@@ -1,6 +1,8 @@
 """Fixed points of one case with the verdict of each criterion -> CSV: the rows of the case and columns for verdicts."""
 
-from adapter import logging_to, read_csv, write_csv
+import pandas as pd
+
+from adapter import logging_to, write_csv
 from vibroimpact.figures.companion_verdicts import CRITERIA, fixed_point_rows
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points import fixed_points
@@ -9,7 +11,7 @@ from vibroimpact.theory.labels import labels
 
 def main(case: str, parameters: dict, inputs: dict, output) -> None:
     """Judge the points as computed, which know how well they are determined; places are those of the table."""
-    points, orbits = read_csv(inputs["fixed_points"]), read_csv(inputs["orbits"])
+    points, orbits = pd.read_csv(inputs["fixed_points"]), pd.read_csv(inputs["orbits"])
     system = System(**parameters)
     listed = fixed_points(system)
     judged = fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), orbits)
