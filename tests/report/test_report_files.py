@@ -4,6 +4,7 @@ import json
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+from zipfile import ZipFile
 
 import pandas as pd
 import pytest
@@ -100,3 +101,15 @@ def test_the_pdf_is_whole_and_the_report_is_light(site):
     assert 0.3 * MEGABYTE < len(pdf) < 10 * MEGABYTE
     assert (site / "motion.html").stat().st_size < 1.5 * MEGABYTE
     assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE
+
+
+def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):
+    reported.snakemake("--report", str(tmp_path / "all.zip"), "report")
+    with ZipFile(tmp_path / "all.zip") as archive:
+        (html,) = (archive.read(name).decode() for name in archive.namelist() if name.endswith("report.html"))
+    for category in ("Figures of the chapter", "Companion figures", "Accuracy and speed", "Tables", "Fixed points"):
+        assert category in html
+    for figure in (f"fig10_{number:02d}" for number in range(1, 12)):
+        assert f"{figure}.svg" in html
+    assert "The vibro-impact system" in html
+    assert "Accuracy against speed" in html

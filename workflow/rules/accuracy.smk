@@ -21,7 +21,7 @@ for name, (short, seconds) in TIMED.items():
         name:
             name
         output:
-            **accuracy_outputs(name),
+            **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
         params:
             scenes=accuracy_scenes(),
             seconds=config["accuracy"][seconds],
@@ -42,7 +42,7 @@ for name, all_of_them in JUDGED.items():
         name:
             name
         output:
-            **accuracy_outputs(name),
+            **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
         params:
             all_of_them=all_of_them,
             code=code("workflow/scripts/hazards.py"),
@@ -62,7 +62,7 @@ rule scene_models:
         [path for scene in MODELLED.values() for path in figure_inputs(scene).values()],
         tables=[figure_outputs(figure, scene)["csv"] for figure, scene in MODELLED.items()],
     output:
-        "results/accuracy/scene_models.csv",
+        **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed", "scene_models"),
     params:
         figures={figure: [scene, figure_settings(scene)["system"]] for figure, scene in MODELLED.items()},
         simulations={case: values["simulation"] for case, values in config["cases"].items()},

@@ -60,6 +60,17 @@ def all_systems():
     return {case: system_of(case) for case in sorted(config["cases"])}
 
 
+def in_report(outputs, category, caption, kinds=("svg", "csv")):
+    """The outputs of a figure by kind, its picture and its numbers marked for `snakemake --report`."""
+    text = str(ROOT / f"report/captions/{caption}.rst")
+    marked = {
+        kind: report(path, caption=text, category=category, labels={"name": Path(path).stem, "kind": kind})
+        for kind, path in outputs.items()
+        if kind in kinds
+    }
+    return outputs | marked
+
+
 if workflow.is_main_process:
     BUILD_LOCK = one_build_at_a_time()
 

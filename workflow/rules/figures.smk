@@ -108,7 +108,7 @@ for figure, scene in config["figures"].items():
             **figure_inputs(scene),
         output:
             html=f"results/notebooks/{figure}.html",
-            **figure_outputs(figure, scene),
+            **in_report(figure_outputs(figure, scene), "Figures of the chapter", figure),
         params:
             figure=figure,
             notebook=f"notebooks/{scene['notebook']}.ipynb",

@@ -65,7 +65,7 @@ for name, settings in companion_settings().items():
         input:
             tiles=gather.regime_map(rules.regime_tile.output[0]) if name == "companion_regime_map" else [],
         output:
-            **companion_outputs(name),
+            **in_report(companion_outputs(name), "Companion figures", name),
         params:
             module=COMPANION_MODULES[name],
             settings=settings,

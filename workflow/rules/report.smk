@@ -12,7 +12,7 @@ REPORT_SHOWS = {
 REPORT_TABLES = [
     "results/fixed_points.csv",
     "results/orbits.csv",
-    "results/claims.json",
+    *["results/claims.json"] * claims_apply(),
     *(path for tables in COMPANION_TABLES.values() for path in tables.values()),
 ]
 PICTURES = "png", "pdf", "svg"
@@ -28,7 +28,7 @@ for name, scene in REPORT_SETTINGS["animations"].items():
             events=CASE_FILES["events"].format(case=scene["case"]),
         output:
             json=f"results/animations/{name}.json",
-            **{kind: f"results/animations/{name}.{kind}" for kind in PICTURES},
+            **in_report({kind: f"results/animations/{name}.{kind}" for kind in PICTURES}, "The motion", name),
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
@@ -44,8 +44,7 @@ for name, scene in REPORT_SETTINGS["animations"].items():
 rule travel:
     output:
         json="results/travel/travel.json",
-        csv="results/travel/travel.csv",
-        **{kind: f"results/travel/travel.{kind}" for kind in PICTURES},
+        **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points", "travel"),
     params:
         system=system_of(REPORT_SETTINGS["travel"]["case"]),
         settings=REPORT_SETTINGS["travel"],

@@ -26,7 +26,11 @@ rule companion_horizon:
     input:
         strobe=f"results/simulations/{PRECISE[0]}/strobe.csv" if PRECISE else [],
     output:
-        **{kind: f"results/figures/companion_horizon.{kind}" for kind in ("png", "pdf", "svg", "csv")},
+        **in_report(
+            {kind: f"results/figures/companion_horizon.{kind}" for kind in ("png", "pdf", "svg", "csv")},
+            "Companion figures",
+            "companion_horizon",
+        ),
     params:
         system=system_of(PRECISE[0]) if PRECISE else {},
         settings=config["cases"][PRECISE[0]]["simulation"] if PRECISE else {},

@@ -55,7 +55,7 @@ for name, per_case in GATHERED.items():
         input:
             expand(per_case, case=all_systems()),
         output:
-            f"results/{name}.csv",
+            **in_report({"csv": f"results/{name}.csv"}, "Tables", name),
         params:
             code=code("workflow/scripts/gather.py"),
         log:
@@ -88,7 +88,7 @@ for name, settings in STABILITY_FIGURES.items():
         input:
             **({"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"} if "systems" in settings else {}),
         output:
-            **stability_outputs(name),
+            **in_report(stability_outputs(name), "Companion figures", name),
         params:
             module=name,
             settings=settings,
@@ -131,8 +131,7 @@ rule claims:
             for name in ("samples.csv", "events.csv", "summary.json")
         },
     output:
-        json="results/claims.json",
-        markdown="results/claims.md",
+        **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", "claims", ("json",)),
     params:
         systems=all_systems(),
         code=code("workflow/scripts/claims.py"),

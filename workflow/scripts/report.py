@@ -25,7 +25,8 @@ def main(root, results, shown: dict, tables, config: dict, folder) -> None:
         config: of the pipeline.
     """
     settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
-    results, folder = Results(results), Path(folder)
+    judged = any(Path(table).name == "claims.json" for table in tables)
+    results, folder = Results(results, judged), Path(folder)
     for group in shown.values():
         for figure in group:
             collect(results, figure, folder)

@@ -13,10 +13,15 @@ COSTS = ("figures", "regimes", "stability", "accuracy", "simulations", "report",
 
 
 class Results:
-    """The results of a build below one directory."""
+    """The results of a build below one directory.
 
-    def __init__(self, root):
-        self.root = Path(root)
+    Args:
+        root: the directory.
+        judged: whether the claims have been judged; they are about the chapter's parameters alone.
+    """
+
+    def __init__(self, root, judged: bool = True):
+        self.root, self.judged = Path(root), judged
 
     def table(self, name: str) -> pd.DataFrame:
         """A CSV file, by its path below the results."""
@@ -58,7 +63,8 @@ class Results:
         return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
     def claims(self) -> list[dict]:
-        return json.loads(self.text("claims.json"))
+        """Every claim with its verdict; none where they were not judged."""
+        return json.loads(self.text("claims.json")) if self.judged else []
 
     def claims_about(self, figure: str) -> list[dict]:
         """Claims whose place names a figure of the chapter, `fig10_06` by "10.6" after the word for figures."""
