@@ -26,7 +26,7 @@ def arguments(settings: dict, tiles) -> dict:
     if "systems" in made:
         made["systems"] = {case: System(**parameters) for case, parameters in made["systems"].items()}
     if tiles:
-        made["tiles"] = [pd.read_csv(path, float_precision="round_trip") for path in tiles]
+        made["tiles"] = [pd.read_csv(path) for path in tiles]
     return made
 
 
