@@ -58,10 +58,36 @@ function Link(link)
   return link
 end
 
--- A wide table scrolls by itself, and can be reached by keyboard.
+-- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper its columns share the width by what
+-- they hold, since equal shares would leave long text in a narrow one.
+local LINE, LONGEST, PADDING = 110, 70, 4
+
+local function widths(tbl)
+  local most, wide = {}, false
+  for _, body in ipairs(tbl.bodies) do
+    for _, row in ipairs(body.body) do
+      for n, cell in ipairs(row.cells) do
+        local length = utf8.len(pandoc.utils.stringify(cell.contents))
+        wide = wide or length > LONGEST
+        most[n] = math.max(most[n] or 0, math.min(length, LONGEST) + PADDING)
+      end
+    end
+  end
+  local total = 0
+  for _, length in ipairs(most) do total = total + length end
+  return most, total, wide or total > LINE
+end
+
 function Table(tbl)
-  if is_typst() then return nil end
-  return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, { tabindex = "0", role = "region", ["aria-label"] = "Table" }))
+  if not is_typst() then
+    local attributes = { tabindex = "0", role = "region", ["aria-label"] = "Table" }
+    return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, attributes))
+  end
+  local most, total, wide = widths(tbl)
+  if wide then
+    for n, spec in ipairs(tbl.colspecs) do tbl.colspecs[n] = { spec[1], most[n] / total } end
+  end
+  return tbl
 end
 
 return { { Meta = Meta }, { Math = Math, Header = Header, Link = Link, Image = Image, Table = Table } }

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -51,6 +52,13 @@ def test_a_table_survives_what_its_cells_say():
     assert "<td>x | y</td>" in html.replace(' style="text-align: left;"', "")
     assert "two lines" in html
     assert cell("a\n b") == "a b"
+
+
+def test_on_paper_columns_share_the_width_by_what_they_hold():
+    long = markdown_table(["a", "b"], [["x", 200 * "long text "]])
+    columns = re.search(r"columns: \((.*?)%, (.*?)%\)", convert(f"# Here\n\n{long}", "typst", SOURCES, KNOWN))
+    assert float(columns[2]) > 5 * float(columns[1])
+    assert "%" not in convert("# Here\n\n" + markdown_table(["a", "b"], [["x", "y"]]), "typst", SOURCES, KNOWN)
 
 
 @pytest.mark.parametrize("caption", sorted(path.stem for path in (SOURCES / "captions").glob("*.rst")))
