@@ -7,9 +7,25 @@ function Meta(meta)
   page = pandoc.utils.stringify(meta.page)
 end
 
--- Numbers of equations stand after them: neither MathML nor Typst knows \tag.
+-- Bars come in pairs; told apart, they are set as the delimiters they are and not as relations.
+local function paired(text, bar, left, right)
+  local _, count = text:gsub(bar, "")
+  if count % 2 == 1 then return text end
+  local opening = false
+  return (text:gsub(bar, function()
+    opening = not opening
+    return opening and left or right
+  end))
+end
+
 function Math(math)
-  math.text = math.text:gsub("%s*\\tag{(.-)}", "\\qquad\\text{(%1)}")
+  -- Numbers of equations stand after them: neither MathML nor Typst knows \tag.
+  local text = math.text:gsub("%s*\\tag{(.-)}", "\\qquad\\text{(%1)}")
+  if not text:find("\\[a-zA-Z]+|") then
+    text = paired(paired(text, "\\|", "\\lVert ", "\\rVert "), "|", "\\left| ", "\\right| ")
+  end
+  text = text:gsub("\\lvert", "\\left|"):gsub("\\rvert", "\\right|")
+  math.text = text
   return math
 end
 

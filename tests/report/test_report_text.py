@@ -112,6 +112,13 @@ def test_figures_of_the_results_are_those_of_the_report(target):
     assert "results" not in text
 
 
+def test_bars_are_delimiters():
+    text = convert("# Title\n\n$\\|f\\|_2 \\le |a_1| + |b|$, $\\lvert x\\rvert$\n", "typst", SOURCES, KNOWN)
+    assert text.count("lr(bar.v.double f bar.v.double)") == 1
+    assert "parallel" not in text
+    assert "\\|" not in text
+
+
 def test_an_equation_number_at_the_start_of_a_line_begins_no_list():
     assert "<ol" not in convert("# Title\n\n(3) holds.\n", "html", SOURCES, KNOWN)
 
