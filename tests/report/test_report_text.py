@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from math_core import LatexError
 
 from report_pages import Pages, cell, digits, markdown_table, said, setting
 from report_results import Results
@@ -123,9 +124,10 @@ def test_an_equation_number_at_the_start_of_a_line_begins_no_list():
     assert "<ol" not in convert("# Title\n\n(3) holds.\n", "html", SOURCES, KNOWN)
 
 
-def test_a_formula_that_cannot_be_set_is_an_error():
-    with pytest.raises(RuntimeError, match="nosuchcommand"):
-        convert("# Title\n\n$\\nosuchcommand{x}$\n", "html", SOURCES, KNOWN)
+@pytest.mark.parametrize(("target", "error"), [("html", LatexError), ("typst", RuntimeError)])
+def test_a_formula_that_cannot_be_set_is_an_error(target, error):
+    with pytest.raises(error, match="nosuchcommand"):
+        convert("# Title\n\n$\\nosuchcommand{x}$\n", target, SOURCES, KNOWN)
 
 
 def claims(tmp_path, *places):
