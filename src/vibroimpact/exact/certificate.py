@@ -40,9 +40,9 @@ class Certificate:
 
     @property
     def decided(self) -> bool:
-        """Whether the nearest miss and the shallowest hit are clear beyond the error that the run had there."""
+        """Whether the nearest miss and the shallowest hit are clear beyond the error there, all within the horizon."""
         clear = self.nearest_miss > self.error_at_miss and self.shallowest_hit > self.error_at_hit
-        return not self.undecided and clear
+        return not self.undecided and clear and bool(np.isfinite(self.error))
 
 
 def certify(ledger: np.ndarray, covariance: np.ndarray, horizon: float, marked: np.ndarray) -> Certificate:
@@ -50,6 +50,7 @@ def certify(ledger: np.ndarray, covariance: np.ndarray, horizon: float, marked: 
     root (2,) at the nearest miss and the shallowest hit.
     """
     unit = np.finfo(float).eps
+    variance = np.trace(covariance)
     no_miss, no_hit = np.isinf(ledger[[kernel.CLEARED, kernel.PIERCED]])
     return Certificate(
         flights=int(ledger[kernel.FLIGHTS]),
@@ -60,7 +61,7 @@ def certify(ledger: np.ndarray, covariance: np.ndarray, horizon: float, marked: 
         nearest_miss=float(ledger[kernel.CLEARED]),
         shallowest_hit=float(ledger[kernel.PIERCED]),
         undecided=int(ledger[kernel.UNDECIDED]),
-        error=float(unit * np.sqrt(np.trace(covariance))),
+        error=float(unit * np.sqrt(variance)) if variance >= 0 else np.inf,
         error_at_miss=0.0 if no_miss else float(unit * marked[0]),
         error_at_hit=0.0 if no_hit else float(unit * marked[1]),
         horizon=horizon,

@@ -63,7 +63,8 @@ def acceleration_rounding(q, boxes):
 @compiled
 def gap_rounding(boxes, balls, i):
     """Size below which a gap of module i is rounding."""
-    return RESOLUTION * (1.0 + abs(boxes[i]) + abs(balls[i]))
+    speeds = abs(boxes[2 + i]) + abs(balls[2 + i])  # over a unit of time they enter like positions
+    return RESOLUTION * (1.0 + abs(boxes[i]) + abs(balls[i]) + speeds)
 
 
 @compiled
@@ -78,16 +79,16 @@ def _time_of(g, v, higher, bound, margin, horizon):
         if t < math.inf:
             return t, True, False
     if g <= 2.0 * margin:
-        if v > 0.0 or (a >= 0.0 and v * v <= 2.0 * a * margin):
+        if v > 0.0:
             return 0.0, True, True
-        if v < 0.0:
+        if v < 0.0 and (a < 0.0 or v * v > 2.0 * a * margin):
             return safe_time((-v, -a / 2, -j / 6, -s / 24, -bound / 120, 0.0), horizon), False, False
-        return safe_time((-a / 2, -j / 6, -s / 24, -bound / 120, 0.0, 0.0), horizon), False, False
+        return safe_time((margin, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
     return safe_time((g - margin, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
 
 
 @compiled
-def _hop_time(v, higher, bound, at_rest, horizon, short):
+def _hop_time(v, higher, bound, at_rest, margin, horizon, short):
     """(time, crossing) for the wall that the ball touches: v <= 0 is its velocity towards it, at_rest says v is 0.
 
     A hop no longer than short is timed to its end; else the zero at the start is divided out of the constraint.
@@ -96,7 +97,7 @@ def _hop_time(v, higher, bound, at_rest, horizon, short):
     if at_rest:
         if a < 0.0:
             return safe_time((-a / 2, -j / 6, -s / 24, -bound / 120, 0.0, 0.0), horizon), False
-        return safe_time((-j / 6, -s / 24, -bound / 120, 0.0, 0.0, 0.0), horizon), False
+        return safe_time((margin, 0.0, 0.0, -j / 6, -s / 24, -bound / 120), horizon), False
     t = return_time(-v, higher, bound, horizon)
     if t <= short:
         return t, True
@@ -134,7 +135,7 @@ def module_time(q, mode, i, boxes, balls, wall, touching, d, bound, sine, horizo
         else:
             if velocity == 0.0 and abs(d[i]) <= acceleration_rounding(q, boxes):
                 higher = (0.0, higher[1], higher[2])
-            t, c = _hop_time(w * velocity, higher, bound, velocity == 0.0, time, short)
+            t, c = _hop_time(w * velocity, higher, bound, velocity == 0.0, margin, time, short)
             u = False
         if t < time:
             time, crossing, undecided = t, c, u

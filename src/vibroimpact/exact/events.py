@@ -31,7 +31,7 @@ from vibroimpact.exact.flow import acceleration, advance, inverse_masses
 from vibroimpact.system.restitution import after_impact
 
 IMPACT, STICK, RELEASE = 0, 1, 2
-FINISHED, PENETRATED, STALLED = 0, 1, 2
+FINISHED, PENETRATED, STALLED, CROWDED = 0, 1, 2, 3
 FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, CLEARED, PIERCED, CLEARED_BY, PIERCED_AT = range(10)
 """Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact, the sum of what completed chatters
 neglect, the smallest gap at a turn before a wall, the smallest depth that an impact cut off, and the times by which
@@ -39,6 +39,7 @@ and at which these two happened."""
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
+BISECTIONS = 30  # of a step of at most LOOKAHEAD: the gap at a turn is stationary, so this is exact to rounding
 LOOKAHEAD = 2.0  # in units of the flow
 NEGLIGIBLE = 1e-18
 MOST_AT_ONCE = 6  # events of one instant: an impact, the end of its chatter and a release in each module
@@ -126,7 +127,10 @@ def _push(q, d, boxes, i, wall, sticking):
     tiny = acceleration_rounding(q, boxes)
     force, change = wall * d[i], wall * d[2 + i]
     if abs(force) <= tiny:
-        return change if change != 0.0 else wall * d[4 + i]
+        for k in (2, 4, 6):
+            if d[k + i] != 0.0:
+                return wall * d[k + i]
+        return 0.0
     if sticking and force < 0.0 < change and -(force**3) < tiny * change**2:
         return change
     return force
@@ -162,9 +166,12 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, remaining
         return False, 0.0
     other = 1 - i
     t, _, _ = module_time(q, mode, other, boxes, balls, walls[other], touching[other], d, bound, sine, window, 0.0)
-    if t < window:
-        return unresolved, 0.0
+    clear = t >= window
+    if not clear and not unresolved:
+        return False, 0.0
     ledger[NEGLECTED] += neglected
+    if not clear:
+        return True, 0.0
     return True, total * (1.0 - j * total / (3.0 * a))
 
 
@@ -233,28 +240,26 @@ def _taylor(boxes, d, t):
 
 
 @compiled
-def _note_turns(speeds, boxes, balls, walls, d, step, ledger):
-    """Relative speeds now; where one changed sign within the last step, the gap left at the turn goes to the ledger.
-
-    The turn is traced back by the Taylor series at its end, the more accurately the shorter the step, and steps shorten
-    before a near miss.
-    """
-    now = (boxes[2] - balls[2], boxes[3] - balls[3])
+def _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, late, now, there, ledger):
+    """Relative speeds at time late of a flight; a change of sign since early is a turn, its gap goes to the ledger."""
+    after = (now[2] - there[2], now[3] - there[3])
     for i in range(2):
-        if walls[i] == 0 and now[i] * speeds[i] < 0.0:
-            u, a, j, s, r = now[i], d[i], d[2 + i], d[4 + i], d[6 + i]
-            t = -step * abs(u) / (abs(u) + abs(speeds[i]))
-            for _ in range(3):
-                slope = a + t * (j + t * (s / 2 + t * r / 6))
-                t -= (u + t * (a + t * (j / 2 + t * (s / 6 + t * r / 24)))) / slope if slope != 0.0 else 0.0
-            t = min(max(t, -step), 0.0)
-            rise = t * (u + t * (a / 2 + t * (j / 6 + t * (s / 24 + t * r / 120))))
-            gap = 1.0 - abs(boxes[i] - balls[i] + rise)
+        if walls[i] == 0 and after[i] * speeds[i] < 0.0:
+            low, high = early, late
+            for _ in range(BISECTIONS):
+                middle = 0.5 * (low + high)
+                x, y = glide(flow, boxes, balls, walls, sine, cosine, middle)
+                if (x[2 + i] - y[2 + i]) * speeds[i] > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            x, y = glide(flow, boxes, balls, walls, sine, cosine, high)
             wall = 1.0 if speeds[i] > 0.0 else -1.0
-            if wall * (boxes[i] - balls[i]) > 0.0:
+            if wall * (x[i] - y[i]) > 0.0:
+                gap = 1.0 - wall * (x[i] - y[i])
                 ledger[CLEARED] = min(ledger[CLEARED], gap)
-                ledger[UNDECIDED] += gap <= gap_rounding(boxes, balls, i)
-    return now
+                ledger[UNDECIDED] += gap <= gap_rounding(x, y, i)
+    return after
 
 
 @compiled
@@ -270,13 +275,13 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
     aimed = -1
     while True:
         d = derivatives(q, mode, now, s, c)
-        speeds = _note_turns(speeds, now, there, walls, d, t - before, ledger)
+        speeds = _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, before, t, now, there, ledger)
         if t >= reach:
             return t, -1, now, there
         if aimed >= 0:
             step = wall_time(aimed, now, there, d)
             if abs(step) <= short:
-                return _meet(t, step, aimed, balls, walls, now, d, speeds, ledger)
+                return _meet(flow, t, step, aimed, boxes, balls, walls, sine, cosine, now, d, speeds, ledger)
         ledger[EVALUATIONS] += 1
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = fifth_bound(q, mode, d, horizon)
@@ -293,7 +298,7 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
         clear = (time if due == 0 else first) >= step + short
         if due >= 0 and abs(step) <= short:
             ledger[UNDECIDED] += doubt
-            return _meet(t, step, due, balls, walls, now, d, speeds, ledger)
+            return _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger)
         aimed = due if due >= 0 and clear and walls[due] == 0 and t + step + short < reach else -1
         if t + step == t:
             return t, STUCK_IN_TIME, now, there
@@ -305,21 +310,23 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
 
 
 @compiled
-def _meet(t, step, due, balls, walls, now, d, speeds, ledger):
+def _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger):
     """The end of a flight at an event a very short step away: what _fly returns."""
     later = _taylor(now, d, step)
-    t = max(t + step, 0.0)
+    early, t = t, max(t + step, 0.0)
     there = carry(balls, walls, later, t)
-    _note_turns(speeds, later, there, walls, d, abs(step), ledger)
+    if t > early:
+        _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, t, later, there, ledger)
     return t, due, later, there
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
+def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples, most_events):
     """Run a state over a number of forcing cycles.
 
     start_phase in [0, 2 pi); sample_times (n,) ascending, from the start of the run; samples (n, 8) is filled (at an
-    event: the state after it). Returns the boxes and balls at the end, the events (m, 12) as rows [time since the
+    event: the state after it). Gives up after
+    most_events. Returns the boxes and balls at the end, the events (m, 12) as rows [time since the
     start, module, wall, kind, state after], the status and the ledger of the run.
     """
     q = flow.coefficients
@@ -354,6 +361,8 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples):
         stalled = 0 if t > 0.0 else stalled + 1
         if stalled > PATIENCE or due == STUCK_IN_TIME:
             return boxes, balls, events[:count], STALLED, ledger
+        if count > most_events:
+            return boxes, balls, events[:count], CROWDED, ledger
         if due < 0 and t >= remaining:
             revolutions, phase, tail = cycles, start_phase, 0.0
         else:  # the rounding of every addition goes to the tail

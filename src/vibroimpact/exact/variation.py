@@ -112,8 +112,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 
 @compiled
-def propagate(flow, start, events, start_phase, duration, limit, marks):
-    """Carry perturbations along a run, given by its start (8,) in public order and the events (m, 12) of the kernel.
+def propagate(flow, start, events, final, start_phase, duration, limit, marks):
+    """Carry perturbations along a run, given by its start and final (8,) in public order and the events (m, 12)
+    of the kernel.
 
     Returns the Jacobian (8, 8) of the final state by the first one; the covariance (8, 8) that unit rounding errors in
     the start and after every event leave at the end, infinite past the horizon; that horizon: the time at which the
@@ -136,11 +137,13 @@ def propagate(flow, start, events, start_phase, duration, limit, marks):
                 if horizon == math.inf:
                     covariance = matrix @ covariance @ matrix.T
                 now += step
-        spread = math.sqrt(np.trace(covariance)) if horizon == math.inf else math.inf
+        spread = math.sqrt(max(np.trace(covariance), 0.0)) if horizon == math.inf else math.inf
         for k in range(len(marks)):
-            if marked[k] == math.inf and now >= marks[k]:
+            if marked[k] == math.inf and (now >= marks[k] or n == len(events)):
                 marked[k] = spread
         if n == len(events):
+            if horizon == math.inf:
+                _add_rounding(covariance, final)
             break
         row = events[n]
         i, wall, kind = int(row[1]) - 1, int(row[2]), int(row[3])
