@@ -16,6 +16,7 @@ from vibroimpact.checks.sources import Sources
 from vibroimpact.figures import style, tables
 
 ROOT = Path(__file__).parents[2]
+FIG10_05 = {"notebook": "closed_form", "model": "closed_form", "C_range": [0.5, 1.1]}
 AWKWARD = {"method": r"all zeros of (10.24) \ by 'Newton' & \"more\" <κ> )", "digits": 15}
 
 
@@ -80,7 +81,7 @@ def tree(figures, tmp_path):
     fingerprint = Sources().fingerprint(root / step["files"][0], modules=step["modules"])
     record = {
         "figure": "fig10_04",
-        "config": {"system.kappa": 0.65, "figures.fig10_05": {"notebook": "closed_form", "C_range": [0.5, 1.1]}},
+        "config": {"system.kappa": 0.65, "figures.fig10_05": FIG10_05},
         "steps": [{"method": "closed form", "digits": 15, **step, "fingerprint": fingerprint}],
         "lock": digest(root / "environment.lock"),
         "inputs": {"results/input.csv": digest(root / "results/input.csv")},

@@ -71,7 +71,7 @@ def test_an_edited_library_module_counts_where_it_is_used(tmp_path, edited, chan
     source = Path(sys.modules["vibroimpact"].__file__).parent
     subprocess.run(["cp", "-r", source, library], check=True)
     script = tmp_path / "script.py"
-    script.write_text("from vibroimpact.theory.stability import printed_limit\n")
+    script.write_text("from vibroimpact.theory.masri import lower_limit\n")
 
     def fingerprint():
         code = f"from vibroimpact.checks.sources import Sources; print(Sources().fingerprint({str(script)!r}))"
