@@ -39,7 +39,7 @@ and at which these two happened."""
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
-BISECTIONS = 30  # of a step of at most LOOKAHEAD: the gap at a turn is stationary, so this is exact to rounding
+TURN_STEPS = 4  # the gap is stationary at a turn: half the digits of its time give all of the gap
 LOOKAHEAD = 2.0  # in units of the flow
 NEGLIGIBLE = 1e-18
 MOST_AT_ONCE = 6  # events of one instant: an impact, the end of its chatter and a release in each module
@@ -246,14 +246,21 @@ def _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, late, no
     for i in range(2):
         if walls[i] == 0 and after[i] * speeds[i] < 0.0:
             low, high = early, late
-            for _ in range(BISECTIONS):
-                middle = 0.5 * (low + high)
-                x, y = glide(flow, boxes, balls, walls, sine, cosine, middle)
-                if (x[2 + i] - y[2 + i]) * speeds[i] > 0.0:
-                    low = middle
+            t = early + (late - early) * abs(speeds[i]) / (abs(speeds[i]) + abs(after[i]))
+            for _ in range(TURN_STEPS):  # Newton on the relative speed, kept between the ends
+                x1, x2, v1, v2, force, _ = advance(
+                    flow, mode_of(walls), boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine, t
+                )
+                x = (x1, x2, v1, v2)
+                speed = x[2 + i] - balls[2 + i]
+                if speed * speeds[i] > 0.0:
+                    low = t
                 else:
-                    high = middle
-            x, y = glide(flow, boxes, balls, walls, sine, cosine, high)
+                    high = t
+                slope = _acceleration(flow.coefficients, walls, x, force)[i]
+                newton = t - speed / slope if slope != 0.0 else low
+                t = newton if low < newton < high else 0.5 * (low + high)
+            x, y = glide(flow, boxes, balls, walls, sine, cosine, t)
             wall = 1.0 if speeds[i] > 0.0 else -1.0
             if wall * (x[i] - y[i]) > 0.0:
                 gap = 1.0 - wall * (x[i] - y[i])
