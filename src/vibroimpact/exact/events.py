@@ -270,7 +270,7 @@ def _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, late, no
 
 
 @compiled
-def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
+def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger, watch):
     """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls)."""
     q = flow.coefficients
     mode = mode_of(walls)
@@ -282,13 +282,14 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
     aimed = -1
     while True:
         d = derivatives(q, mode, now, s, c)
-        speeds = _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, before, t, now, there, ledger)
+        if watch:
+            speeds = _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, before, t, now, there, ledger)
         if t >= reach:
             return t, -1, now, there
         if aimed >= 0:
             step = wall_time(aimed, now, there, d)
             if abs(step) <= short:
-                return _meet(flow, t, step, aimed, boxes, balls, walls, sine, cosine, now, d, speeds, ledger)
+                return _meet(flow, t, step, aimed, boxes, balls, walls, sine, cosine, now, d, speeds, ledger, watch)
         ledger[EVALUATIONS] += 1
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = fifth_bound(q, mode, d, horizon)
@@ -305,7 +306,7 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
         clear = (time if due == 0 else first) >= step + short
         if due >= 0 and abs(step) <= short:
             ledger[UNDECIDED] += doubt
-            return _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger)
+            return _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger, watch)
         aimed = due if due >= 0 and clear and walls[due] == 0 and t + step + short < reach else -1
         if t + step == t:
             return t, STUCK_IN_TIME, now, there
@@ -317,24 +318,24 @@ def _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger):
 
 
 @compiled
-def _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger):
+def _meet(flow, t, step, due, boxes, balls, walls, sine, cosine, now, d, speeds, ledger, watch):
     """The end of a flight at an event a very short step away: what _fly returns."""
     later = _taylor(now, d, step)
     early, t = t, max(t + step, 0.0)
     there = carry(balls, walls, later, t)
-    if t > early:
+    if watch and t > early:
         _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, t, later, there, ledger)
     return t, due, later, there
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples, most_events):
+def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples, most_events, watch):
     """Run a state over a number of forcing cycles.
 
-    start_phase in [0, 2 pi); sample_times (n,) ascending, from the start of the run; samples (n, 8) is filled (at an
-    event: the state after it). Gives up after
-    most_events. Returns the boxes and balls at the end, the events (m, 12) as rows [time since the
-    start, module, wall, kind, state after], the status and the ledger of the run.
+    start_phase in [0, 2 pi); sample_times (n,) ascending, from the start of the run; samples (n, 8) is filled (at
+    an event: the state after it). Gives up after most_events; turns before a wall go to the ledger if watch is
+    set. Returns the boxes and balls at the end, the events (m, 12) as rows [time since the start, module, wall,
+    kind, state after], the status and the ledger of the run.
     """
     q = flow.coefficients
     events, count = np.empty((64, 12)), 0
@@ -355,7 +356,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, sample_times, samples, mo
         if remaining == 0.0:
             break
         nearest = ledger[CLEARED]
-        t, due, later, there = _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger)
+        t, due, later, there = _fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, ledger, watch)
         while sampled < len(sample_times) and sample_times[sampled] < elapsed + t:
             lag = max(sample_times[sampled] - elapsed, 0.0)
             snapshot, flying = glide(flow, boxes, balls, walls, sine, cosine, lag)

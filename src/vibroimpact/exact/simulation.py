@@ -46,7 +46,13 @@ class Run:
     samples: np.ndarray
     final: np.ndarray
     _rows: np.ndarray = field(repr=False)
-    _ledger: np.ndarray = field(repr=False)
+
+    @cached_property
+    def _ledger(self):
+        """The books of the run, kept in a second one that is the same step by step, so that the first need not pay."""
+        return _integrate(self.system, self.start, self.cycles, self.tau0, np.empty(0), np.empty((0, 8)), watch=True)[
+            -1
+        ]
 
     @cached_property
     def _variation(self):
@@ -134,22 +140,21 @@ def _report(runs):
 def _run(system, state, cycles, tau0, times):
     """One run from checked arguments."""
     samples = np.empty((len(times), 8))
-    boxes, balls, rows, status, ledger = kernel.integrate(
-        flow_of(system),
-        tuple(state[0::2]),
-        tuple(state[1::2]),
-        _phase(system, tau0),
-        cycles,
-        times - tau0,
-        samples,
-        MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles,
-    )
+    boxes, balls, rows, status, _ = _integrate(system, state, cycles, tau0, times - tau0, samples, watch=False)
     if status != kernel.FINISHED:
         what = FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
-    return Run(system, state, tau0, cycles, _table(rows, tau0), samples, final, rows, ledger)
+    return Run(system, state, tau0, cycles, _table(rows, tau0), samples, final, rows)
+
+
+def _integrate(system, state, cycles, tau0, offsets, samples, watch):
+    """The kernel's run: boxes, balls, events as rows, status, ledger."""
+    most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles
+    boxes, balls = tuple(state[0::2]), tuple(state[1::2])
+    phase = _phase(system, tau0)
+    return kernel.integrate(flow_of(system), boxes, balls, phase, cycles, offsets, samples, most_events, watch)
 
 
 def _phase(system, tau):
