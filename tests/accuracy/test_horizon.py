@@ -5,13 +5,13 @@ import pandas as pd
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.accuracy.horizon import departure
 from vibroimpact.accuracy.reference import proven_run
 from vibroimpact.figures import companion_horizon
 
 WEAK = vi.System(
-    epsilon=0.1, kappa=0.65, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2, sigma20_hat=0.5,
-    sigma_e_hat=0.2, f10_hat=0.5, f20_hat=0.5,
+    **PARAMETERS, f10_hat=0.5, f20_hat=0.5,
 )  # fmt: skip
 START = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
 CYCLES = 60

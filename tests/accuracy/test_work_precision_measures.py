@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
+from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference import reference_run
@@ -14,14 +15,7 @@ from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, faile
 from vibroimpact.system import System
 
 SYSTEM = System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
+    **PARAMETERS,
     f10_hat=1.0,
     f20_hat=1.0,
 )

@@ -7,18 +7,12 @@ import pandas as pd
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.figures import fig10_01, fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
 from vibroimpact.theory.labels import labels
 
 CHAPTER = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
+    **PARAMETERS,
     "f10_hat": 1.0,
     "f20_hat": 1.0,
 }

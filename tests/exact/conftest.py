@@ -5,18 +5,7 @@ import pytest
 from scipy.linalg import expm
 
 import vibroimpact as vi
-
-CHAPTER = dict(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-)
-FORCES = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
+from chapter import FORCES, PARAMETERS
 
 
 @pytest.fixture
@@ -24,7 +13,7 @@ def chapter():
     """The chapter's system under given forcing."""
 
     def make(f10_hat=1.0, f20_hat=1.0, **changes):
-        return vi.System(**{**CHAPTER, **changes}, f10_hat=f10_hat, f20_hat=f20_hat)
+        return vi.System(**{**PARAMETERS, **changes}, f10_hat=f10_hat, f20_hat=f20_hat)
 
     return make
 
@@ -33,7 +22,7 @@ def chapter():
 def case(request):
     """Each case of the chapter in turn."""
     f10_hat, f20_hat = FORCES[request.param]
-    return vi.System(**CHAPTER, f10_hat=f10_hat, f20_hat=f20_hat)
+    return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
 class Auditor:

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
 from vibroimpact.figures import (
     fig10_01,
     fig10_02,
@@ -20,24 +21,13 @@ from vibroimpact.figures import (
 )
 from vibroimpact.theory.labels import labels
 
-CHAPTER = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
-}
-FORCING = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
 STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
 
 
 def system_of(case):
-    f10_hat, f20_hat = FORCING[case]
-    return vi.System(**CHAPTER, f10_hat=f10_hat, f20_hat=f20_hat)
+    f10_hat, f20_hat = FORCES[case]
+    return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
 def table_of_points(system):
@@ -92,7 +82,7 @@ def name_with_table(request):
 
 @pytest.fixture(scope="session")
 def scenes():
-    equal, unequal, weak = (system_of(case) for case in FORCING)
+    equal, unequal, weak = (system_of(case) for case in FORCES)
     made = {
         "fig10_01": (None, lambda table: fig10_01.draw()),
         "fig10_02": (None, lambda table: fig10_02.draw()),

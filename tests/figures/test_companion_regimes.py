@@ -7,22 +7,12 @@ import pytest
 from matplotlib.lines import Line2D
 
 import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
 from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
 from vibroimpact.figures.style import save
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
-FORCING = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
-CHAPTER = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
-}
-SYSTEMS = {case: vi.System(**CHAPTER, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCING.items()}
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
@@ -48,7 +38,7 @@ def tables():
             attractors={"values": 3, "starts": 3, "seed": 1},
             observation=OBSERVATION,
         ),
-        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, FORCING),
+        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, FORCES),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=5, observation=OBSERVATION
         ),
@@ -123,10 +113,10 @@ def test_simulated_attractors_lie_on_the_stable_branch(tables):
 
 
 def test_tiles_make_up_the_map(tables):
-    whole = regime_map.compute([map_tile(0, 1)], 6, FORCING)["csv"]
+    whole = regime_map.compute([map_tile(0, 1)], 6, FORCES)["csv"]
     pd.testing.assert_frame_equal(whole, tables["regime_map"]["csv"])
     with pytest.raises(ValueError, match="tiles"):
-        regime_map.compute([map_tile(0, 2)], 6, FORCING)
+        regime_map.compute([map_tile(0, 2)], 6, FORCES)
 
 
 def test_borders_run_between_cells_that_differ():
@@ -137,7 +127,7 @@ def test_borders_run_between_cells_that_differ():
 
 def test_measures_have_uncertainties_over_starts(tables):
     measures = tables["modulation"]["measures"]
-    assert set(measures["case"]) == set(FORCING)
+    assert set(measures["case"]) == set(FORCES)
     spread = measures[(measures["start"] == "spread") & (measures["quantity"] != "burst length")]
     assert spread["uncertainty"].notna().all()
     rest = measures[(measures["case"] == "weak") & (measures["start"] == "rest")]

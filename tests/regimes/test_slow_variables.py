@@ -6,17 +6,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.regimes.slow_variables import amplitude_and_lag, mean_phase, measure, phase_in_cycle
 
 SYSTEM = vi.System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
+    **PARAMETERS,
     f10_hat=1.0,
     f20_hat=1.0,
 )

@@ -5,19 +5,13 @@ import pandas as pd
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.exact.simulation import KINDS
 from vibroimpact.figures import animation, travel
 from vibroimpact.theory.manifold import B_of_C, rho
 
 SYSTEM = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
+    **PARAMETERS,
     "f10_hat": 1.0,
 }
 COORDINATES = ["X1", "Y1", "X2", "Y2"]

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.system.matrices import damping_matrix, dynamic_stiffness, rate_matrix, stiffness_matrix
 
 CHAPTER = dict(
-    epsilon=0.1, kappa=0.65, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2, sigma20_hat=0.5,
-    sigma_e_hat=0.2, f10_hat=1.0, f20_hat=0.89,
+    **PARAMETERS, f10_hat=1.0, f20_hat=0.89,
 )  # fmt: skip
 
 BAD = {

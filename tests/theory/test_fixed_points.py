@@ -10,19 +10,13 @@ from hypothesis import strategies as st
 from scipy.optimize import root
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.theory import manifold
 from vibroimpact.theory.fixed_points import search
 from vibroimpact.theory.slow_flow import rates
 
 CHAPTER = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
+    **PARAMETERS,
     "f10_hat": 1.0,
     "f20_hat": 1.0,
 }

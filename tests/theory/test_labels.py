@@ -3,6 +3,7 @@
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.theory import manifold
 from vibroimpact.theory.labels import labels
 from vibroimpact.theory.stability import printed_limit
@@ -10,14 +11,7 @@ from vibroimpact.theory.stability import printed_limit
 
 def labelled(f20_hat):
     system = vi.System(
-        epsilon=0.1,
-        kappa=0.65,
-        alpha12_hat=1.0,
-        gamma1_hat=0.2,
-        gamma2_hat=0.2,
-        gamma12_hat=0.2,
-        sigma20_hat=0.5,
-        sigma_e_hat=0.2,
+        **PARAMETERS,
         f10_hat=1.0,
         f20_hat=f20_hat,
     )

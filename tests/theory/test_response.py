@@ -4,18 +4,12 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.theory.manifold import overshoot, rho
 from vibroimpact.theory.response import impact_times, leading_order
 
 SYSTEM = vi.System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
+    **PARAMETERS,
     f10_hat=1.0,
     f20_hat=1.0,
 )

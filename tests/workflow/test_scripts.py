@@ -11,20 +11,14 @@ from papermill import PapermillExecutionError
 import fixed_points
 import gather
 import simulate
+from chapter import PARAMETERS
 from notebook import main as notebook
 from offline import markdown_to_html
 from vibroimpact.exact.simulation import simulate as integrate
 from vibroimpact.system import System
 
 SYSTEM = {
-    "epsilon": 0.1,
-    "kappa": 0.65,
-    "alpha12_hat": 1.0,
-    "gamma1_hat": 0.2,
-    "gamma2_hat": 0.2,
-    "gamma12_hat": 0.2,
-    "sigma20_hat": 0.5,
-    "sigma_e_hat": 0.2,
+    **PARAMETERS,
     "f10_hat": 1.0,
     "f20_hat": 1.0,
 }

@@ -1,0 +1,13 @@
+"""The chapter's numbers as section 10.4 prints them; `tests/checks/test_chapter.py` holds the config to them."""
+
+PARAMETERS = {
+    "epsilon": 0.1,
+    "kappa": 0.65,
+    "alpha12_hat": 1.0,
+    "gamma1_hat": 0.2,
+    "gamma2_hat": 0.2,
+    "gamma12_hat": 0.2,
+    "sigma20_hat": 0.5,
+    "sigma_e_hat": 0.2,
+}
+FORCES = {"equal": (1.0, 1.0), "unequal": (1.0, 0.89), "weak": (0.5, 0.5)}
