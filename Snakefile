@@ -11,11 +11,13 @@ configfile: CONFIG_FILE
 check_config()
 
 
+include: "workflow/rules/origin.smk"
 include: "workflow/rules/fixed_points.smk"
-include: "workflow/rules/stability.smk"
 include: "workflow/rules/simulations.smk"
-include: "workflow/rules/figures.smk"
 include: "workflow/rules/regimes.smk"
+include: "workflow/rules/companions.smk"
+include: "workflow/rules/stability.smk"
+include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/checks.smk"
 include: "workflow/rules/report.smk"
@@ -26,7 +28,6 @@ rule all:
     input:
         rules.stability.input,
         rules.figures.input,
-        rules.regimes.input,
-        list(rules.companion_horizon.output) if PRECISE else [],
+        rules.companions.input,
         rules.accuracy.input,
         list(rules.claims.output) if claims_apply() else [],

@@ -1,6 +1,7 @@
 """The recipes of docs/howto_*.md, followed step by step in a copy of the project."""
 
 import importlib.util
+import json
 import os
 import re
 import shutil
@@ -95,6 +96,8 @@ def test_a_figure_can_be_added(project):
     assert table["speed"].iloc[-1] == pytest.approx(4 * table["C"].iloc[-1] / (3.141592653589793 * 1.65))
     for kind in ("png", "pdf", "svg"):
         assert (project / f"results/figures/companion_speed.{kind}").stat().st_size > 1000
+    record = json.loads((project / "results/figures/companion_speed.provenance.json").read_text())
+    assert set(record["config"]) == {"system.kappa", "stability.companion_10_04.C_max"}
 
 
 def test_an_integrator_can_be_added(project):

@@ -38,7 +38,7 @@ def tables():
             attractors={"values": 3, "starts": 3, "seed": 1},
             observation=OBSERVATION,
         ),
-        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, FORCES),
+        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, SYSTEMS),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=5, observation=OBSERVATION
         ),
@@ -113,10 +113,10 @@ def test_simulated_attractors_lie_on_the_stable_branch(tables):
 
 
 def test_tiles_make_up_the_map(tables):
-    whole = regime_map.compute([map_tile(0, 1)], 6, FORCES)["csv"]
+    whole = regime_map.compute([map_tile(0, 1)], 6, SYSTEMS)["csv"]
     pd.testing.assert_frame_equal(whole, tables["regime_map"]["csv"])
     with pytest.raises(ValueError, match="tiles"):
-        regime_map.compute([map_tile(0, 2)], 6, FORCES)
+        regime_map.compute([map_tile(0, 2)], 6, SYSTEMS)
 
 
 def test_borders_run_between_cells_that_differ():

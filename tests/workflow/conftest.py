@@ -57,7 +57,7 @@ class Tree:
         rules = {
             line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
         }
-        return rules - {"all", "figures", "stability"}
+        return rules - {"all", "figures", "stability", "companions"}
 
     def edit(self, name, old, new):
         """Replace a text that must be there in a file of the tree."""

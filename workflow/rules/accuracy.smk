@@ -1,18 +1,25 @@
 # How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
 
-KINDS = "csv", "png", "pdf", "svg"
 TIMED = {"work_precision": (True, "short_seconds"), "work_precision_full": (False, "full_seconds")}
 JUDGED = {"hazards": False, "hazards_full": True}
+COMPARED = "every method, in float64, against a reference with enough digits that more would not change it"
 
 
 def accuracy_outputs(name):
-    return {kind: f"results/accuracy/{name}.{kind}" for kind in KINDS}
+    return figure_files(f"results/accuracy/{name}")
 
 
 def accuracy_scenes():
     """Scenes of the chart with the parameters of their cases."""
     scenes = config["accuracy"]["scenes"]
     return {name: {"system": system_of(scene["case"]), "settings": scene} for name, scene in scenes.items()}
+
+
+def accuracy_origin(name, seconds):
+    scenes = config["accuracy"]["scenes"]
+    cases = sorted({scene["case"] for scene in scenes.values()})
+    own = step(f"{COMPARED}; run times measured", DOUBLE, "workflow/scripts/work_precision.py")
+    return origin(name, ["accuracy.scenes", f"accuracy.{seconds}"], cases, [own])
 
 
 for name, (short, seconds) in TIMED.items():
@@ -26,7 +33,7 @@ for name, (short, seconds) in TIMED.items():
             scenes=accuracy_scenes(),
             seconds=config["accuracy"][seconds],
             short=short,
-            code=code("workflow/scripts/work_precision.py"),
+            origin=accuracy_origin(name, seconds),
         threads: workflow.cores
         log:
             f"results/logs/accuracy/{name}.log",
@@ -45,7 +52,7 @@ for name, all_of_them in JUDGED.items():
             **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
         params:
             all_of_them=all_of_them,
-            code=code("workflow/scripts/hazards.py"),
+            origin=origin(name, [], [], [step(COMPARED, DOUBLE, "workflow/scripts/hazards.py")]),
         log:
             f"results/logs/accuracy/{name}.log",
         benchmark:

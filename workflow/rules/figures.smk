@@ -16,16 +16,7 @@ MODEL_INPUTS = {
 }
 WITHOUT_TABLE = "drawings"
 
-# Who makes the inputs and the figures, by which method; for the record that goes with each figure.
-SCRIPTS = {
-    "fixed_points": "workflow/scripts/fixed_points.py",
-    "samples": "workflow/scripts/simulate.py",
-}
-METHODS = {
-    "fixed_points": "all solutions of (10.23): real zeros of (10.24), refined by Newton's method",
-    "samples": "direct integration of (10.1), event by event, with free flight in closed form",
-    "exact samples": "direct integration of (10.1), event by event, in ball arithmetic, proved by doubling the digits",
-}
+# How each figure is made of them; for the record that goes with it.
 NOTEBOOK_METHODS = {
     "drawings": "drawn to scale, nothing computed",
     "closed_form": "closed form: (10.11), (10.16), (10.25), (10.26)",
@@ -33,7 +24,6 @@ NOTEBOOK_METHODS = {
     "theoretical_response": "leading order, (10.9) and (10.10), at a fixed point",
     "simulation": "motion of the second module as simulated, with its events as corners",
 }
-DOUBLE = sys.float_info.dig
 
 
 def figure_inputs(scene):
@@ -42,16 +32,10 @@ def figure_inputs(scene):
 
 
 def figure_outputs(figure, scene):
-    kinds = ["png", "pdf", "svg"] + ["csv"] * (scene["notebook"] != WITHOUT_TABLE)
-    told = {name: f"results/figures/{figure}.{name}.json" for name in ("artists", "provenance")}
+    files = figure_files(f"results/figures/{figure}", with_table=scene["notebook"] != WITHOUT_TABLE)
     if scene["notebook"] == "simulation" and exact(scene["case"]):
-        told["statistics"] = f"results/figures/{figure}.statistics.csv"
-    return {kind: f"results/figures/{figure}.{kind}" for kind in kinds} | told
-
-
-def exact(case):
-    """Whether the motion of a case is computed with so many digits that all its numbers can be reproduced."""
-    return "digits" in config["cases"][case]["simulation"]
+        files["statistics"] = f"results/figures/{figure}.statistics.csv"
+    return files
 
 
 def figure_settings(scene):
@@ -71,32 +55,15 @@ def figure_step(figure, scene):
     return step(NOTEBOOK_METHODS[scene["notebook"]], DOUBLE, *files, modules=modules)
 
 
-def step_before(name, scene):
-    """How an input of a figure is made."""
-    if name == "samples" and exact(scene["case"]):
-        return step(METHODS["exact samples"], config["cases"][scene["case"]]["simulation"]["digits"], SCRIPTS[name])
-    return step(METHODS[name], DOUBLE, SCRIPTS[name])
-
-
-def step(method, digits, *files, modules=()):
-    """A step of the computation: its method, the decimal digits it works with, and the code that takes it."""
-    fingerprint = code(*files, modules=modules)
-    return {"method": method, "digits": digits, "files": [*files], "modules": [*modules], "fingerprint": fingerprint}
-
-
 def figure_origin(figure, scene):
-    """What decides on a figure: its slice of the config, by the path of each key, and the steps up to its files."""
+    """What decides on a figure: its scene, the parameters it depends on, the integration of its case if it shows that."""
     read = MODEL_INPUTS[scene.get("model")]
-    used = config["system"] if "case" in scene else scene.get("parameters", [])
-    values = {f"system.{name}": config["system"][name] for name in used}
-    if "case" in scene:
-        of_case = ["f10_hat", "f20_hat"] + ["simulation"] * ("samples" in read)
-        values |= {f"cases.{scene['case']}.{name}": config["cases"][scene["case"]][name] for name in of_case}
-    before = [step_before(name, scene) for name in read if name in SCRIPTS]
-    return {
-        "config": {f"figures.{figure}": scene, **values},
-        "steps": [*before, figure_step(figure, scene)],
-    }
+    cases = [scene["case"]] if "case" in scene else []
+    keys = [f"figures.{figure}", *(f"system.{name}" for name in scene.get("parameters", []))]
+    keys += [f"cases.{case}.simulation" for case in cases if "samples" in read]
+    before = [step(*STEPS["fixed_points"])] if "fixed_points" in read else []
+    before += [simulation_step(scene["case"])] if "samples" in read else []
+    return origin(figure, keys, cases, [*before, figure_step(figure, scene)])
 
 
 for figure, scene in config["figures"].items():
@@ -110,7 +77,6 @@ for figure, scene in config["figures"].items():
             html=f"results/notebooks/{figure}.html",
             **in_report(figure_outputs(figure, scene), "Figures of the chapter", figure),
         params:
-            figure=figure,
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),

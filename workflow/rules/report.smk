@@ -3,7 +3,7 @@
 REPORT_SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 REPORT_SHOWS = {
     "chapter": list(config["figures"]),
-    "companions": [*STABILITY_FIGURES, *["companion_horizon"] * bool(PRECISE), *COMPANION_TABLES],
+    "companions": list(COMPANIONS),
     "accuracy": ["work_precision", "hazards"],
     "models": ["scene_models"],
     "animations": list(REPORT_SETTINGS["animations"]),
@@ -13,7 +13,7 @@ REPORT_TABLES = [
     "results/fixed_points.csv",
     "results/orbits.csv",
     *["results/claims.json"] * claims_apply(),
-    *(path for tables in COMPANION_TABLES.values() for path in tables.values()),
+    *(path for companion in COMPANIONS.values() for path in companion.get("tables", {}).values()),
 ]
 PICTURES = "png", "pdf", "svg"
 
@@ -60,10 +60,9 @@ rule travel:
 rule report:
     input:
         rules.figures.input,
-        rules.regimes.input,
+        rules.companions.input,
         rules.stability.input,
         rules.accuracy.input,
-        list(rules.companion_horizon.output) if PRECISE else [],
         rules.travel.output,
         [path for name in REPORT_SETTINGS["animations"] for path in getattr(rules, name).output],
         REPORT_TABLES,

@@ -17,27 +17,3 @@ rule simulation:
         "results/benchmarks/simulations/{case}.tsv"
     script:
         "../scripts/simulate.py"
-
-
-PRECISE = [case for case, scene in config["cases"].items() if "digits" in scene["simulation"]]
-
-
-rule companion_horizon:
-    input:
-        strobe=f"results/simulations/{PRECISE[0]}/strobe.csv" if PRECISE else [],
-    output:
-        **in_report(
-            {kind: f"results/figures/companion_horizon.{kind}" for kind in ("png", "pdf", "svg", "csv")},
-            "Companion figures",
-            "companion_horizon",
-        ),
-    params:
-        system=system_of(PRECISE[0]) if PRECISE else {},
-        settings=config["cases"][PRECISE[0]]["simulation"] if PRECISE else {},
-        code=code("workflow/scripts/horizon.py"),
-    log:
-        "results/logs/companion_horizon.log",
-    benchmark:
-        "results/benchmarks/companion_horizon.tsv"
-    script:
-        "../scripts/horizon.py"

@@ -1,19 +1,11 @@
 # Is it stable? Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, how
-# complete both lists are, and the companion figures. The tables of all cases feed no figure of the chapter.
+# complete both lists are. The tables of all cases feed no figure of the chapter.
 
-STABILITY_FIGURES = {
-    "companion_10_04": config["stability"]["companion_10_04"] | {"kappa": config["system"]["kappa"]},
-    "companion_10_05": config["stability"]["companion_10_05"],
-    "companion_stability": {"systems": all_systems()},
-}
+STABILITY_FIGURES = "companion_10_04", "companion_10_05", "companion_stability"
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
 CLAIMS = "docs/claims.yaml"
 GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/orbits/{case}.csv"}
-
-
-def stability_outputs(name):
-    return {kind: f"results/figures/{name}.{kind}" for kind in ("csv", "png", "pdf", "svg")}
 
 
 rule orbits:
@@ -80,32 +72,11 @@ rule certificates:
         "../scripts/certificates.py"
 
 
-for name, settings in STABILITY_FIGURES.items():
-
-    rule:
-        name:
-            name
-        input:
-            **({"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"} if "systems" in settings else {}),
-        output:
-            **in_report(stability_outputs(name), "Companion figures", name),
-        params:
-            module=name,
-            settings=settings,
-            code=code("workflow/scripts/companions.py", modules=[f"vibroimpact.figures.{name}"]),
-        log:
-            f"results/logs/stability/{name}.log",
-        benchmark:
-            f"results/benchmarks/stability/{name}.tsv"
-        script:
-            "../scripts/companions.py"
-
-
 rule stability:
     input:
         [f"results/{name}.csv" for name in GATHERED],
         rules.certificates.output,
-        [path for name in STABILITY_FIGURES for path in stability_outputs(name).values()],
+        [path for name in STABILITY_FIGURES for path in companion_outputs(name).values()],
 
 
 def claims_apply():

@@ -1,36 +1,44 @@
-"""One companion figure of the regimes -> the files of the figure and the tables beside it."""
+"""One companion figure -> the files of the figure and the tables beside it."""
 
 from importlib import import_module
 
-import pandas as pd
-
-from adapter import logging_to, write_csv
+from adapter import logging_to
+from origin import recorded
 from vibroimpact.figures.style import save
+from vibroimpact.figures.tables import read, write
 from vibroimpact.system import System
 
 
-def main(module: str, settings: dict, tiles, outputs: dict) -> None:
-    """Compute the figure of a library module, write every table that has a file, and draw."""
-    figure = import_module(f"vibroimpact.figures.{module}")
-    tables = figure.compute(**arguments(settings, tiles))
+def main(module: str, settings: dict, inputs: dict, outputs: dict, provenance: dict) -> None:
+    """Compute the figure of a library module, write every table that has a file, and draw.
+
+    Args:
+        module: its full name.
+        settings: arguments of its `compute`, systems as their parameters.
+        inputs: further arguments, as paths of tables or lists of such paths.
+    """
+    figure = import_module(module)
+    computed = figure.compute(**with_systems(settings), **{name: read_all(paths) for name, paths in inputs.items()})
+    tables = computed if isinstance(computed, dict) else {"csv": computed}
     for name in tables.keys() & outputs.keys():
-        write_csv(tables[name], outputs[name])
-    save(figure.draw(tables), outputs)
+        write(tables[name], outputs[name])
+    save(figure.draw(computed), outputs, provenance)
 
 
-def arguments(settings: dict, tiles) -> dict:
-    """The settings with systems made of their parameters, and with tiles read from their files, if there are any."""
+def with_systems(settings: dict) -> dict:
+    """The settings with systems made of their parameters."""
     made = dict(settings)
     if "system" in made:
         made["system"] = System(**made["system"])
     if "systems" in made:
         made["systems"] = {case: System(**parameters) for case, parameters in made["systems"].items()}
-    if tiles:
-        made["tiles"] = [pd.read_csv(path) for path in tiles]
     return made
 
 
+def read_all(paths):
+    return read(paths) if isinstance(paths, str) else [read(path) for path in paths]
+
+
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
-        outputs = dict(snakemake.output.items())
-        main(snakemake.params.module, snakemake.params.settings, list(snakemake.input), outputs)
+    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+        main(snakemake.params.module, snakemake.params.settings, dict(snakemake.input.items()), outputs, provenance)

@@ -3,19 +3,20 @@
 import pandas as pd
 
 from adapter import logging_to, write_csv
+from origin import recorded
 from vibroimpact.accuracy.hazards import hazards, judge
 from vibroimpact.figures.hazards import draw
 from vibroimpact.figures.style import save
 from vibroimpact.rivals import METHODS
 
 
-def main(all_of_them: bool, outputs) -> None:
+def main(all_of_them: bool, outputs: dict, provenance: dict) -> None:
     chosen = [hazard for hazard in hazards() if all_of_them or hazard.quick]
     table = pd.DataFrame([row for hazard in chosen for row in judge(hazard, METHODS)])
     write_csv(table, outputs["csv"])
-    save(draw(table), outputs)
+    save(draw(table), outputs, provenance)
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
-        main(snakemake.params.all_of_them, snakemake.output)
+    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+        main(snakemake.params.all_of_them, outputs, provenance)

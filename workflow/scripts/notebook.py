@@ -4,7 +4,6 @@ The executed notebook is kept beside the log, cell by cell as it runs, so that a
 """
 
 import os
-import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -13,7 +12,7 @@ from traitlets.config import Config
 
 from adapter import logging_to
 from offline import page
-from origin import record, write_sidecar
+from origin import recorded
 from vibroimpact.figures.atomic import replacing
 
 PARAMETERS = {"figure", "settings", "inputs", "outputs", "provenance"}
@@ -50,17 +49,13 @@ def execute(notebook, executed, parameters: dict):
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
-        start = time.monotonic()
-        figure, inputs, outputs = snakemake.params.figure, dict(snakemake.input.items()), dict(snakemake.output.items())
-        html, sidecar = outputs.pop("html"), outputs.pop("provenance")
-        provenance = record(figure, snakemake.params.origin, inputs.values())
+    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+        html = outputs.pop("html")
         parameters = {
-            "figure": figure,
+            "figure": provenance["figure"],
             "settings": snakemake.params.settings,
-            "inputs": inputs,
+            "inputs": dict(snakemake.input.items()),
             "outputs": outputs,
             "provenance": provenance,
         }
         main(snakemake.params.notebook, snakemake.params.executed, html, parameters)
-        write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)

@@ -4,6 +4,8 @@ import hashlib
 import json
 import platform
 import subprocess
+import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy
@@ -14,11 +16,20 @@ from vibroimpact.figures.atomic import replacing
 LOCK = "environment.lock"
 
 
-def record(figure: str, origin: dict, inputs) -> dict:
+@contextmanager
+def recorded(job):
+    """Give the record of a job's figure and its outputs by name; write the sidecar, with the run time, at the end."""
+    start, outputs = time.monotonic(), dict(job.output.items())
+    sidecar = outputs.pop("provenance")
+    provenance = record(job.params.origin, job.input)
+    yield provenance, outputs
+    write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)
+
+
+def record(origin: dict, inputs) -> dict:
     """What decides on a figure, the same in every build of one commit: config slice, steps, lock, inputs, versions."""
     versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
     return {
-        "figure": figure,
         **origin,
         "lock": digest(LOCK),
         "inputs": {str(path): digest(path) for path in inputs},

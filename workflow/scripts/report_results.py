@@ -8,7 +8,7 @@ import pandas as pd
 
 KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
 FOLDERS = ("figures", "accuracy", "travel", "animations")
-COSTS = ("figures", "regimes", "stability", "accuracy", "simulations", "report", "")
+COSTS = ("figures", "companions", "accuracy", "report", "")
 """Folders of results/benchmarks in which the cost of a rule may stand."""
 
 
@@ -59,8 +59,9 @@ class Results:
 
     def provenance(self, figure: str) -> dict | None:
         """The sidecar of a figure, or None where it has none."""
-        path = self.root / f"figures/{figure}.provenance.json"
-        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+        paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
+        path = next((path for path in paths if path.is_file()), None)
+        return json.loads(path.read_text(encoding="utf-8")) if path else None
 
     def claims(self) -> list[dict]:
         """Every claim with its verdict; none where they were not judged."""

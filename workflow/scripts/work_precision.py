@@ -3,6 +3,7 @@
 import pandas as pd
 
 from adapter import logging_to, write_csv
+from origin import recorded
 from scenes import scene_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
@@ -11,16 +12,17 @@ from vibroimpact.figures.work_precision import draw
 from vibroimpact.rivals import METHODS
 
 
-def main(scenes: dict, seconds: float, short: bool, outputs) -> None:
+def main(scenes: dict, seconds: float, short: bool, outputs: dict, provenance: dict) -> None:
     rows = []
     for name, scene in scenes.items():
         rows += measure(scene_of(name, scene["system"], scene["settings"]), METHODS, seconds, short)
     table = pd.DataFrame(rows)
     write_csv(table, outputs["csv"])
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
-    save(draw(table, footer), outputs)
+    save(draw(table, footer), outputs, provenance)
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
-        main(snakemake.params.scenes, snakemake.params.seconds, snakemake.params.short, snakemake.output)
+    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+        params = snakemake.params
+        main(params.scenes, params.seconds, params.short, outputs, provenance)

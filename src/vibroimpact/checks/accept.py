@@ -10,7 +10,8 @@ import shutil
 import sys
 from pathlib import Path
 
-from vibroimpact.checks.figure_check import PASSED, files_of
+from vibroimpact.checks import picture_difference
+from vibroimpact.checks.figure_check import PASSED, files_of, shown
 from vibroimpact.figures.atomic import replacing
 
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
@@ -36,10 +37,10 @@ def summary(verdict: dict) -> list[str]:
     said = [f"{verdict['figure']}: {verdict['status']}"]
     for column in verdict["tables"]:
         if column["distance"] != 0:
-            before, after, distance = (_number(column[name]) for name in ("reference", "new", "distance"))
+            before, after, distance = (_said(column[name]) for name in ("reference", "new", "distance"))
             said.append(
                 f"  {column['table']}, {column['column']}: before {before}, after {after}, "
-                f"difference {distance} of its axis ({column['where']})"
+                f"difference {distance} {column['unit']} ({column['where']})"
             )
     reasons = verdict["reasons"]
     said += [f"  {reason}" for reason in reasons[:SHOWN]]
@@ -65,12 +66,20 @@ def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.dat
         for name, path in new_files.items():
             if path.is_file():
                 with replacing(Path(reference) / name) as partial:
-                    shutil.copyfile(path, partial)
+                    _keep(path, partial)
     changes = Path(reference) / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
     with replacing(changes) as partial:
         text = f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n" + "\n".join(entries) + "\n" + earlier
         partial.write_text(text, encoding="utf-8")
+
+
+def _keep(path, target):
+    """A copy; of a picture the grey that is compared, in half the bytes."""
+    if path.suffix == ".png":
+        target.write_bytes(picture_difference.png(picture_difference.grey(path)))
+    else:
+        shutil.copyfile(path, target)
 
 
 def _entry(verdict, new):
@@ -82,8 +91,8 @@ def _entry(verdict, new):
     return f"- **{verdict['figure']}**: {first}" + (f", and {len(more)} more" if more else "") + f".{commit}"
 
 
-def _number(value):
-    return "nothing finite" if value is None else f"{value:.6g}"
+def _said(value):
+    return "nothing finite" if value is None else shown(value)
 
 
 def main(arguments=None) -> int:

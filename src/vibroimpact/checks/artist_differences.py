@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 
 MISSING = "nothing"
+PLACES = "points", "from", "to", "box"
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,20 @@ def differences(reference, new, where: str = "figure") -> list[Difference]:
     if _is_number(reference) and _is_number(new):
         return [Difference(where, reference, new, abs(new - reference))] if new != reference else []
     return [Difference(where, reference, new, float("inf"))] if new != reference else []
+
+
+def without_places(artists: dict, names) -> dict:
+    """A description without the places of the artists so named, wherever these follow from a table alone."""
+
+    def stripped(entry):
+        if isinstance(entry, list):
+            return [stripped(part) for part in entry]
+        if not isinstance(entry, dict):
+            return entry
+        left_out = PLACES if entry.get("name") in names else ()
+        return {name: stripped(part) for name, part in entry.items() if name not in left_out}
+
+    return stripped(artists)
 
 
 def _entry(reference, new, where, name):

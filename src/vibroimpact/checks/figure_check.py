@@ -12,8 +12,8 @@ from pathlib import Path
 import yaml
 
 from vibroimpact.checks import picture_difference
-from vibroimpact.checks.artist_differences import differences
-from vibroimpact.checks.table_distance import differences_in_structure, distances
+from vibroimpact.checks.artist_differences import differences, without_places
+from vibroimpact.checks.table_distance import UNITS, Rules, differences_in_structure, distances
 from vibroimpact.figures import tables
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
@@ -52,7 +52,7 @@ def check(figure: str, reference, new, limits: dict) -> dict:
         reference, new: folders with the files of `files_of`.
         limits: see `tolerances`.
 
-    Returns keys figure, status, reasons (one line each), tables (per column: distance, limit, kind and where),
+    Returns keys figure, status, reasons (one line each), tables (per column: distance, unit, limit, kind and where),
     artists (distance, limit), picture (status, distance, limit, versions). Distances are there on a pass too; one
     that is infinite, or could not be taken, is None.
     """
@@ -79,13 +79,16 @@ def _compare(verdict, pairs, limits):
         if name.endswith(".csv"):
             _compare_tables(verdict, name, tables.read(old), tables.read(new), limits)
     old, new = (_artists(path) for path in _pair(pairs, ".artists.json"))
-    _compare_artists(verdict, old, new, limits["artists"]["limit"])
+    simulated = limits["artists"]["simulated"].get(verdict["figure"], [])
+    _compare_artists(verdict, *(without_places(each, simulated) for each in (old, new)), limits["artists"]["limit"])
     versions = {"drawn with": new["drawn with"], "reference drawn with": old["drawn with"]}
     if old["drawn with"] != new["drawn with"]:
         verdict["picture"] = {"status": NOT_COMPARABLE, **versions}
     else:
-        verdict["picture"] = {"status": FAILED, "distance": None, "limit": limits["picture"]["limit"], **versions}
-        _compare_pictures(verdict, *_pair(pairs, ".png"), limits["picture"])
+        measure = "simulated" if verdict["figure"] in limits["picture"]["simulated"]["figures"] else "drawn"
+        settings = limits["picture"][measure]
+        verdict["picture"] = {"status": FAILED, "distance": None, "limit": settings["limit"], **versions}
+        _compare_pictures(verdict, *_pair(pairs, ".png"), measure, settings["limit"])
 
 
 def _pair(pairs, suffix):
@@ -96,23 +99,38 @@ def _artists(path):
     return json.loads(path.read_text(encoding="utf-8"))
 
 
+def rules_of(table: str, limits: dict) -> Rules:
+    """How the columns of a table are compared: those named for "<table>", or for "<table>, <series>"."""
+    columns, start = limits["columns"], f"{table}, "
+    series = {name.removeprefix(start): kinds for name, kinds in columns.items() if name.startswith(start)}
+    measures = {kind: entry.get("measure", "largest") for kind, entry in limits["tables"].items()}
+    return Rules(columns.get(table, {}), series, measures)
+
+
 def _compare_tables(verdict, name, old, new, limits):
-    different = differences_in_structure(old, new)
+    rules = rules_of(name.removesuffix(".csv"), limits)
+    different = differences_in_structure(old, new, rules)
     verdict["reasons"] += [f"{name}: {line}" for line in different]
-    for found in [] if different else distances(old, new):
-        kind = limits["columns"].get(name.removesuffix(".csv"), {}).get(found.column)
-        limit = limits["tables"][kind]["limit"] if kind else None
+    for found in [] if different else distances(old, new, rules):
+        limit = limits["tables"][found.kind]["limit"] if found.kind else None
+        unit = UNITS[rules.measures.get(found.kind, "largest")]
         verdict["tables"].append(
-            {"table": name, "column": found.column, "kind": kind, "limit": limit, "distance": _finite(found.share)}
-            | {"where": found.row, "reference": _finite(found.reference), "new": _finite(found.new)}
+            {"table": name, "column": found.column, "kind": found.kind, "limit": limit, "unit": unit}
+            | {"distance": _finite(found.distance), "where": found.row}
+            | {"reference": _finite(found.reference), "new": _finite(found.new)}
         )
-        if kind is None:
+        if found.kind is None:
             verdict["reasons"].append(f"{name}: no limit is stated for column {found.column}")
-        elif not found.share <= limit:
+        elif not found.distance <= limit:
             verdict["reasons"].append(
-                f"{name}: {found.column} is off by {found.share:.2g} of its axis, limit {limit:g} "
-                f"({found.row}: {found.new:.9g} instead of {found.reference:.9g})"
+                f"{name}: {found.column} is off by {found.distance:.2g} {unit}, limit {limit:g} "
+                f"({found.row}: {shown(found.new)} instead of {shown(found.reference)})"
             )
+
+
+def shown(value) -> str:
+    """An entry of a table to read."""
+    return value if isinstance(value, str) else f"{value:.9g}"
 
 
 def _compare_artists(verdict, old, new, limit):
@@ -122,21 +140,20 @@ def _compare_artists(verdict, old, new, limit):
     verdict["reasons"] += [str(one) for one in found if not one.share <= limit]
 
 
-def _compare_pictures(verdict, old, new, settings):
+def _compare_pictures(verdict, old, new, measure, limit):
     old, new = (picture_difference.grey(path) for path in (old, new))
     if old.shape != new.shape:
         sizes = ["{1} x {0} pixels".format(*picture.shape) for picture in (new, old)]
         verdict["reasons"].append(f"picture: {sizes[0]} instead of {sizes[1]}")
         return
-    square, limit = settings["square"], settings["limit"]
-    far = picture_difference.distance(old, new, square)
+    far = picture_difference.MEASURES[measure](old, new)
     verdict["picture"] |= {"status": PASSED if far <= limit else FAILED, "distance": far}
     if far > limit:
-        verdict["reasons"].append(f"picture: a square of {square} pixels changes by {far:.2g} of grey, limit {limit:g}")
+        verdict["reasons"].append(f"picture: {picture_difference.SAID[measure].format(far)}, limit {limit:g}")
 
 
 def _finite(value):
-    return value if math.isfinite(value) else None
+    return value if isinstance(value, str) or math.isfinite(value) else None
 
 
 def largest(verdict: dict) -> float | None:

@@ -7,6 +7,7 @@ from jinja2 import Environment
 
 from vibroimpact.checks import picture_difference
 from vibroimpact.checks.figure_check import UNREADABLE, largest, lines
+from vibroimpact.checks.table_distance import UNITS
 
 TEMPLATE = Path(__file__).with_name("figure_page.html.j2")
 SHRINK = 2
@@ -24,6 +25,7 @@ def page(verdicts: list[dict], reference, new, limits: dict) -> str:
         pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
         largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
         limits=limits,
+        units=UNITS,
     )
 
 

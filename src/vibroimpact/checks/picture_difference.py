@@ -8,6 +8,8 @@ from scipy.ndimage import maximum_filter
 
 GONE, ADDED, KEPT = (200, 80, 0), (0, 90, 200), (215, 215, 215)
 """Colours of ink in the picture of a difference: in the reference alone, in the new picture alone, in both."""
+SQUARE = 4
+"""Side in pixels of the squares that are compared, 0.17 mm in print."""
 SPREAD = 5
 """A changed pixel is shown as wide as 5, so that no change is too fine to be seen."""
 
@@ -26,9 +28,26 @@ def squares(picture: np.ndarray, size: int) -> np.ndarray:
     return padded.reshape(height // size, size, width // size, size).mean(axis=(1, 3))
 
 
-def distance(reference: np.ndarray, new: np.ndarray, size: int) -> float:
+def largest_change(reference: np.ndarray, new: np.ndarray) -> float:
     """Largest change of a square's mean grey, 0 to 1, between pictures of the same shape."""
-    return float(np.abs(squares(new, size) - squares(reference, size)).max())
+    return float(_change(reference, new).max())
+
+
+def share_changed(reference: np.ndarray, new: np.ndarray) -> float:
+    """Share of the squares whose mean grey changes by more than half between pictures of the same shape."""
+    return float((_change(reference, new) > 0.5).mean())
+
+
+MEASURES = {"drawn": largest_change, "simulated": share_changed}
+SAID = {
+    "drawn": f"a square of {SQUARE} pixels changes by {{:.2g}} of grey",
+    "simulated": f"{{:.2g}} of all squares of {SQUARE} pixels change by more than half of grey",
+}
+"""How far a picture is from its reference: where lines follow from theory, and where they follow from simulation."""
+
+
+def _change(reference, new):
+    return np.abs(squares(new, SQUARE) - squares(reference, SQUARE))
 
 
 def overlay(reference: np.ndarray, new: np.ndarray, size: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""How far a table of plotted numbers is from its reference, column by column."""
+"""How far a table of plotted numbers is from its reference, series by series and column by column."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -6,25 +6,64 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-TEXT = ("panel", "series", "label")
+FLOOR = 1e-17
+"""Errors below this are as good as none; so low does a logarithmic axis go."""
+SAME = 1e-6
+"""Share of the axis: an outcome, or a value of a sample, that moves by less is the same."""
+
+
+@dataclass(frozen=True)
+class Rules:
+    """How the columns of a table are compared.
+
+    columns: kind of each column that is compared; every other column of text names its row, and must be the same.
+    series: the same for series of their own. measures: for each kind one of MEASURES.
+    """
+
+    columns: dict[str, str]
+    series: dict[str, dict[str, str]]
+    measures: dict[str, str]
+
+    def of(self, part: pd.DataFrame, series) -> dict[str, str]:
+        """Kind of each column that a series has, all others left blank."""
+        kinds = self.series.get(series, self.columns)
+        return {name: kind for name, kind in kinds.items() if name in part and _given(part[name]).any()}
+
+    def is_sample(self, part: pd.DataFrame, series) -> bool:
+        """Whether a series is a sample, in which no row has its counterpart."""
+        return {self.measures[kind] for kind in self.of(part, series).values()} == {"distribution"}
 
 
 @dataclass(frozen=True)
 class Distance:
-    """Largest distance of a column from its reference, as a share of its axis, and the row where it is found."""
+    """Distance of a column from its reference in the series where it is largest, and the entry that is farthest off.
+
+    kind is None for numbers without a rule. Of a sample the medians stand for the entry.
+    """
 
     column: str
-    share: float
+    kind: str | None
+    distance: float
     row: str
-    reference: float
-    new: float
+    reference: object
+    new: object
 
 
-def differences_in_structure(reference: pd.DataFrame, new: pd.DataFrame) -> list[str]:
-    """What keeps two tables from being compared row by row: other columns, other rows, other blanks; one line each."""
+def differences_in_structure(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[str]:
+    """What keeps two tables from being compared: other columns, other rows, other blanks; one line each."""
     if list(reference.columns) != list(new.columns):
         return [f"columns {', '.join(new.columns)} instead of {', '.join(reference.columns)}"]
-    old_rows, new_rows = _names(reference), _names(new)
+    old_parts, new_parts = _by_series(reference), _by_series(new)
+    found = []
+    for series in old_parts | new_parts:
+        old, fresh = (parts.get(series, reference.iloc[:0]) for parts in (old_parts, new_parts))
+        if not (rules.is_sample(old, series[-1]) and rules.is_sample(fresh, series[-1])):
+            found += _differences(old, fresh, [name for name in _texts(old) if name not in rules.of(old, series[-1])])
+    return found or ["the same series in another order"] * (list(old_parts) != list(new_parts))
+
+
+def _differences(old, new, texts):
+    old_rows, new_rows = _names(old, texts), _names(new, texts)
     counts, new_counts = Counter(old_rows), Counter(new_rows)
     found = [
         f"{name}: {new_counts[name] or 'no'} rows instead of {counts[name] or 'none'}"
@@ -34,44 +73,132 @@ def differences_in_structure(reference: pd.DataFrame, new: pd.DataFrame) -> list
     if not found and old_rows != new_rows:
         found = ["the same rows in another order"]
     if not found:
-        blanks = reference.isna() != new.isna()
-        found = [f"{name}: blank in other rows" for name in reference if blanks[name].any()]
+        blanks = old.isna().to_numpy() != new.isna().to_numpy()
+        found = [f"{name}: blank in other rows" for name, other in zip(old, blanks.any(axis=0), strict=True) if other]
     return found
 
 
-def distances(reference: pd.DataFrame, new: pd.DataFrame) -> list[Distance]:
-    """Distance of each column of numbers between tables of the same structure.
+def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[Distance]:
+    """Distance of each column between tables of the same structure, by the measure of its kind."""
+    new_parts, farthest = _by_series(new), {}
+    for series, old in _by_series(reference).items():
+        fresh, kinds = new_parts[series], rules.of(old, series[-1])
+        unruled = [name for name in numeric_columns(old) if name not in kinds and old[name].notna().any()]
+        for column, kind in [*kinds.items(), *((name, None) for name in unruled)]:
+            measure = MEASURES[rules.measures.get(kind, "largest")]
+            far, row = measure(old[column], fresh[column], _scales(reference, column)[old.index])
+            found = Distance(column, kind, far, *_entry(old, fresh, column, row, series))
+            if (column, kind) not in farthest or far > farthest[column, kind].distance:
+                farthest[column, kind] = found
+    return list(farthest.values())
 
-    A difference counts as a share of the range of the reference's column in its panel; where that range is zero,
-    and in tables without panels, as a share of the reference itself. What is not finite is infinitely far.
+
+def _entry(old, new, column, row, series):
+    """Where the farthest entry is, and what it was and is."""
+    if row is None:
+        return ", ".join(series), float(old[column].median()), float(new[column].median())
+    name = _names(old, _texts(old))[row]
+    values = (table[column].iloc[row] for table in (old, new))
+    return f"{name}, row {old.index[row] + 1}", *(v if isinstance(v, str) else float(v) for v in values)
+
+
+def _largest(old, new, scales):
+    shares = _shares(old, new, scales)
+    return float(shares.max()), int(shares.argmax())
+
+
+def _decades(old, new, scales):
+    return _largest(*(np.log10(values.clip(lower=FLOOR)) for values in (old, new)), 1.0)
+
+
+def _part_of_rows(old, new, scales):
+    numbers = pd.api.types.is_numeric_dtype(old)
+    differs = _shares(old, new, scales) > SAME if numbers else old.to_numpy() != new.to_numpy()
+    return float(differs.mean()), int(differs.argmax())
+
+
+def _times_chance(old, new, scales):
+    """Statistic of Kolmogorov and Smirnov for two samples, or a quarter of the standard score of their sizes.
+
+    Sizes count for less, since events of chaotic motions come in clusters. Values that are the same are not told apart,
+    so that rounding does not count where many values are equal.
     """
-    return [_distance(reference, new, name) for name in numeric_columns(reference) if reference[name].notna().any()]
+    old, new = (np.sort(values.dropna().to_numpy(float)) for values in (old, new))
+    slack, n, m = SAME * float(scales.max()), len(old), len(new)
+    gap = max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m))
+    return float(max(gap, 0.25 * abs(n - m) / np.sqrt(n + m))), None
+
+
+def _standard_errors(old, new, scales):
+    """Difference of two means in units of its own standard error."""
+    old, new = (values.dropna().to_numpy(float) for values in (old, new))
+    error = np.sqrt(sum(values.var(ddof=1) / len(values) if len(values) > 1 else 0.0 for values in (old, new)))
+    return float(abs(old.mean() - new.mean()) / (error + SAME * float(scales.max()))), None
+
+
+def _lead(ahead, behind, slack):
+    """By how much the part of one sample below some value exceeds that of another below a bit more, at most."""
+    below = np.searchsorted(behind, ahead + slack, side="right") / len(behind)
+    return float((np.arange(1, len(ahead) + 1) / len(ahead) - below).max())
+
+
+MEASURES = {
+    "largest": _largest,
+    "decades": _decades,
+    "part of rows": _part_of_rows,
+    "distribution": _times_chance,
+    "mean": _standard_errors,
+}
+UNITS = {
+    "largest": "of its axis",
+    "decades": "decades",
+    "part of rows": "of its rows",
+    "distribution": "times chance",
+    "mean": "standard errors",
+}
+"""What the distances of each measure count. The axis is the range of the reference's column in its panel; where that
+range is zero, and in tables without panels, the reference itself. What is not finite is infinitely far."""
 
 
 def numeric_columns(table: pd.DataFrame) -> list[str]:
     return list(table.select_dtypes("number").columns)
 
 
-def _distance(reference, new, name):
-    old_values, new_values = (pd.to_numeric(table[name], errors="coerce").to_numpy(float) for table in (reference, new))
-    shares = np.abs(new_values - old_values) / _scales(reference, name)
-    shares = np.where(np.isnan(old_values), 0.0, np.where(np.isfinite(shares), shares, np.inf))
-    row = int(shares.argmax())
-    where = f"{_names(reference)[row]}, row {row + 1}"
-    return Distance(name, float(shares[row]), where, float(old_values[row]), float(new_values[row]))
+def _texts(table):
+    return [name for name in table if name not in numeric_columns(table)]
+
+
+def _given(values):
+    return values.notna() & (values != "")
+
+
+def _by_series(table):
+    """Rows by (panel, series), in their order; all of a table that has none under an empty name."""
+    if not {"panel", "series"} <= set(table):
+        return {("",): table}
+    return dict(iter(table.groupby(["panel", "series"], sort=False)))
+
+
+def _shares(old, new, scales):
+    old, new = (pd.to_numeric(values, errors="coerce").to_numpy(float) for values in (old, new))
+    with np.errstate(invalid="ignore"):
+        shares = np.abs(new - old) / np.asarray(scales)
+    return np.where(np.isnan(old) | (old == new), 0.0, np.where(np.isfinite(shares), shares, np.inf))
 
 
 def _scales(reference, name):
-    values = reference[name]
-    sizes = values.abs().where(values != 0, 1.0).to_numpy(float)
+    """The axis of every row; of a column of text, nothing that is used."""
+    if name not in numeric_columns(reference):
+        return pd.Series(np.nan, reference.index)
+    values = reference[name].replace([np.inf, -np.inf], np.nan)
+    sizes = values.abs().where(values != 0, 1.0)
     if "panel" not in reference:
         return sizes
     panels = values.groupby(reference["panel"])
-    ranges = (panels.transform("max") - panels.transform("min")).to_numpy(float)
-    return np.where(ranges > 0, ranges, sizes)
+    ranges = panels.transform("max") - panels.transform("min")
+    return ranges.where(ranges > 0, sizes)
 
 
-def _names(table):
+def _names(table, texts):
     """The text of each row, for example "a1, SIM stable"."""
-    text = [name for name in table if name not in numeric_columns(table)]
-    return [", ".join(map(str, row)) for row in table[text].itertuples(index=False)]
+    return [", ".join(map(str, row)) for row in table[texts].itertuples(index=False)]

@@ -123,14 +123,18 @@ def _style_of_patch(patch):
 
 
 def _collection(collection, axes):
-    """Lines, areas, or (with offsets in data units) markers; the box is around what the data say."""
+    """Lines, areas, or (with offsets in data units) markers; the box is around what the data say.
+
+    Of faces that show values on a scale, the scale is kept: the values themselves are in the table.
+    """
     markers = collection.get_offset_transform().contains_branch(axes.transData)
     to_axes = (collection.get_offset_transform() if markers else collection.get_transform()) - axes.transAxes
     points = [collection.get_offsets()] if markers else [path.vertices for path in collection.get_paths()]
+    scale = None if collection.get_array() is None else collection.to_rgba(np.linspace(*collection.get_clim(), 9))
     return {
         "name": _name(collection),
         "kind": type(collection).__name__,
-        "faces": [_hex(colour) for colour in collection.get_facecolor()],
+        "faces": [_hex(colour) for colour in (collection.get_facecolor() if scale is None else scale)],
         "edges": [_hex(colour) for colour in collection.get_edgecolor()],
         "widths": _rounded(collection.get_linewidth()),
         "dashes": ["solid" if dashes is None else _rounded(dashes) for _, dashes in collection.get_linestyle()],

@@ -38,6 +38,7 @@ DOTS = {
     True: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
     False: {"linestyle": "none", "marker": "o", "markeredgewidth": 0, "markersize": 4.4, "color": "0.8"},
 }
+SIMULATED = {True: "simulated, modulated", False: "simulated, not modulated"}
 """Attractors found by simulation: modulated or not."""
 COLOURS = {AsymmetricOrbits.name: "0.45"}
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
@@ -141,7 +142,7 @@ def _marks(axes, special):
 def _attractor_dots(axes, attractors):
     for modulated, style in DOTS.items():
         rows = attractors[(attractors["label"] == MODULATED) == modulated]
-        axes.plot(rows["p"], rows["C2"], zorder=1, **style)
+        axes.plot(rows["p"], rows["C2"], zorder=1, **style, label=SIMULATED[modulated])
 
 
 def _is(special, kind):
@@ -158,8 +159,7 @@ def _legend(special):
         Line2D([], [], **UNSTABLE, label="unstable"),
         Line2D([], [], **STABLE | grey, label="asymmetric, stable"),
         Line2D([], [], **UNSTABLE | grey, label="asymmetric, unstable"),
-        Line2D([], [], **DOTS[False], label="simulated, not modulated"),
-        Line2D([], [], **DOTS[True], label="simulated, modulated"),
+        *(Line2D([], [], **DOTS[modulated], label=SIMULATED[modulated]) for modulated in (False, True)),
         *(Line2D([], [], marker=marker, label=", ".join(names), **_SPECIAL) for marker, names in marked.items()),
     ]
 

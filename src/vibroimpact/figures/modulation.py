@@ -3,16 +3,24 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.tables import curve, join, select
-from vibroimpact.regimes.classification import MODULATED, settle
+from vibroimpact.regimes.classification import MODULATED, REGIMES, settle
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.lyapunov import largest_exponent
 from vibroimpact.regimes.modulation import burst_lengths, mean_and_error, measures
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
+_DOT, _DIAMOND = {"marker": "o", "markersize": 3, "markeredgewidth": 0}, {"marker": "D", "markersize": 4}
+DOTS = {
+    "spread starts": {"label": "spread starts", "linestyle": "none", "color": GREY, **_DOT},
+    "from rest": {"label": "from rest", "linestyle": "none", "color": "white", "markeredgecolor": BLACK, **_DIAMOND},
+}
+GRID = 0.25
+"""The axis of exponents ends at multiples of this, wherever those of chaotic motions lie."""
 
 
 def compute(systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, observation: dict) -> dict:
@@ -35,8 +43,9 @@ def compute(systems: dict, starts: int, seed: int, cycles: int, blocks: int, blo
 def _case(case, system, starts, seed, cycles, blocks, block, observation):
     regimes = settle(system, spread_starts(starts + 1, seed), **observation)
     groups = {("rest", regimes[0].name): regimes[:1]}
-    for regime in regimes[1:]:
-        groups.setdefault(("spread", regime.name), []).append(regime)
+    for name in REGIMES:
+        if members := [regime for regime in regimes[1:] if regime.name == name]:
+            groups["spread", name] = members
     rows, curves = [], []
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
@@ -79,9 +88,10 @@ def draw(tables: dict) -> Figure:
         for module, style in LINES.items():
             bursts = select(table, "bursts", f"{case}, module {module}")
             axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
-        axes.set(xscale="log", yscale="log", xlabel="burst length, cycles")
-        axes.set_xlim(1.0)
-        axes.legend(fontsize=8.5)
+        drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
+        limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
+        axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", **limits)
+        axes.legend(fontsize=8.5, loc="lower left")
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
     grid[0].set_ylabel("part of bursts at least so long")
@@ -90,17 +100,24 @@ def draw(tables: dict) -> Figure:
     return figure
 
 
+def _decade(value):
+    """The next power of ten from a value on: axes end there, wherever the longest of these chaotic bursts does."""
+    return 10.0 ** np.ceil(np.log10(value))
+
+
 def _exponents(axes, exponents, cases):
     for place, case in enumerate(cases):
         rows = exponents[exponents["series"] == case]
         rest = rows["label"].str.startswith("rest")
         x = place + np.linspace(-0.25, 0.25, len(rows))
-        axes.plot(x[~rest], rows["exponent"][~rest], "o", color=GREY, markersize=3, markeredgewidth=0)
-        axes.plot(place - 0.33, rows["exponent"][rest].iloc[0], "D", color="white", markeredgecolor=BLACK, markersize=4)
+        axes.plot(x[~rest], rows["exponent"][~rest], **DOTS["spread starts"])
+        axes.plot(place - 0.33, rows["exponent"][rest].iloc[0], **DOTS["from rest"])
     axes.axhline(0, color=BLACK, linewidth=0.6)
-    axes.plot([], [], "o", color=GREY, markersize=3, markeredgewidth=0, label="spread starts")
-    axes.plot([], [], "D", color="white", markeredgecolor=BLACK, markersize=4, label="from rest")
+    low, high = exponents["exponent"].min(), exponents["exponent"].max()
     axes.set(xticks=range(len(cases)), xticklabels=cases, xlim=(-0.5, len(cases) - 0.5))
+    axes.set(ylim=(np.floor(low / GRID) * GRID, np.ceil(high / GRID) * GRID))
     axes.set_ylabel(r"$\lambda_{\max}$ per forcing period")
-    axes.legend(fontsize=8.5, handlelength=1.0)
+    axes.legend(
+        handles=[Line2D([], [], **style) for style in DOTS.values()], fontsize=8.5, handlelength=1.0, loc="upper left"
+    )
     axes.tick_params(axis="x", length=0)

@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, REGIMES
@@ -20,6 +21,8 @@ LINES = {
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 4.0, "markeredgewidth": 0.9}
 DARKEST = 1.7
 """Share that would be black: all starts are a grey on which black lines are seen."""
+TICKS = 4
+"""At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 TITLE = {name: f"{name} (from rest)" for name in (IDLE, NO_IMPACTS)}
 
 
@@ -41,12 +44,12 @@ def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_ra
     return pd.DataFrame({**row.pop("shares"), **row} for row in rows)
 
 
-def compute(tiles: list[pd.DataFrame], points: int, cases: dict) -> dict:
+def compute(tiles: list[pd.DataFrame], points: int, systems: dict) -> dict:
     """The map from its tiles, in the order of f10_hat, then f20_hat.
 
     Args:
         points: cells along each axis.
-        cases: name -> (f10_hat, f20_hat) of points to be marked.
+        systems: case -> system, whose forcing amplitudes are marked.
 
     Returns "csv": columns panel, series ("cell" or "case"), label (regime from rest or name of the case), f10_hat,
     f20_hat, the share of each regime, fixed_points, stable_points.
@@ -58,7 +61,7 @@ def compute(tiles: list[pd.DataFrame], points: int, cases: dict) -> dict:
     if len(table) != points**2 or table.duplicated(["f10_hat", "f20_hat"]).any():
         raise ValueError(f"tiles: {len(table)} cells do not make up a full map of {points**2}")
     table = table.rename(columns={"from_rest": "label"})
-    marks = pd.DataFrame({"label": name, "f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in cases.items())
+    marks = pd.DataFrame({"label": case, "f10_hat": s.f10_hat, "f20_hat": s.f20_hat} for case, s in systems.items())
     table = pd.concat([table.assign(series="cell"), marks.assign(series="case")], ignore_index=True)
     first = ["panel", "series", "label", "f10_hat", "f20_hat"]
     table = table.assign(panel="map")
@@ -81,7 +84,9 @@ def draw(tables: dict) -> Figure:
         axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
         letter_panel(axes, letter)
         axes.set_title(TITLE.get(regime, regime), loc="right", pad=3)
-        axes.set(aspect="equal")
+        axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20))
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(MaxNLocator(TICKS))
     for axes in grid[-1]:
         axes.set_xlabel(r"$\hat f_{10}$")
     for axes in grid[:, 0]:
@@ -92,6 +97,12 @@ def draw(tables: dict) -> Figure:
     bar.set_ticks(np.linspace(0, 1, 6))
     figure.legend(handles=_legend(), loc="outside lower center", ncols=3, fontsize=8.5)
     return figure
+
+
+def _ends(centres):
+    """Outer edges of a row of cells, free of the rounding that decides whether a tick at the end is seen."""
+    half = 0.5 * (centres[1] - centres[0])
+    return np.round([centres[0] - half, centres[-1] + half], 12)
 
 
 def _square(cells, column):

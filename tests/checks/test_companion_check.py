@@ -1,0 +1,251 @@
+"""The figure check on companion figures, small: rounding passes, chaos included; what is wrong is caught."""
+
+import math
+from dataclasses import asdict
+from functools import lru_cache
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from checking import assert_caught, build
+from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.checks import figure_check
+from vibroimpact.exact.orbits import orbits
+from vibroimpact.figures import (
+    basins,
+    branches,
+    companion_10_04,
+    companion_10_05,
+    companion_horizon,
+    companion_stability,
+    epsilon_limit,
+    modulation,
+    regime_map,
+)
+from vibroimpact.figures.companion_verdicts import fixed_point_rows, orbit_rows
+from vibroimpact.theory.labels import labels
+
+LIMITS = figure_check.tolerances()
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
+START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60
+BRANCHES = {
+    "paths": [{"along": ["f20_hat"], "range": [0.7, 1.2]}],
+    "longest_step": 0.1,
+    "seeds": 2,
+    "attractors": {"values": 9, "starts": 5, "seed": 1},
+    "observation": OBSERVATION,
+}
+
+
+def verdicts_of(systems):
+    exact = {case: orbit_rows(case, orbits(system)) for case, system in systems.items()}
+    points = []
+    for case, system in systems.items():
+        listed = vi.fixed_points(system)
+        points.append(fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), exact[case]))
+    return pd.concat(points, ignore_index=True), pd.concat(exact.values(), ignore_index=True)
+
+
+@lru_cache
+def truth():
+    weak = SYSTEMS["weak"]
+    samples = proven_run(weak, START, CYCLES, sample_times=np.arange(CYCLES + 1) * weak.period).run.samples
+    return pd.DataFrame(samples, columns=companion_horizon.STATE)
+
+
+def all_systems(change):
+    return {case: change(system) for case, system in SYSTEMS.items()}
+
+
+def regime_cells(system):
+    return regime_map.compute_tile(system, 0, 1, 12, (0.2, 1.4), (0.2, 1.4), 5, 1, OBSERVATION)
+
+
+COMPUTE = {
+    "companion_10_04": lambda change: companion_10_04.compute(change(SYSTEMS["equal"]).kappa, 2.5),
+    "companion_10_05": lambda change: companion_10_05.compute((0.5, 2.2)),
+    "companion_stability": lambda change: companion_stability.compute(
+        all_systems(change), *verdicts_of(all_systems(change))
+    ),
+    "companion_horizon": lambda change: companion_horizon.compute(change(SYSTEMS["weak"]), START, truth(), 40),
+    "companion_branches": lambda change: branches.compute(change(SYSTEMS["unequal"]), **BRANCHES),
+    "companion_regime_map": lambda change: regime_map.compute(
+        [regime_cells(change(SYSTEMS["equal"]))], 12, all_systems(change)
+    ),
+    "companion_modulation": lambda change: modulation.compute(
+        all_systems(change), starts=6, seed=2, cycles=300, blocks=30, block=5, observation=OBSERVATION
+    ),
+    "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), 15, OBSERVATION),
+    "companion_epsilon": lambda change: epsilon_limit.compute(
+        all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}
+    ),
+}
+"""Tables of each figure, with every system as `change` leaves it."""
+MODULES = {
+    "companion_10_04": companion_10_04,
+    "companion_10_05": companion_10_05,
+    "companion_stability": companion_stability,
+    "companion_horizon": companion_horizon,
+    "companion_branches": branches,
+    "companion_regime_map": regime_map,
+    "companion_modulation": modulation,
+    "companion_basins": basins,
+    "companion_epsilon": epsilon_limit,
+}
+OF_SYSTEMS = [name for name in MODULES if name != "companion_10_05"]
+CHAOTIC = ["companion_horizon", "companion_branches", "companion_regime_map", "companion_modulation"]
+
+
+def unchanged(system):
+    return system
+
+
+def other_rounding(system):
+    """Parameters some units in the last place away, as if another machine had rounded on the way."""
+    random = np.random.default_rng(3)
+
+    def near(value):
+        for _ in range(random.integers(1, 5)):
+            value = math.nextafter(value, random.choice([-math.inf, math.inf]))
+        return value
+
+    return system.with_(**{name: near(value) for name, value in asdict(system).items()})
+
+
+def other_kappa(system):
+    return system.with_(kappa=1.01 * system.kappa)
+
+
+def other_force(system):
+    return system.with_(f20_hat=1.005 * system.f20_hat)
+
+
+def plotted(computed):
+    return computed["csv"] if isinstance(computed, dict) else computed
+
+
+@lru_cache
+def computed(name):
+    return COMPUTE[name](unchanged)
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    """The folder with the reference of a figure, written when it is asked for."""
+    folder = tmp_path_factory.mktemp("companions")
+
+    @lru_cache
+    def of(name):
+        build(folder, name, plotted(computed(name)), MODULES[name].draw(computed(name)))
+        return folder
+
+    return of
+
+
+@pytest.fixture
+def verdict(reference, tmp_path):
+    """The verdict on a figure as computed anew; or as drawn from one computation, with the table of another."""
+
+    def judge(name, made, table=None):
+        build(tmp_path, name, plotted(made) if table is None else table, MODULES[name].draw(made))
+        return figure_check.check(name, reference(name), tmp_path, LIMITS)
+
+    return judge
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_rounding_of_another_machine_passes(verdict, name):
+    """The whole figure is computed from parameters spoilt in their last digits: chaotic motions come out different."""
+    found = verdict(name, COMPUTE[name](other_rounding))
+    assert (found["status"], found["reasons"]) == ("passed", [])
+    assert figure_check.largest(found) < 0.7
+    moved = [column["column"] for column in found["tables"] if column["distance"] > 1e-6]
+    assert bool(moved) == (name in CHAOTIC)
+
+
+@pytest.mark.parametrize("name", OF_SYSTEMS)
+def test_kappa_off_by_one_per_cent_is_caught(verdict, name):
+    assert_caught(verdict(name, COMPUTE[name](other_kappa)), f"{name}.csv: ")
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["companion_stability", "companion_horizon", "companion_regime_map", "companion_basins", "companion_epsilon"],
+)
+def test_f20_off_by_half_a_per_cent_is_caught(verdict, name):
+    assert_caught(verdict(name, COMPUTE[name](other_force)), f"{name}.csv: ")
+
+
+def edited(name, change):
+    """The figure drawn as before, with another table beside it."""
+    return computed(name), change(plotted(computed(name)).copy())
+
+
+def test_a_dropped_branch_is_caught(verdict):
+    made = computed("companion_branches")
+    table = made["csv"]
+    last = table.loc[table["series"] == "symmetric orbit", "branch"].max()
+    left = table[(table["series"] != "symmetric orbit") | (table["branch"] != last)]
+    assert_caught(verdict("companion_branches", made | {"csv": left}), "a, symmetric orbit")
+    assert 0 < len(left) < len(table)
+
+
+def test_a_verdict_turned_round_is_caught(verdict):
+    def turned(table):
+        return table.replace({"floquet": {"stable": "unstable"}})
+
+    found = verdict("companion_stability", *edited("companion_stability", turned))
+    assert_caught(found, "rows instead of")
+
+
+def test_mirrored_basins_are_caught(verdict):
+    names = {"asymmetric": "asymmetric, mirrored", "asymmetric, mirrored": "asymmetric"}
+    made = computed("companion_basins")
+    table = made["csv"].copy()
+    starts = table["series"] == "start"
+    table.loc[starts, "label"] = table.loc[starts, "label"].replace(names)
+    assert_caught(verdict("companion_basins", made | {"csv": table}), "label is off by ")
+
+
+def test_lost_bursts_are_caught(verdict):
+    """Those of one module that are shorter than most."""
+
+    def fewer(table):
+        mine = table.index[table["series"] == "weak, module 1"]
+        return table.drop(mine[: len(mine) // 2])
+
+    found = verdict("companion_modulation", *edited("companion_modulation", fewer))
+    assert_caught(found, "length is off by ")
+
+
+def test_exponents_in_a_wrong_unit_are_caught(verdict):
+    def per_radian(table):
+        return table.assign(exponent=table["exponent"] / (2 * np.pi))
+
+    found = verdict("companion_modulation", *edited("companion_modulation", per_radian))
+    assert_caught(found, "exponent is off by ")
+
+
+def test_lost_digits_are_caught(verdict):
+    """A run in single precision leaves the truth with errors 10^9 times those of double precision."""
+
+    def single(table):
+        measured = table["series"] == "measured"
+        return table.assign(error=table["error"].where(~measured, (table["error"] * 1e9).clip(upper=1.0)))
+
+    assert_caught(verdict("companion_horizon", *edited("companion_horizon", single)), "error is off by ")
+
+
+def test_another_style_of_simulated_artists_is_caught(verdict, monkeypatch):
+    """Their places are not compared, all else is."""
+    monkeypatch.setitem(branches.DOTS[True], "marker", "x")
+    assert_caught(verdict("companion_branches", computed("companion_branches")), "marker: x instead of .")
+
+
+def test_another_scale_of_grey_is_caught(verdict, monkeypatch):
+    monkeypatch.setitem(basins.SHADES, "modulated", "0.9")
+    assert_caught(verdict("companion_basins", computed("companion_basins")), "faces 1: #e6e6e6ff instead of #ffffffff")

@@ -1,0 +1,16 @@
+"""Figures written as the pipeline does, and what a verdict of the figure check must say."""
+
+from vibroimpact.figures import style, tables
+
+
+def build(folder, name, table, figure, picture=True):
+    """Write the files of a figure that the figure check compares."""
+    if table is not None:
+        tables.write(table, folder / f"{name}.csv")
+    outputs = {"artists": folder / f"{name}.artists.json"} | ({"png": folder / f"{name}.png"} if picture else {})
+    style.save(figure, outputs)
+
+
+def assert_caught(verdict, by):
+    assert verdict["status"] == "failed"
+    assert any(by in reason for reason in verdict["reasons"]), verdict["reasons"]

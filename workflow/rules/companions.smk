@@ -1,0 +1,135 @@
+# Figures that the chapter does not show. One entry makes the rule, which bears the figure's name: `module` draws it
+# (vibroimpact.figures.<module>, by default the name), `method` says how, `settings` gives each argument of its
+# `compute` a place in the config, `system` or `systems` the system of one case or those of all; `inputs` are tables
+# it reads, made by the steps `before`; `tables` are tables it writes beside the one it plots. `config` names what
+# else decides on it.
+
+SIMULATED = "direct integration of (10.1) from many starts, until it repeats"
+
+
+def keys_of(section, *without):
+    """Every key of a section of the config as an argument."""
+    return {key: f"{section}.{key}" for key in config_at(section) if key not in without}
+
+
+def horizon_of(case):
+    """Of the first case that is computed with many digits, where float64 leaves it."""
+    simulation = f"cases.{case}.simulation"
+    return {
+        "method": "the same in float64, and the error that the certificate of every run expects",
+        "system": case,
+        "settings": {"state": f"{simulation}.initial_state", "transient_cycles": f"{simulation}.transient_cycles"},
+        "config": [simulation],
+        "inputs": {"strobe": f"results/simulations/{case}/strobe.csv"},
+        "before": [simulation_step(case)],
+    }
+
+
+PRECISE = [case for case in config["cases"] if exact(case)]
+OBSERVED = {"observation": "regimes.observation"}
+COMPANIONS = {
+    "companion_10_04": {
+        "method": "closed form: (10.16), (10.26), limits of Masri's analysis",
+        "settings": {"kappa": "system.kappa", "C_max": "stability.companion_10_04.C_max"},
+    },
+    "companion_10_05": {
+        "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
+        "settings": {"C_range": "stability.companion_10_05.C_range"},
+    },
+    "companion_stability": {
+        "method": "verdicts and places as computed, limits in closed form",
+        "systems": True,
+        "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+        "before": [step(*STEPS[name]) for name in ("fixed_points", "orbits", "verdicts")],
+    },
+    **({"companion_horizon": horizon_of(PRECISE[0])} if PRECISE else {}),
+    "companion_branches": {
+        "module": "branches",
+        "method": f"continuation of fixed points and exact 1:1 responses; attractors by {SIMULATED}",
+        "system": REGIMES["branches"]["case"],
+        "settings": keys_of("regimes.branches", "case") | OBSERVED,
+        "config": ["regimes.branches.case"],
+        "tables": {"special_points": "results/regimes/special_points.csv"},
+    },
+    "companion_regime_map": {
+        "module": "regime_map",
+        "method": "the cells of all tiles, with the cases",
+        "systems": True,
+        "settings": {"points": "regimes.map.points"},
+        "config": ["regimes.map", "regimes.observation"],
+        "inputs": {"tiles": gather.regime_map(rules.regime_tile.output[0])},
+        "before": [step(*STEPS["regime_tile"])],
+    },
+    "companion_modulation": {
+        "module": "modulation",
+        "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
+        "systems": True,
+        "settings": keys_of("regimes.modulation") | OBSERVED,
+        "tables": {"measures": "results/regimes/modulation.csv"},
+    },
+    "companion_basins": {
+        "module": "basins",
+        "method": SIMULATED,
+        "system": REGIMES["basins"]["case"],
+        "settings": keys_of("regimes.basins", "case") | OBSERVED,
+        "config": ["regimes.basins.case"],
+        "tables": {"shares": "results/regimes/basin_shares.csv"},
+    },
+    "companion_epsilon": {
+        "module": "epsilon_limit",
+        "method": "fixed points and exact symmetric responses at every epsilon",
+        "systems": True,
+        "settings": keys_of("regimes.epsilon"),
+        "tables": {"orders": "results/regimes/epsilon_orders.csv"},
+    },
+}
+
+
+def companion_outputs(name):
+    return figure_files(f"results/figures/{name}") | COMPANIONS[name].get("tables", {})
+
+
+def companion_module(name):
+    return f"vibroimpact.figures.{COMPANIONS[name].get('module', name)}"
+
+
+def companion_settings(name):
+    """Arguments of `compute`, systems as their parameters."""
+    companion = COMPANIONS[name]
+    system = {"system": system_of(companion["system"])} if "system" in companion else {}
+    systems = {"systems": all_systems()} if "systems" in companion else {}
+    return system | systems | {key: config_at(path) for key, path in companion.get("settings", {}).items()}
+
+
+def companion_origin(name):
+    companion = COMPANIONS[name]
+    cases = [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
+    keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
+    own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])
+    return origin(name, keys, cases, [*companion.get("before", []), own])
+
+
+for name, companion in COMPANIONS.items():
+
+    rule:
+        name:
+            name
+        input:
+            **companion.get("inputs", {}),
+        output:
+            **in_report(companion_outputs(name), "Companion figures", name),
+        params:
+            module=companion_module(name),
+            settings=companion_settings(name),
+            origin=companion_origin(name),
+        log:
+            f"results/logs/companions/{name}.log",
+        benchmark:
+            f"results/benchmarks/companions/{name}.tsv"
+        script:
+            "../scripts/companion.py"
+
+
+rule companions:
+    input:
+        [path for name in COMPANIONS for path in companion_outputs(name).values()],
