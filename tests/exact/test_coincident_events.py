@@ -1,0 +1,222 @@
+"""Events that coincide: with one another, with the start, the end or a sample, in every contact state.
+
+The definitions are in docs/engine.md. Truth is the arbitrary-precision reference, closed forms and the swap of the
+modules: every scene is run with them swapped too, so that "the other ball sticks" is ball 2 once and ball 1 once.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import vibroimpact as vi
+from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.system.restitution import after_impact
+
+DIGITS = 40
+SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete
+SWAP = [2, 3, 0, 1, 6, 7, 4, 5]
+SWAPPED = pytest.mark.parametrize("swap", [False, True], ids=["as it is", "swapped"])
+SYSTEM = vi.System(
+    epsilon=0.5, kappa=0.65, alpha12_hat=0.4, gamma1_hat=0.3, gamma2_hat=0.1, gamma12_hat=0.4, sigma20_hat=0.0,
+    sigma_e_hat=6.0, f10_hat=0.3, f20_hat=-0.2,
+)  # fmt: skip
+# Parts of a start, of one module: X, Y, X', Y'.
+FLIES = (-0.2, -0.1, 0.0, 0.0)
+MEETS = (0.1, -0.3, 0.2, -1.3)
+STICKS = (-2.5, -3.5, 0.0, 0.0)
+RELEASES = (-0.9, -1.9, 0.0, 0.0)
+CHATTERS = (-1.5, -2.49, 0.0, 0.0)
+# Two parts, and the event of module 1 that is looked at.
+SCENES = {
+    "impact, other flies": (MEETS, FLIES, IMPACT),
+    "impact, other sticks": (MEETS, STICKS, IMPACT),
+    "impact that releases the other": ((0.1, -0.3, 0.2, -6.0), (-0.4, -1.4, 0.0, 0.0), IMPACT),
+    "release, other flies": (RELEASES, FLIES, RELEASE),
+    "release, other sticks": (RELEASES, STICKS, RELEASE),
+    "chatter ends, other flies": (CHATTERS, FLIES, STICK),
+    "chatter ends, other sticks": (CHATTERS, STICKS, STICK),
+}
+# Two parts, the event of each module, and between which velocities of module 2 (at an impact: of its ball) they meet.
+PAIRS = {
+    "impact and impact": (MEETS, FLIES, IMPACT, IMPACT, (-3.0, -2.2)),
+    "release and impact that pulls": (RELEASES, FLIES, RELEASE, IMPACT, (-0.6, -0.4)),
+    "release and impact that pushes": (RELEASES, FLIES, RELEASE, IMPACT, (0.35, 0.6)),
+    "end of chatter and impact": (CHATTERS, FLIES, STICK, IMPACT, (-2.6, -1.8)),
+    "release and release": (RELEASES, RELEASES, RELEASE, RELEASE, (-0.3, -0.1)),
+    "end of chatter and release": (CHATTERS, RELEASES, STICK, RELEASE, (0.8, 1.0)),
+    "end of chatter and end of chatter": (CHATTERS, CHATTERS, STICK, STICK, (-0.4, -0.1)),
+}
+
+
+def start_of(first, second):
+    return np.array([*first[:2], *second[:2], *first[2:], *second[2:]])
+
+
+def swapped(system):
+    return system.with_(
+        gamma1_hat=system.gamma2_hat, gamma2_hat=system.gamma1_hat, f10_hat=system.f20_hat, f20_hat=system.f10_hat
+    )
+
+
+def events_of(events, module, kind):
+    return events[(events["module"] == module) & (events["kind"] == kind)]
+
+
+def time_of(system, start, module, kind):
+    """When the reference sees a module's first event of a kind."""
+    return events_of(reference_run(system, start, 4.0 / system.period, DIGITS).events, module, kind)["tau"][0]
+
+
+def stories(events, kinds):
+    """Of each module: kinds and walls of its events, and their times; without the slowest impacts and the sticks at the
+    start, which the reference does not list.
+    """
+    for module in (1, 2):
+        own = events[(events["module"] == module) & np.isin(events["kind"], kinds)]
+        speed = np.abs(own["state"][:, 2 + 2 * module] - own["state"][:, 3 + 2 * module])
+        own = own[np.where(own["kind"] == IMPACT, speed > SLOW, own["tau"] > 0.0)]
+        yield own[["kind", "wall"]].tolist(), own["tau"]
+
+
+def assert_same_motion(run, events, final, kinds=(IMPACT, STICK, RELEASE)):
+    np.testing.assert_allclose(run.final, final, rtol=0, atol=1e-12)
+    for (got, times), (expected, true_times) in zip(stories(run.events, kinds), stories(events, kinds), strict=True):
+        assert got == expected
+        np.testing.assert_allclose(times, true_times, rtol=0, atol=1e-6)
+
+
+@cache
+def coincident(pair):
+    """A start from which the two events of a pair happen at the same time."""
+    first, second, kind, other, bracket = PAIRS[pair]
+
+    def start(velocity):
+        tuned = start_of(first, second)
+        tuned[[7] if other == IMPACT else [6, 7]] = velocity
+        return tuned
+
+    def apart(velocity):  # before its impact a ball is not felt by any box
+        undisturbed = start_of(first, second) if other == IMPACT else start(velocity)
+        return time_of(SYSTEM, undisturbed, 1, kind) - time_of(SYSTEM, start(velocity), 2, other)
+
+    return start(brentq(apart, *bracket, xtol=1e-15))
+
+
+@cache
+def ending(scene):
+    """The system whose forcing period is the time until the event of a scene."""
+    *parts, kind = SCENES[scene]
+
+    def lag(sigma):
+        system = SYSTEM.with_(sigma_e_hat=sigma)
+        return time_of(system, start_of(*parts), 1, kind) - system.period
+
+    return SYSTEM.with_(sigma_e_hat=brentq(lag, 3.0, 200.0, xtol=1e-15))
+
+
+NUDGES = [-1e-6, -1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9, 1e-6]
+
+
+@pytest.mark.parametrize("nudge", NUDGES)
+@SWAPPED
+@pytest.mark.parametrize("pair", PAIRS)
+def test_two_events_in_one_instant_or_almost(pair, swap, nudge):
+    system, start = SYSTEM, coincident(pair)
+    start[6:] *= 1.0 + nudge
+    if swap:
+        system, start = swapped(system), start[SWAP]
+    run, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS)
+    assert_same_motion(run, truth.events, truth.final)
+
+
+@pytest.mark.parametrize("nudge", NUDGES)
+@SWAPPED
+@pytest.mark.parametrize("scene", SCENES)
+def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(scene, swap, nudge):
+    system = ending(scene)
+    system = system.with_(sigma_e_hat=system.sigma_e_hat * (1.0 + nudge))
+    *parts, kind = SCENES[scene]
+    start, module = start_of(*parts), 1
+    if swap:
+        system, start, module = swapped(system), start[SWAP], 2
+    whole, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS)
+    assert_same_motion(whole, truth.events, truth.final)
+    first = vi.simulate(system, start, 1)
+    if kind != STICK:  # the many impacts before it may end on either side of the end
+        assert len(events_of(first.events, module, kind)) == (nudge <= 4e-16)
+    kinds = (IMPACT, RELEASE)  # a ball that sticks at the end is noted again where the run is continued
+    second = vi.simulate(system, first.final, 1)
+    later = whole.events[len(first.events) :].copy()
+    later["tau"] -= system.period
+    assert_same_motion(first, whole.events[: len(first.events)], first.final, kinds)
+    assert_same_motion(second, later, whole.final, kinds)
+
+
+@SWAPPED
+@pytest.mark.parametrize("tau0", [0.0, 0.3, 1234.5])
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_sample_at_an_event_is_the_state_after_it(scene, tau0, swap):
+    *parts, kind = SCENES[scene]
+    system, start, module = SYSTEM, start_of(*parts), 1
+    if swap:
+        system, start, module = swapped(system), start[SWAP], 2
+    event = events_of(vi.simulate(system, start, 2, tau0).events, module, kind)[0]
+    around = np.nextafter(event["tau"], [-np.inf, event["tau"], np.inf])
+    before, at, after = vi.simulate(system, start, 2, tau0, sample_times=around).samples
+    np.testing.assert_allclose(at, event["state"], rtol=0, atol=1e-11)
+    np.testing.assert_allclose(after, event["state"], rtol=0, atol=1e-11)
+    velocities = [2 + 2 * module, 3 + 2 * module]
+    if kind == IMPACT:  # Newton's law backwards
+        event["state"][velocities] = after_impact(system.epsilon, 1.0 / system.kappa, *event["state"][velocities])
+    np.testing.assert_allclose(before, event["state"], rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("tau0", [0.0, 123.4])
+def test_samples_at_all_impacts_of_a_long_run(chapter, tau0):
+    system, start = chapter(), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
+    impacts = vi.simulate(system, start, 200, tau0).events
+    assert len(impacts) > 500
+    assert (impacts["kind"] == IMPACT).all()
+    samples = vi.simulate(system, start, 200, tau0, sample_times=impacts["tau"]).samples
+    np.testing.assert_allclose(samples, impacts["state"], rtol=0, atol=1e-11)
+
+
+OUTWARD, INWARD = (-0.4, -1.4, 0.9, 0.2), (-0.4, -1.4, -0.9, -0.2)
+STARTS = {
+    # parts of both modules, and what happens at once, the boxes pushing where x < 0
+    "impact, other flies": (OUTWARD, FLIES, {(1, IMPACT)}),
+    "impact, other sticks": (OUTWARD, STICKS, {(1, IMPACT), (2, STICK)}),
+    "impact, other at rest and pulled off by it": ((-0.4, -1.4, 9.0, -9.0), (-0.1, -1.1, 0.0, 0.0), {(1, IMPACT)}),
+    "impact, other pressed on by it": ((-0.4, 0.6, -9.0, 30.0), (0.1, -0.9, 0.0, 0.0), {(1, IMPACT), (2, STICK)}),
+    "impact and impact": (OUTWARD, OUTWARD, {(1, IMPACT), (2, IMPACT)}),
+    "both stick: no impact": (STICKS, STICKS, {(1, STICK), (2, STICK)}),
+    "an impact just past": (INWARD, FLIES, set()),
+}
+
+
+@SWAPPED
+@pytest.mark.parametrize(("first", "second", "expected"), STARTS.values(), ids=STARTS)
+def test_events_at_the_start(first, second, expected, swap):
+    system, start, names = SYSTEM, start_of(first, second), {1: 1, 2: 2}
+    if swap:
+        system, start, names = swapped(system), start[SWAP], {1: 2, 2: 1}
+    run, truth = vi.simulate(system, start, 1), reference_run(system, start, 1, DIGITS)
+    assert {(names[e["module"]], e["kind"]) for e in run.events if e["tau"] == 0.0} == expected
+    assert_same_motion(run, truth.events, truth.final)
+    instant = vi.simulate(system, start, 0, sample_times=[0.0])  # the start is also the end, and a sample
+    assert_same_motion(vi.simulate(system, instant.final, 1), run.events[run.events["tau"] > 0.0], run.final)
+    np.testing.assert_array_equal(instant.samples[0], instant.final)
+
+
+def test_a_ball_that_sticks_has_no_impact(chapter):
+    """The combinations that the tables above leave out cannot happen."""
+    events = vi.simulate(chapter(0.5, 0.5), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3000).events
+    after_sticks = []
+    for module in (1, 2):
+        kinds = events["kind"][events["module"] == module]
+        after_sticks += [*kinds[1:][kinds[:-1] == STICK]]
+    assert len(after_sticks) > 10
+    assert set(after_sticks) == {RELEASE}
