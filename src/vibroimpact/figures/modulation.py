@@ -91,7 +91,7 @@ def draw(tables: dict) -> Figure:
         drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
         limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
         axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", **limits)
-        axes.legend(fontsize=8.5, loc="lower left")
+        axes.legend(fontsize=8.5)
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
     grid[0].set_ylabel("part of bursts at least so long")
