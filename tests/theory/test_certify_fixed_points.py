@@ -35,10 +35,10 @@ def middle(box):
 
 @pytest.mark.parametrize(("f10", "f20", "points"), [(1, 1, 4), (1, 0.89, 4), (0.5, 0.5, 2)])
 def test_the_chapter_s_cases_are_complete(f10, f20, points):
-    certificate = certify(CHAPTER.with_(f10_hat=f10, f20_hat=f20))
-    assert certificate.complete
-    assert certificate.undecided == []
-    assert len(certificate.isolated) == points
+    proof = certify(CHAPTER.with_(f10_hat=f10, f20_hat=f20))
+    assert proof.complete
+    assert proof.undecided == []
+    assert len(proof.isolated) == points
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
@@ -52,10 +52,10 @@ def test_uncoupled_modules_have_the_roots_of_two_quadratics(kappa):
         both = np.roots([abs(slope) ** 2, 2 * (e.conjugate() * slope).real, abs(e) ** 2 - 1])
         roots.append(both[np.isreal(both)].real)
     expected = sorted(itertools.product(*roots))
-    certificate = certify(system)
-    assert certificate.complete
+    proof = certify(system)
+    assert proof.complete
     assert len(expected) > 0
-    np.testing.assert_allclose([middle(box) for box in certificate.isolated], expected, atol=1e-5)
+    np.testing.assert_allclose([middle(box) for box in proof.isolated], expected, atol=1e-5)
 
 
 def test_boxes_are_disjoint_and_small():
@@ -74,10 +74,10 @@ def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
 
 
 def test_a_fold_stays_open_and_its_neighbours_do_not():
-    certificate = certify(CHAPTER.with_(f20_hat=FOLD))
-    assert not certificate.complete
-    assert certificate.undecided
-    for box in certificate.undecided:
+    proof = certify(CHAPTER.with_(f20_hat=FOLD))
+    assert not proof.complete
+    assert proof.undecided
+    for box in proof.undecided:
         np.testing.assert_allclose(middle(box), [0.62661, 1.86850], atol=1e-4)
     before, after = (certify(CHAPTER.with_(f20_hat=FOLD + shift)) for shift in (-1e-6, 1e-6))
     assert before.complete

@@ -8,7 +8,7 @@ import dataclasses
 import json
 
 from adapter import logging_to
-from vibroimpact.exact import certify as symmetric_orbits
+from vibroimpact.exact import certify_symmetric_orbits as symmetric_orbits
 from vibroimpact.exact.orbits import search
 from vibroimpact.figures.atomic import replacing
 from vibroimpact.system import System

@@ -27,7 +27,7 @@ Box = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Certificate:
+class Proof:
     """What is proved of a system whose hatted parameters are the float64 numbers that the code holds.
 
     isolated: boxes ((C_1 from, to), (C_2 from, to)), disjoint, each with exactly one fixed point, ascending.
@@ -40,7 +40,7 @@ class Certificate:
     complete: bool
 
 
-def certify(system) -> Certificate:
+def certify(system) -> Proof:
     """Prove how many fixed points a system has, C_i of either sign.
 
     Raises:
@@ -54,7 +54,7 @@ def certify(system) -> Certificate:
     points = [point.C for point in listed.points + listed.outside]
     counts = np.array([[_holds(box, C) for C in points] for box in isolated], dtype=int).reshape(len(isolated), -1)
     matched = len(points) == len(isolated) and (counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all()
-    return Certificate(isolated, undecided, bool(matched and not undecided))
+    return Proof(isolated, undecided, bool(matched and not undecided))
 
 
 def _holds(box, C):

@@ -34,7 +34,7 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 @dataclass(frozen=True)
-class Certificate:
+class Proof:
     """What is proved of a system whose matrices and forcing are the float64 numbers that the code holds.
 
     isolated: intervals of the lag (tau_2 - tau_1) / T, each with exactly one symmetric response, ascending.
@@ -47,7 +47,7 @@ class Certificate:
     complete: bool
 
 
-def certify(system) -> Certificate:
+def certify(system) -> Proof:
     """Prove how many symmetric 1:1 responses a system has, admissible or not.
 
     Raises:
@@ -58,7 +58,7 @@ def certify(system) -> Certificate:
     listed = symmetric_solutions(system)
     lags = np.sort(wrapped(listed[:, 1] - listed[:, 0], system.period) / system.period)
     matched = len(lags) == len(isolated) and all(a <= x <= b for (a, b), x in zip(isolated, lags, strict=True))
-    return Certificate(isolated, undecided, matched and not undecided)
+    return Proof(isolated, undecided, matched and not undecided)
 
 
 def _bisect(condition):

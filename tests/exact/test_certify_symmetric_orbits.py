@@ -5,17 +5,17 @@ import pytest
 
 flint = pytest.importorskip("flint", reason="python-flint belongs to the optional extra `reference`")
 
-from vibroimpact.exact import certify as module  # noqa: E402
-from vibroimpact.exact.certify import certify  # noqa: E402
+from vibroimpact.exact import certify_symmetric_orbits as module  # noqa: E402
+from vibroimpact.exact.certify_symmetric_orbits import certify  # noqa: E402
 from vibroimpact.exact.symmetric import symmetric_solutions  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
 
 def test_the_cases_of_the_chapter_are_complete(case):
-    certificate = certify(case)
-    assert certificate.complete
-    assert not certificate.undecided
-    assert len(certificate.isolated) == len(symmetric_solutions(case))
+    proof = certify(case)
+    assert proof.complete
+    assert not proof.undecided
+    assert len(proof.isolated) == len(symmetric_solutions(case))
 
 
 def random_system(seed):
@@ -39,9 +39,9 @@ def test_a_missing_root_is_noticed(chapter, monkeypatch, left_out):
     system = chapter()
     listed = np.delete(symmetric_solutions(system), left_out, axis=0)
     monkeypatch.setattr(module, "symmetric_solutions", lambda _: listed)
-    certificate = certify(system)
-    assert not certificate.undecided
-    assert not certificate.complete
+    proof = certify(system)
+    assert not proof.undecided
+    assert not proof.complete
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -52,17 +52,17 @@ def test_random_systems_are_complete(seed):
 
 def test_a_double_root_is_reported_as_undecided(chapter):
     """Identical modules in step: the lag 0 is a double root at a kink, so nothing is claimed there."""
-    certificate = certify(chapter(sigma20_hat=0))
-    assert not certificate.complete
-    assert certificate.undecided
-    for lower, upper in certificate.undecided:
+    proof = certify(chapter(sigma20_hat=0))
+    assert not proof.complete
+    assert proof.undecided
+    for lower, upper in proof.undecided:
         assert min(upper, 1 - lower) < 1e-6
 
 
 def test_a_vanishing_condition_does_not_run_for_ever(chapter, monkeypatch):
     monkeypatch.setattr(module._Condition, "count", lambda *_: None)
-    certificate = certify(chapter())
-    covered = sum(upper - lower for lower, upper in certificate.undecided)
+    proof = certify(chapter())
+    covered = sum(upper - lower for lower, upper in proof.undecided)
     assert covered == pytest.approx(1.0)
 
 
