@@ -7,7 +7,9 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.exact.flow import flow_of
 from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.exact.variation import propagate
 
 STEP = Fraction(1, 10**25)
 
@@ -49,3 +51,36 @@ def test_jacobian_against_high_precision_differences(chapter, changes, force, st
     assert set(run.events["kind"]) == kinds
     expected = jacobian_in_high_precision(system, start, cycles)
     np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+
+
+def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
+    """A miss late in a chaotic motion may be open although a nearer one at its beginning is clear."""
+    system, start, cycles = chapter(0.5, 0.5), np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]), 30
+    run = vi.simulate(system, start, cycles)
+    duration = cycles * system.period
+
+    def clearance(*turns):
+        table = np.array(turns).reshape(-1, 2)
+        return propagate(flow_of(system), start, run._rows, run.final, 0.0, duration, np.inf, table)[-1]
+
+    near, far = (run._rows[0, 0], 1e-9), (duration, 1e-8)
+    assert clearance(far) < clearance(near)
+    assert clearance(near, far) == clearance(far)
+    assert far[1] / clearance(far) == pytest.approx(run.certificate.error / np.finfo(float).eps, rel=1e-3)
+
+
+def test_the_shallowest_hit_is_that_of_all_parabolas(chapter, auditor):
+    """The depth u^2 / (2 b) of every impact, from matrix exponentials alone."""
+    system, start = chapter(0.5, 0.5), np.array([0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2])
+    run, audit = vi.simulate(system, start, 12), auditor(system)
+    assert (run.events["kind"] == IMPACT).all()
+    state, tau, depths = start, 0.0, []
+    for event in run.events:
+        before = audit.flow(state, [0, 0], tau, event["tau"] - tau)
+        i = event["module"] - 1
+        brake = -event["wall"] * audit.acceleration(before, [0, 0], event["tau"])[i]
+        if brake > 0.0:
+            depths.append((before[4 + 2 * i] - before[5 + 2 * i]) ** 2 / (2.0 * brake))
+        state, tau = event["state"].copy(), event["tau"]
+    assert len(depths) > 10
+    assert run.certificate.shallowest_hit == pytest.approx(min(depths), rel=1e-9)

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from vibroimpact.exact import events as kernel
-from vibroimpact.exact.certificate import KNOWN, Certificate, certify
+from vibroimpact.exact.certificate import KNOWN, Certificate
 from vibroimpact.exact.flow import flow_of
 from vibroimpact.exact.variation import PUBLIC_ORDER, propagate
 from vibroimpact.system import System
@@ -58,10 +58,9 @@ class Run:
     def _variation(self):
         flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
         duration = self.cycles * self.system.period
-        marks = self._ledger[[kernel.CLEARED_BY, kernel.PIERCED_AT]]
-        return propagate(
-            flow, self.start, self._rows, self.final, _phase(self.system, self.tau0), duration, limit, marks
-        )
+        turns = self._ledger[None, [kernel.CLEARED_BY, kernel.CLEARED]]
+        phase = _phase(self.system, self.tau0)
+        return propagate(flow, self.start, self._rows, self.final, phase, duration, limit, turns)
 
     @property
     def jacobian(self) -> np.ndarray:
@@ -71,8 +70,7 @@ class Run:
     @cached_property
     def certificate(self) -> Certificate:
         """What the run can vouch for."""
-        _, covariance, horizon, marked = self._variation
-        return certify(self._ledger, covariance, self.tau0 + horizon, marked)
+        return Certificate.of(self._ledger, self._variation, self.tau0)
 
 
 def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times=None) -> Run:

@@ -52,6 +52,26 @@ def _field(q, walls, state, phase, field):
 
 
 @compiled
+def _before_impact(q, i, after):
+    """The state (8,) just before an impact in module i (0, 1), from the one after it."""
+    box, ball = 2 + i, 6 + i
+    before = after.copy()
+    before[box], before[ball] = _impact(q.epsilon, 1.0 / q.kappa, after[box], after[ball])
+    return before
+
+
+@compiled
+def _depth(q, i, wall, after, walls, phase):
+    """How deep a ball would have gone beyond its wall, had there been none: u^2 / (2 b), u its speed and b the braking
+    just before the impact; inf where nothing brakes it.
+    """
+    before, field = _before_impact(q, i, after), np.empty(8)
+    _field(q, walls, before, phase, field)
+    brake = -wall * field[2 + i]
+    return (before[2 + i] - before[6 + i]) ** 2 / (2.0 * brake) if brake > 0.0 else math.inf
+
+
+@compiled
 def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the state (8,) after it.
 
@@ -62,11 +82,8 @@ def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     r = np.eye(8)
     r[box, box], r[ball, box] = _impact(q.epsilon, q.kappa, 1.0, 0.0)
     r[box, ball], r[ball, ball] = _impact(q.epsilon, q.kappa, 0.0, 1.0)
-    approach = -(after[box] - after[ball]) / q.kappa
-    before = after.copy()
-    impulse = (1.0 + q.kappa) / (1.0 + q.epsilon) * approach
-    before[box] += q.epsilon * impulse
-    before[ball] -= impulse
+    before = _before_impact(q, i, after)
+    approach = before[box] - before[ball]
     incoming, outgoing = np.empty(8), np.empty(8)
     _field(q, walls, before, phase, incoming)
     _field(q, walls_after, after, phase, outgoing)
@@ -112,20 +129,22 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 
 @compiled
-def propagate(flow, start, events, final, start_phase, duration, limit, marks):
+def propagate(flow, start, events, final, start_phase, duration, limit, turns):
     """Carry perturbations along a run, given by its start and final (8,) in public order and the events (m, 12)
     of the kernel.
 
+    turns: (n, 2) rows of the time by which a ball has turned before a wall, ascending, and of its gap there.
     Returns the Jacobian (8, 8) of the final state by the first one; the covariance (8, 8) that unit rounding errors in
     the start and after every event leave at the end, infinite past the horizon; that horizon: the time at which the
-    square root of the covariance's trace first exceeds the limit (inf if never); and that root at the marks (n,), times
-    of events, just before them. Matrices are in [boxes, balls].
+    square root of the covariance's trace first exceeds the limit (inf if never); the smallest depth that an impact cut
+    off; and the smallest ratio of any gap or depth to that root just before (inf if there are none). Matrices are in
+    [boxes, balls].
     """
     q = flow.coefficients
     jacobian, covariance = np.eye(8), np.zeros((8, 8))
     _add_rounding(covariance, start)
-    matrix, marked = np.empty((8, 8)), np.full(len(marks), math.inf)
-    walls, now, horizon = (0, 0), 0.0, math.inf
+    matrix, walls, now, horizon = np.empty((8, 8)), (0, 0), 0.0, math.inf
+    turned, shallowest, clearance = 0, math.inf, math.inf
     for n in range(len(events) + 1):
         stop = events[n, 0] if n < len(events) else duration
         completed = n < len(events) and events[n, 3] == STICK and n > 0 and _same_chatter(events[n - 1], events[n])
@@ -138,9 +157,9 @@ def propagate(flow, start, events, final, start_phase, duration, limit, marks):
                     covariance = matrix @ covariance @ matrix.T
                 now += step
         spread = math.sqrt(max(np.trace(covariance), 0.0)) if horizon == math.inf else math.inf
-        for k in range(len(marks)):
-            if marked[k] == math.inf and (now >= marks[k] or n == len(events)):
-                marked[k] = spread
+        while turned < len(turns) and (turns[turned, 0] <= stop or n == len(events)):
+            clearance = min(clearance, _ratio(turns[turned, 1], spread))
+            turned += 1
         if n == len(events):
             if horizon == math.inf:
                 _add_rounding(covariance, final)
@@ -150,6 +169,8 @@ def propagate(flow, start, events, final, start_phase, duration, limit, marks):
         after = _internal(row)
         phase = start_phase + q.omega * now
         if kind == IMPACT:
+            depth = _depth(q, i, wall, after, walls, phase)
+            shallowest, clearance = min(shallowest, depth), min(clearance, _ratio(depth, spread))
             walls_after = walls
             for later in events[n + 1 :]:
                 if later[0] != row[0]:
@@ -177,7 +198,13 @@ def propagate(flow, start, events, final, start_phase, duration, limit, marks):
         if not np.trace(covariance) <= limit * limit:  # also where it is no number: an impact without velocity
             horizon = now
             covariance[:] = math.inf
-    return jacobian, covariance, horizon, marked
+    return jacobian, covariance, horizon, shallowest, clearance
+
+
+@compiled
+def _ratio(distance, spread):
+    """How many times the spread fits into a distance; nothing is clear past the horizon."""
+    return distance / spread if spread < math.inf else 0.0
 
 
 @compiled

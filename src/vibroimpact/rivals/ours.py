@@ -36,5 +36,5 @@ def _doubt(run, end):
         return f"known up to tau = {certificate.horizon:.6g}"
     if not certificate.decided:
         nearest = min(certificate.nearest_miss, certificate.shallowest_hit)
-        return f"an approach to {nearest:.1e} is within rounding"
+        return f"an approach to a wall (the nearest: {nearest:.1e}) is within its error"
     return None
