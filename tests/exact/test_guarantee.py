@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq, minimize_scalar
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.simulation import IMPACT, STICK
+from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
 
 CYCLES = 5
 SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete
@@ -123,6 +124,32 @@ def test_grazing_is_told_from_missing_down_to_rounding(chapter, exponent, side, 
     assert run.certificate.undecided == 0
     if exponent < 14:  # the last one is as small as the error of a position
         assert run.certificate.decided
+
+
+@pytest.mark.parametrize("exponent", range(1, 13))
+@pytest.mark.parametrize("side", [1, -1], ids=["holds", "releases"])
+def test_a_contact_force_that_dips_to_zero_or_just_below(chapter, exponent, side):
+    """One undamped box with its ball, driven fast: in closed form the force has a minimum that the start can set."""
+    system = chapter(
+        30.0, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=50.0
+    )
+    nu, omega = 1.0 / np.sqrt(1.0 + system.epsilon), system.Omega
+    amplitude = system.forcing[0] / (1.0 - (omega / nu) ** 2)
+
+    def force(t, x):
+        return -(nu**2) * x * np.cos(nu * t) + amplitude * omega * (nu * np.sin(nu * t) - omega * np.sin(omega * t))
+
+    def dip(x):
+        return minimize_scalar(force, args=(x,), bounds=(0.5, 1.0), method="bounded", options={"xatol": 1e-9})
+
+    x = brentq(lambda x: dip(x).fun - side * 10.0**-exponent, -20.0, -0.1, xtol=1e-15)
+    events = vi.simulate(system, [x, x - 1.0, 0, 0, 0, 0, 0, 0], 1).events
+    release = events[events["kind"] == RELEASE]["tau"]
+    if side > 0:
+        assert not len(release) or release[0] > 1.0
+    else:
+        expected = brentq(force, 0.3, dip(x).x, args=(x,), xtol=1e-15)
+        assert release[0] == pytest.approx(expected, abs=1e-14 / np.sqrt(10.0**-exponent))
 
 
 def test_below_rounding_a_graze_is_reported_undecided(chapter):

@@ -1,25 +1,21 @@
-"""Compile the engine into the cache of the checkout, so that the first build does not have to."""
+"""Compile the engine and its rivals into the cache of the checkout, so that the first build does not have to."""
 
 from pathlib import Path
 
 from environment import settle
+from vibroimpact.checks.config import case_parameters, parse
 from vibroimpact.checks.sources import Sources
 
 settle(Path.cwd(), Sources())
 
 from vibroimpact.exact.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
+from vibroimpact.rivals import METHODS  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
-system = System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
-simulate(system, [0.0] * 8, cycles=1, sample_times=[0.0])
+config = parse(Path("config/config.yaml").read_text(encoding="utf-8"))
+case = next(iter(config["cases"]))
+system, start = System(**case_parameters(config, case)), config["cases"][case]["simulation"]["initial_state"]
+simulate(system, start, cycles=1, sample_times=[0.0]).certificate  # noqa: B018
+for method in METHODS:
+    if not method.available():
+        method.run(system, start, 1, 0.0, method.ladder[0])
