@@ -84,7 +84,9 @@ def hazards() -> list[Hazard]:
         Hazard("sticking", "modulated response", weak, MODULATED, 8),
         Hazard("coincidence", "both balls, same wall", twins, TOGETHER, 3),
         Hazard("coincidence", "both balls, opposite walls", twins.with_(f20_hat=-1.0), MIRRORED, 3),
-        Hazard("coincidence", "impact on a step boundary", still, _crossing(still), 1),
+        Hazard("coincidence", "impact on a step boundary", still, _crossing(still, 0.5), 1),
+        Hazard("coincidence", "impact 1e-9 before the end", still, _crossing(still, 1.0 - 1e-9), 1),
+        Hazard("coincidence", "impact 1e-9 after the end", still, _crossing(still, 1.0 + 1e-9), 1),
         Hazard("long run", "100 000 cycles", system, SETTLED, 100_000, reference_cycles=2_000, quick=False),
         Hazard("extreme parameters", "kappa = 1e-3", system.with_(kappa=1e-3), SETTLED, 3),
         Hazard("extreme parameters", "kappa = 1e-6", system.with_(kappa=1e-6), SETTLED, 3, quick=False),
@@ -155,6 +157,6 @@ def _grazing(system, side, digits):
     return Hazard("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
 
 
-def _crossing(system):
-    """Ball 1 meets its wall after half a period exactly (to rounding), box at rest; ball 2 stays in the middle."""
-    return (0.0, 0.0, 0.0, 0.0, 0.0, -2.0 / system.period, 0.0, 0.0)
+def _crossing(system, periods):
+    """Ball 1 meets its wall after so many periods (to rounding), box at rest; ball 2 stays in the middle."""
+    return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)
