@@ -144,6 +144,8 @@ def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(scene, swap, nu
         system, start, module = swapped(system), start[SWAP], 2
     whole, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS)
     assert_same_motion(whole, truth.events, truth.final)
+    if scene == "impact that releases the other":
+        assert events_of(whole.events, 3 - module, RELEASE)["tau"] == events_of(whole.events, module, IMPACT)["tau"]
     first = vi.simulate(system, start, 1)
     if kind != STICK:  # the many impacts before it may end on either side of the end
         assert len(events_of(first.events, module, kind)) == (nudge <= 4e-16)
@@ -153,6 +155,17 @@ def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(scene, swap, nu
     later["tau"] -= system.period
     assert_same_motion(first, whole.events[: len(first.events)], first.final, kinds)
     assert_same_motion(second, later, whole.final, kinds)
+
+
+@pytest.mark.parametrize("late", [-1e-9, -1e-13, -4e-16, 0.0, 4e-16, 1e-13, 1e-9])
+@pytest.mark.parametrize("module", [1, 2])
+def test_an_impact_within_rounding_of_the_end_is_reported(module, late):
+    """Boxes at rest, a ball at constant speed: it arrives after 1 + late periods."""
+    system, start = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), np.zeros(8)
+    start[3 + 2 * module] = 1.0 / ((1.0 + late) * system.period)
+    run = vi.simulate(system, start, 1)
+    assert run.certificate.undecided == (abs(late) < 1e-15)
+    assert len(run.events) == (late < 1e-15)
 
 
 @SWAPPED
