@@ -1,12 +1,14 @@
 """The exclusion of events rests on bounds of derivatives that hold along every flight, in every contact state."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.exact.constraints import _sixth_bound, derivatives, fifth_bound
-from vibroimpact.exact.flow import CONTACT_STATES, flow_of
+from vibroimpact.exact.constraints import push, remainder
+from vibroimpact.exact.flow import CONTACT_STATES, flow_of, jet
 
 unit = st.floats(-1, 1)
 
@@ -28,8 +30,11 @@ def test_derivatives_stay_below_their_bounds(chapter, auditor, damping, state, t
     rate = audit.rate(CONTACT_STATES[mode])
     walls = [int(stuck) for stuck in CONTACT_STATES[mode]]
     phase = system.Omega * tau
-    d = derivatives(q, mode, tuple(state[[0, 2, 4, 6]]), np.sin(phase), np.cos(phase))
-    bounds = {5: fifth_bound(q, mode, d, horizon), 6: _sixth_bound(q, mode, d, np.sin(phase), horizon)}
+    sine, cosine = np.sin(phase), np.cos(phase)
+    jets = jet(q, mode, tuple(state[[0, 2, 4, 6]]), sine, cosine)
+    boxes = remainder(q, mode, jets, horizon * q.drive * q.omega**6)
+    _, force = push(q, mode, jets, 0, 1, sine, cosine, horizon)
+    bounds = {7: math.factorial(7) * boxes, 9: math.factorial(7) * force}
     for t in np.linspace(0.0, horizon, 40):
         lifted = audit.lifted(audit.flow(state, walls, tau, t), tau + t)
         for order, bound in bounds.items():

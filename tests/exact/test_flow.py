@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.exact.exclusion import crossing_time, return_time, safe_time
-from vibroimpact.exact.flow import CONTACT_STATES, advance, flow_of
+from vibroimpact.exact.exclusion import crossing, least, nearby_zero, return_time, safe_time
+from vibroimpact.exact.flow import CONTACT_STATES, advance, flow_of, jet
 from vibroimpact.system.matrices import rate_matrix
 
 SPECTRA = {
@@ -32,59 +32,116 @@ def test_free_flight_against_50_digits(chapter, changes):
             for t in (0.0, flow.spacing / 2, *rng.uniform(0, flow.longest, 3), flow.longest):
                 z = [*rng.normal(size=4).tolist(), math.sin(0.7), math.cos(0.7)]
                 exact = mp.expm(rate * mp.mpf(float(t))) * mp.matrix(z)
-                error = max(abs(float(exact[i] - got)) for i, got in enumerate(advance(flow, mode, *z, float(t))))
+                boxes, sine, cosine = advance(flow, mode, tuple(z[:4]), z[4], z[5], float(t))
+                error = max(abs(float(exact[i] - got)) for i, got in enumerate((*boxes, sine, cosine)))
                 assert error < 2e-14 if changes is SPECTRA["stiff"] else error < 3e-15
 
 
 numbers = st.floats(-2, 2).map(lambda x: round(x, 6))
 
 
+polynomials = st.tuples(st.floats(1e-6, 2), *[numbers] * 7)
+
+
+def zeros_of(c):
+    """Positive real zeros of a polynomial c0 + c1 t + ..., in ascending order (numpy's companion matrix)."""
+    return sorted(r.real for r in np.roots(np.trim_zeros(c[::-1], "f")) if abs(r.imag) < 1e-9 and r.real > 0)
+
+
+def test_jet_against_50_digits(chapter):
+    system = chapter(1.0, 0.6)
+    z = [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]
+    with mp.workdps(50):
+        for mode, stuck in enumerate(CONTACT_STATES):
+            term = mp.matrix(z)
+            rate = mp.matrix(rate_matrix(system, stuck).tolist())
+            jets = jet(flow_of(system).coefficients, mode, tuple(z[:4]), z[4], z[5])
+            for k in range(8):
+                assert [jets[0][k], jets[1][k]] == pytest.approx([float(term[0]), float(term[1])], abs=1e-15)
+                term = rate * term / (k + 1)
+
+
+@given(c=polynomials, t=st.floats(0.01, 3))
+def test_least_is_a_lower_bound_and_sharp_at_the_ends(c, t):
+    low, seen = least(c, t), np.polyval(c[::-1], np.linspace(0, t, 200))
+    assert low <= seen.min() + 1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
+    rising = (c[0], *(abs(v) for v in c[1:]))
+    assert least(rising, t) == c[0]
+    falling = tuple(-v for v in rising)
+    assert least(falling, t) == pytest.approx(np.polyval(falling[::-1], t), rel=1e-12)
+
+
 @settings(max_examples=300, deadline=None)
-@given(start=st.floats(1e-6, 2), slopes=st.tuples(*[numbers] * 5), horizon=st.floats(0.01, 3))
-def test_safe_time_is_safe_and_reaches_far(start, slopes, horizon):
-    """On quintics: positive up to the time returned (numpy's roots), and near the first zero or the horizon."""
-    c = (start, *slopes)
+@given(c=polynomials, horizon=st.floats(0.01, 3))
+def test_safe_time_is_safe_and_reaches_far(c, horizon):
+    """Positive up to the time returned (numpy's roots), and near the first zero or the horizon."""
     t = safe_time(c, horizon)
     assert 0 < t <= horizon
     assert np.polyval(c[::-1], np.linspace(0, t, 400)).min() > -1e-14
-    zeros = [r.real for r in np.roots(np.trim_zeros(c[::-1], "f")) if abs(r.imag) < 1e-9 and r.real > 0]
-    assert t > 0.05 * min([*zeros, horizon])
+    assert t > 0.05 * min([*zeros_of(c), horizon])
 
 
 def test_safe_time_without_a_positive_start():
-    assert safe_time((0.0, 1.0, 0.0, 0.0, 0.0, 0.0), 1.0) == 0.0
-    assert safe_time((-1e-20, 1.0, 0.0, 0.0, 0.0, 0.0), 1.0) == 0.0
+    assert safe_time((0.0, 1.0, *[0.0] * 6), 1.0) == 0.0
+    assert safe_time((-1e-20, 1.0, *[0.0] * 6), 1.0) == 0.0
+    assert safe_time((math.nan, 1.0, *[0.0] * 6), 1.0) == 0.0
 
 
 def test_safe_times_converge_to_a_crossing_and_never_pass_it():
-    """cos t = 1/2 approached as a flight does, fifth derivative bounded by 1."""
-    t, times = 0.0, []
-    while len(times) < 12:
-        c, s = math.cos(t), math.sin(t)
-        step = safe_time((c - 0.5, -s, -c / 2, s / 6, c / 24, -1 / 120), 2.0)
-        t += step
-        times.append(t)
-    assert max(times) <= math.pi / 3 + 1e-15  # the rounding of the cosine
-    assert math.pi / 3 - times[2] < 1e-6
-    assert math.pi / 3 - times[-1] < 1e-8
+    """cos t = 1/2 approached as a flight does, seventh derivative bounded by 1."""
+    now, crossing_at = 0.0, math.acos(0.5)
+    for _ in range(6):
+        f = [math.cos(now + k * math.pi / 2) / math.factorial(k) for k in range(7)]
+        step = safe_time((f[0] - 0.5, *f[1:], -1.0 / math.factorial(7)), 2.0)
+        now += step
+        assert now <= crossing_at
+    assert now == pytest.approx(crossing_at, abs=1e-8)
 
 
-@settings(max_examples=300, deadline=None)
-@given(zero=st.floats(1e-9, 0.5), v=st.floats(0.1, 2), a=numbers, j=numbers)
-def test_crossing_time_finds_the_zero_of_a_cubic(zero, v, a, j):
-    """A cubic built to vanish at a given time: where a crossing is claimed, it is the cubic's one zero around."""
-    gap = v * zero + a * zero**2 / 2 + j * zero**3 / 6
-    t = crossing_time(gap, v, (a, j, 0.0), 0.0, 3.0)
-    h = 2 * abs(gap) / v
-    if t < math.inf:
-        assert abs(t) <= h
-        assert gap == pytest.approx(v * t + a * t**2 / 2 + j * t**3 / 6, abs=1e-12)
-        assert not zero <= h or t == pytest.approx(zero, rel=1e-6)
-    else:  # refused only where the slope could change much
-        assert abs(a) * h + abs(j) * h**2 / 2 >= 0.499 * v or h > 2.99
+@settings(max_examples=500, deadline=None)
+@given(
+    c=polynomials,
+    fall=st.floats(0.05, 2),
+    remainder=st.floats(0, 0.3).map(lambda x: round(x, 6)),
+    part=st.sampled_from([-1.0, -0.3, 0.0, 0.6, 1.0]),
+    horizon=st.floats(0.01, 3),
+)
+def test_a_certain_crossing_is_the_first_and_only_zero(c, fall, remainder, part, horizon):
+    """Whatever the seventh derivative is within its bound: numpy's roots of the polynomial that it makes."""
+    c = (c[0], -fall, *c[2:])
+    certain, t, width = crossing(c, remainder, 0.0, horizon, 1e-3)
+    zeros = zeros_of((*c[:7], part * remainder))
+    if not certain:
+        return
+    if width == math.inf:
+        assert t == horizon
+        assert not [zero for zero in zeros if zero < horizon * (1 - 1e-9)]
+    else:
+        assert len([zero for zero in zeros if zero <= t + width + 1e-9]) == 1
+        assert zeros[0] == pytest.approx(t, abs=width + 1e-9)
 
 
-@given(hop=st.floats(1e-12, 1e-3), a=st.floats(0.1, 2), j=numbers)
+def test_a_crossing_is_found_where_the_rate_keeps_its_sign():
+    """A fall that certainly lasts is no reason to give up, nor is one that ends beyond the horizon."""
+    certain, t, width = crossing((1.0, -1.0, -0.1, *[0.0] * 5), 1e-3, 1e-15, 2.0, 1e-3)
+    assert certain
+    assert 1e-4 < width < 5e-3
+    assert abs(t - 5 * (math.sqrt(1.4) - 1)) < width
+    assert crossing((1.0, -1.0, -0.1, *[0.0] * 5), 1e-3, 1e-15, 0.9, 1e-3) == (True, 0.9, math.inf)
+    assert not crossing((1.0, -1.0, 0.26, *[0.0] * 5), 0.0, 1e-15, 3.0, 1e-3)[0]  # turns before it meets zero
+    certain, t, _ = crossing((1e-4, -1.0, 0.5, *[0.0] * 5), 0.0, 1e-15, 3.0, 1e-3)  # turns long after
+    assert certain
+    assert t == pytest.approx(1 - math.sqrt(1 - 2e-4))
+
+
+@given(zero=st.floats(-0.03, 0.03), off=st.floats(-0.005, 0.005), v=st.floats(0.1, 2), higher=st.tuples(*[numbers] * 6))
+def test_nearby_zero_against_a_polynomial_built_to_vanish_there(zero, off, v, higher):
+    rest = sum(a * zero ** (k + 2) for k, a in enumerate(higher))
+    c = (v * zero - rest, -v, *higher)
+    assert nearby_zero(c, zero + off) == pytest.approx(zero, abs=1e-15 + 1e-15 * abs(rest / v))
+
+
+@given(hop=st.floats(1e-12, 0.02), a=st.floats(0.7, 2), j=numbers)
 def test_return_time_keeps_relative_accuracy(hop, a, j):
     u = a * hop / 2 + j * hop**2 / 6
-    assert return_time(u, (a, j, 0.0), 0.0, 1.0) == pytest.approx(hop, rel=1e-14)
+    assert return_time((0.0, u, -a / 2, -j / 6, *[0.0] * 4), 0.0, 1.0) == pytest.approx(hop, rel=1e-14)

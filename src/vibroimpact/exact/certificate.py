@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact import events as kernel
+from vibroimpact.exact import books
 
 KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
@@ -38,21 +38,21 @@ class Certificate:
     horizon: float
 
     @classmethod
-    def of(cls, ledger: np.ndarray, variation: tuple, tau0: float) -> "Certificate":
-        """From the kernel's ledger (10,) and what variation.propagate returns for the run, which started at tau0."""
+    def of(cls, ledger: np.ndarray, turns: np.ndarray, variation: tuple, tau0: float) -> "Certificate":
+        """From the kernel's ledger (6,) and turns (n, 2), and what variation.propagate returns, for a run from tau0."""
         unit = np.finfo(float).eps
         _, covariance, horizon, shallowest, clearance = variation
         variance = np.trace(covariance)
         return cls(
-            flights=int(ledger[kernel.FLIGHTS]),
-            exclusions=int(ledger[kernel.EVALUATIONS]),
-            chatters=int(ledger[kernel.CHATTERS]),
-            neglected=float(ledger[kernel.NEGLECTED]),
-            wall_residual=float(ledger[kernel.RESIDUAL]),
-            nearest_miss=float(ledger[kernel.CLEARED]),
+            flights=int(ledger[books.FLIGHTS]),
+            exclusions=int(ledger[books.EVALUATIONS]),
+            chatters=int(ledger[books.CHATTERS]),
+            neglected=float(ledger[books.NEGLECTED]),
+            wall_residual=float(ledger[books.RESIDUAL]),
+            nearest_miss=float(turns[:, 1].min(initial=np.inf)),
             shallowest_hit=shallowest,
             clearance=float(clearance / unit),
-            undecided=int(ledger[kernel.UNDECIDED]),
+            undecided=int(ledger[books.UNDECIDED]),
             error=float(unit * np.sqrt(variance)) if variance >= 0 else np.inf,
             horizon=tau0 + horizon,
         )

@@ -1,5 +1,10 @@
-"""How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division."""
+"""How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division.
+
+What runs at every event is inlined: handing over a motion and its Taylor polynomials (some 30 numbers) would cost more
+than what is computed from them. What runs rarely is not, so that it does not get in the way.
+"""
 
 from numba import njit
 
 compiled = njit(cache=True, error_model="numpy", nogil=True)
+inlined = njit(cache=True, error_model="numpy", nogil=True, forceinline=True)

@@ -4,53 +4,27 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.compiled import compiled
-from vibroimpact.exact.exclusion import crossing_time, nearby_zero, return_time, safe_time
-from vibroimpact.exact.flow import acceleration, inverse_masses
+from vibroimpact.exact.compiled import compiled, inlined
+from vibroimpact.exact.exclusion import crossing, return_time, safe_time
+from vibroimpact.exact.flow import jet
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-SHORT = 1e-3  # in units of the flow: a fifth-order Taylor step this long is exact to rounding
+LOOKAHEAD = 2.5  # in units of the flow: the longest time that one proof is asked for
+SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
 
 
-@compiled
-def derivatives(q, mode, boxes, sine, cosine):
-    """Derivatives 2 to 5 of X1 and X2 in free flight: (X1'', X2'', X1''', X2''', ..., X2^(5))."""
-    i1, i2 = inverse_masses(q, mode)
-    w = q.omega
-    s, c = sine, cosine * w
-    a1, a2 = acceleration(q, i1, i2, boxes[0], boxes[1], boxes[2], boxes[3], q.f1 * s, q.f2 * s)
-    b1, b2 = acceleration(q, i1, i2, boxes[2], boxes[3], a1, a2, q.f1 * c, q.f2 * c)
-    s, c = -w * w * s, -w * w * c
-    c1, c2 = acceleration(q, i1, i2, a1, a2, b1, b2, q.f1 * s, q.f2 * s)
-    d1, d2 = acceleration(q, i1, i2, b1, b2, c1, c2, q.f1 * c, q.f2 * c)
-    return a1, a2, b1, b2, c1, c2, d1, d2
+@inlined
+def remainder(q, mode, jets, growth):
+    """Bound on |X_i^(7)| / 7! of both boxes while the seventh derivative of the force adds up to no more than growth.
 
-
-@compiled
-def _energy_bound(q, mode, y1, y2, z1, z2):
-    """Bound on all later velocities of unforced boxes, displaced by y with velocities z: dampings only take away."""
-    m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
-    energy = m1 * z1 * z1 + m2 * z2 * z2 + q.k11 * y1 * y1 + 2.0 * q.k12 * y1 * y2 + q.k22 * y2 * y2
-    return math.sqrt(energy) * (1.0 + 1e-12)
-
-
-@compiled
-def fifth_bound(q, mode, d, horizon):
-    """Bound on |X_i^(5)| of both boxes over the next horizon.
-
-    The fourth derivative of the boxes obeys the boxes' equations under that of the force, so the square root of twice
-    its energy, which bounds its velocity, grows no faster than that force.
+    The sixth derivative of the boxes obeys the boxes' equations under that of the force, so the square root of twice
+    its energy, which bounds its velocity, grows no faster than that force: dampings only take away.
     """
-    return _energy_bound(q, mode, d[4], d[5], d[6], d[7]) + horizon * q.drive * q.omega**4
-
-
-@compiled
-def _sixth_bound(q, mode, d, sine, horizon):
-    """Bound on |X_i^(6)| of both boxes over the next horizon, as fifth_bound."""
-    i1, i2 = inverse_masses(q, mode)
-    force = q.omega**4 * sine
-    e1, e2 = acceleration(q, i1, i2, d[4], d[5], d[6], d[7], q.f1 * force, q.f2 * force)
-    return _energy_bound(q, mode, d[6], d[7], e1, e2) + horizon * q.drive * q.omega**5
+    one, two = jets
+    m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
+    y1, y2, z1, z2 = one[6] * (1 / 7), two[6] * (1 / 7), one[7], two[7]
+    energy = m1 * z1 * z1 + m2 * z2 * z2 + q.k11 * y1 * y1 + 2.0 * q.k12 * y1 * y2 + q.k22 * y2 * y2
+    return (math.sqrt(energy) + growth * (1 / 5040)) * (1.0 + 1e-12)
 
 
 @compiled
@@ -60,83 +34,123 @@ def acceleration_rounding(q, boxes):
     return RESOLUTION * (q.drive + (q.k11 + q.k22) * positions + (q.c11 + q.c22) * velocities)
 
 
-@compiled
+@inlined
 def gap_rounding(boxes, balls, i):
     """Size below which a gap of module i is rounding."""
     speeds = abs(boxes[2 + i]) + abs(balls[2 + i])  # over a unit of time they enter like positions
     return RESOLUTION * (1.0 + abs(boxes[i]) + abs(balls[i]) + speeds)
 
 
+@inlined
+def gap(p, position, velocity, w):
+    """The gap between a ball in free flight and wall w of its box, whose jet is p (8,), as a polynomial (8,)."""
+    near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
+    return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
+
+
 @compiled
-def _time_of(g, v, higher, bound, margin, horizon):
-    """(time the constraint certainly holds or time of its crossing, whether it is a crossing, g within rounding).
+def push(q, mode, jets, i, wall, sine, cosine, horizon):
+    """(polynomial (8,), remainder) of the force, per unit of ball mass, with which a wall pushes a ball that sticks.
+
+    It is the acceleration of the box, which obeys the boxes' equations under the second derivative of the force.
+    """
+    one, two = jets
+    fall = -q.omega * q.omega
+    start = (2.0 * one[2], 2.0 * two[2], 6.0 * one[3], 6.0 * two[3])
+    bent = jet(q, mode, start, fall * sine, fall * cosine)
+    bound = remainder(q, mode, bent, horizon * q.drive * q.omega**8)
+    p = bent[0] if i == 0 else bent[1]
+    return (
+        wall * p[0],
+        wall * p[1],
+        wall * p[2],
+        wall * p[3],
+        wall * p[4],
+        wall * p[5],
+        wall * p[6],
+        wall * p[7],
+    ), bound
+
+
+@compiled
+def _safe_time(c, bound, margin, horizon):
+    """(time the constraint certainly holds, whether it is met at once, being within rounding of zero).
 
     Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
     """
-    a, j, s = higher
-    if v > 0.0:
-        t = crossing_time(g, v, higher, bound, horizon)
-        if t < math.inf:
-            return t, True, False
-    if g <= 2.0 * margin:
-        if v > 0.0:
-            return 0.0, True, True
-        if v < 0.0 and (a < 0.0 or v * v > 2.0 * a * margin):
-            return safe_time((-v, -a / 2, -j / 6, -s / 24, -bound / 120, 0.0), horizon), False, False
-        return safe_time((margin, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
-    return safe_time((g - margin, -v, -a / 2, -j / 6, -s / 24, -bound / 120), horizon), False, False
+    if c[0] <= 2.0 * margin:
+        if c[1] < 0.0:
+            return 0.0, True
+        if c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin):
+            return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon), False
+        return safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
+    return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
 
 
 @compiled
-def _hop_time(v, higher, bound, at_rest, margin, horizon, short):
-    """(time, crossing) for the wall that the ball touches: v <= 0 is its velocity towards it, at_rest says v is 0.
+def _hop_time(c, bound, margin, horizon, short):
+    """(time, whether it is the end of the hop) for the wall that the ball touches; c[1] >= 0 is its velocity away.
 
     A hop no longer than short is timed to its end; else the zero at the start is divided out of the constraint.
     """
-    a, j, s = higher
-    if at_rest:
-        if a < 0.0:
-            return safe_time((-a / 2, -j / 6, -s / 24, -bound / 120, 0.0, 0.0), horizon), False
-        return safe_time((margin, 0.0, 0.0, -j / 6, -s / 24, -bound / 120), horizon), False
-    t = return_time(-v, higher, bound, horizon)
+    if c[1] == 0.0:
+        if c[2] > 0.0:
+            return safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon), False
+        return safe_time((margin, 0.0, 0.0, c[3], c[4], c[5], c[6], -bound), horizon), False
+    t = return_time(c, bound, horizon)
     if t <= short:
         return t, True
-    return safe_time((-v, -a / 2, -j / 6, -s / 24, -bound / 120, 0.0), horizon), False
+    return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon), False
 
 
-@compiled
-def wall_time(i, boxes, balls, d):
-    """Time at which the ball of module i, close to a wall, meets it; of either sign."""
-    relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
-    w = 1.0 if relative > 0.0 else -1.0
-    return nearby_zero(1.0 - w * relative, w * velocity, (w * d[i], w * d[2 + i], w * d[4 + i]))
+@inlined
+def module_time(q, mode, i, boxes, balls, jets, wall, touching, bound, sine, cosine, horizon, short):
+    """How far module i may fly: (time, width, undecided).
 
-
-@compiled
-def module_time(q, mode, i, boxes, balls, wall, touching, d, bound, sine, horizon, short):
-    """How far module i may fly: (time, crossing, undecided).
-
-    Without a crossing the module has no event up to time. With one, its next event is at time, to fifth order (slightly
-    negative when just passed); undecided marks a tangential meeting that rounding cannot tell from a miss.
-    bound: fifth_bound over the horizon; wall: the wall the ball sticks to, or 0; touching: the wall it touches now,
-    moving inwards or at rest. A hop on it no longer than short is timed to its end.
+    With width inf the module has no event before time. Else it certainly has its next event at time +- width (slightly
+    negative when just passed), width 0 being rounding; undecided marks a tangential meeting that rounding cannot tell
+    from a miss. bound: remainder of the boxes over the horizon; wall: the wall the ball sticks to, or 0; touching: the
+    wall it touches now, moving inwards or at rest; short: the longest time over which a jet is exact to rounding.
     """
-    if wall != 0:  # the contact force, per unit of ball mass, is wall X'' and must push
-        higher = (-wall * d[4 + i], -wall * d[6 + i], _sixth_bound(q, mode, d, sine, horizon))
-        return _time_of(wall * d[i], -wall * d[2 + i], higher, 0.0, acceleration_rounding(q, boxes), horizon)
-    margin = gap_rounding(boxes, balls, i)
-    relative = boxes[i] - balls[i]
+    if wall != 0:
+        return _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short)
     velocity = boxes[2 + i] - balls[2 + i]
-    time, crossing, undecided = horizon, False, False
+    if velocity != 0.0:  # as long as it keeps its sign only the wall ahead matters
+        c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], 1.0 if velocity > 0.0 else -1.0)
+        certain, t, width = crossing(c, bound, gap_rounding(boxes, balls, i), horizon, short)
+        if certain:
+            return t, width, False
+    return _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short)
+
+
+@compiled
+def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
+    """module_time of a ball that sticks: its constraint is that the wall pushes it."""
+    c, bound = push(q, mode, jets, i, wall, sine, cosine, horizon)
+    margin = acceleration_rounding(q, boxes)
+    if c[1] < 0.0:
+        certain, t, width = crossing(c, bound, margin, horizon, short)
+        if certain:
+            return t, width, False
+    t, met = _safe_time(c, bound, margin, horizon)
+    return t, (0.0 if met else math.inf), met
+
+
+@compiled
+def _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short):
+    """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
+    margin = gap_rounding(boxes, balls, i)
+    time, width, undecided = horizon, math.inf, False
     for w in (1, -1):
-        higher = (w * d[i], w * d[2 + i], w * d[4 + i])
+        c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], w)
         if w != touching:
-            t, c, u = _time_of(1.0 - w * relative, w * velocity, higher, bound, margin, time)
+            t, met = _safe_time(c, bound, margin, time)
+            doubt = met
         else:
-            if velocity == 0.0 and abs(d[i]) <= acceleration_rounding(q, boxes):
-                higher = (0.0, higher[1], higher[2])
-            t, c = _hop_time(w * velocity, higher, bound, velocity == 0.0, margin, time, short)
-            u = False
+            if c[1] == 0.0 and abs(2.0 * c[2]) <= acceleration_rounding(q, boxes):
+                c = (c[0], c[1], 0.0, c[3], c[4], c[5], c[6], c[7])
+            t, met = _hop_time(c, bound, margin, time, short)
+            doubt = False
         if t < time:
-            time, crossing, undecided = t, c, u
-    return time, crossing, undecided
+            time, width, undecided = t, (0.0 if met else math.inf), doubt
+    return time, width, undecided

@@ -1,86 +1,119 @@
-"""How long a constraint certainly holds: conservative advancement with a bound of fifth order.
+"""How long a constraint certainly holds, and when it certainly ends.
 
-A constraint is a smooth g(t) >= 0 (the gap to a wall, or the contact force of a sticking ball). With its first
-derivatives and a bound on the modulus of the next it stays above a polynomial c0 + c1 t + ... + c5 t^5, and that is
-positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are. Repeated from the safe side, the times T
-converge to the first zero of g and never pass it. A power of t that makes g vanish at the start is divided out before.
+A constraint is a smooth g(t) >= 0 (the gap to a wall, or the contact force of a sticking ball). With its Taylor
+polynomial of degree 6 and a bound on its seventh derivative it stays above a polynomial c (8,), c0 + ... + c7 t^7, and
+that is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are (conservative advancement: repeated
+from the safe side, the times T converge to the first zero of g and never pass it). Where the rate of g certainly keeps
+its sign there is one zero at most, and it may be sought from either side.
 """
 
 import math
 
-from vibroimpact.exact.compiled import compiled
+from vibroimpact.exact.compiled import compiled, inlined
+from vibroimpact.exact.flow import slope, value
 
 
-@compiled
-def _positive(c, t):
-    """Whether a quintic c (6,) is positive on [0, t], by its Bernstein coefficients there (sufficient)."""
-    d1, d2, d3 = c[1] * t, c[2] * t * t, c[3] * t * t * t
-    d4, d5 = c[4] * t**4, c[5] * t**5
-    b1 = c[0] + 0.2 * d1
-    b2 = c[0] + 0.4 * d1 + 0.1 * d2
-    b3 = c[0] + 0.6 * d1 + 0.3 * d2 + 0.1 * d3
-    b4 = c[0] + 0.8 * d1 + 0.6 * d2 + 0.4 * d3 + 0.2 * d4
-    b5 = c[0] + d1 + d2 + d3 + d4 + d5
-    return min(min(min(c[0], b1), min(b2, b3)), min(b4, b5)) > 0.0
+@inlined
+def least(c, t):
+    """A lower bound of the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
+    t2 = t * t
+    t3, t4 = t2 * t, t2 * t2
+    b = (
+        c[0],
+        c[1] * t * (1 / 7),
+        c[2] * t2 * (1 / 21),
+        c[3] * t3 * (1 / 35),
+        c[4] * t4 * (1 / 35),
+        c[5] * (t2 * t3) * (1 / 21),
+        c[6] * (t3 * t3) * (1 / 7),
+        c[7] * (t3 * t4),
+    )
+    low = c[0]
+    for _ in range(7):  # the k-th coefficient is the sum of the first with Pascal's k-th row as weights
+        b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
+        low = min(low, b[0])
+    return low
 
 
 @compiled
 def safe_time(c, horizon):
-    """A time in [0, horizon] up to which the quintic c (6,) is positive, close to its first zero where that is simple.
+    """A time in [0, horizon] up to which the polynomial c (8,) is positive, close to its first zero if that is simple.
 
     0 if c[0] is not positive.
     """
-    if c[0] <= 0.0:
+    if not c[0] > 0.0:
         return 0.0
-    if _positive(c, horizon):
+    if least(c, horizon) > 0.0:
         return horizon
     t = c[0] / max(-c[1], c[0] / horizon)
     for _ in range(3):
-        value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))
-        slope = c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * 5.0 * c[5])))
-        t = min(max(t - value / slope, 0.1 * t), horizon) if slope < 0.0 else 0.5 * t
+        rate = slope(c, t)
+        t = min(max(t - value(c, t) / rate, 0.1 * t), horizon) if rate < 0.0 else 0.5 * t
     t *= 1.0 - 1e-9
-    while not _positive(c, t):
+    while not least(c, t) > 0.0:
         t *= 0.7
     return t
 
 
-@compiled
-def crossing_time(g, v, higher, bound, horizon):
-    """The time of the only zero nearby, to sixth order, if the constraint certainly falls through it; else inf.
+UNCERTAIN = (False, 0.0, math.inf)
+MOST_STEPS = 8
+CONVERGING = 1e-8  # a step of Newton's method so short leaves an error below rounding
 
-    g, v: the constraint and minus its rate; higher: -g'' to -g^(4); bound: on |g^(5)|. With h = 2 |g| / v and a change
-    of slope below v / 2 on [-h, h] there is one zero.
+
+@inlined
+def crossing(c, remainder, margin, horizon, short):
+    """(certain, time, width): where a constraint that falls all the while meets zero, certainly, at time +- width.
+
+    c: its Taylor polynomial (8,), c1 < 0; remainder: bound on its seventh derivative over 5040; margin: rounding of c0.
+    Width inf says that it holds up to time = horizon. A time no longer than short is exact to rounding.
     """
-    a, j, s = higher
-    h = 2.0 * abs(g) / v
-    if h > horizon or h * (abs(a) + h * (abs(j) / 2 + h * (abs(s) / 6 + h * bound / 24))) >= 0.5 * v:
-        return math.inf
-    return nearby_zero(g, v, higher)
+    low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
+    fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
+    if value(low, horizon) > margin and least(fall, horizon) > 0.0:
+        return True, horizon, math.inf
+    root = c[1] * c[1] - 4.0 * c[0] * c[2]
+    t = 2.0 * c[0] / (math.sqrt(root) - c[1]) if root > 0.0 else -c[0] / c[1]
+    for _ in range(2):
+        t -= value(low, t) / slope(low, t)
+    unsure = abs(value(low, t)) + margin + 2.0 * remainder * abs(t) ** 7
+    until = abs(t) - 4.0 * unsure / slope(low, t)
+    if not abs(t) <= until <= horizon:
+        return UNCERTAIN
+    width = unsure / least(fall, until)
+    if not (width > 0.0 and t + width <= until):
+        return UNCERTAIN
+    if abs(t) <= short:
+        t = nearby_zero(c, t)
+        return (True, t, width) if abs(t) <= 2.0 * short else UNCERTAIN
+    return (True, t, width) if width <= 0.5 * t else UNCERTAIN
+
+
+@inlined
+def nearby_zero(c, t):
+    """The zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
+    for _ in range(MOST_STEPS):
+        step = value(c, t) / slope(c, t)
+        t -= step
+        if abs(step) <= CONVERGING:
+            return t
+    return math.nan
 
 
 @compiled
-def nearby_zero(g, v, higher):
-    """The zero of g - v t - a t^2 / 2 - j t^3 / 6 - s t^4 / 24 that Newton's method reaches from t = g / v."""
-    a, j, s = higher
-    t = g / v
-    for _ in range(3):
-        fall = t * (v + t * (a / 2 + t * (j / 6 + t * s / 24)))
-        slope = v + t * (a + t * (j / 2 + t * s / 6))
-        t -= (fall - g) / slope
-    return t
+def return_time(c, remainder, horizon):
+    """The end of a very short hop, c0 = 0 and c1 > 0, to rounding, if it certainly ends so; else inf.
 
-
-@compiled
-def return_time(u, higher, bound, horizon):
-    """The end of a very short hop, g(0) = 0 and g'(0) = u > 0, to fifth order, if it certainly ends so; else inf.
-
-    The zero at the start is divided out, so that the time keeps its relative accuracy however short the hop.
+    c, remainder: as for `crossing`. The zero at the start is divided out, so that the time keeps its relative accuracy
+    however short the hop.
     """
-    a, j, s = higher
-    t = 2.0 * u / a if a > 0.0 else math.inf
-    if t > 0.5 * horizon or t * (abs(j) + t * (abs(s) / 2 + t * bound / 6)) > 0.125 * a:
+    t = -c[1] / c[2] if c[2] < 0.0 else math.inf
+    if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
         return math.inf
-    for _ in range(4):
-        t = u / (a / 2 + t * (j / 6 + t * s / 24))
-    return t
+    return nearby_zero((c[1], c[2], c[3], c[4], c[5], c[6], c[7], 0.0), t)
+
+
+@compiled
+def spread(c, remainder, t):
+    """Bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
+    high = 15.0 * abs(c[6]) + t * 21.0 * remainder
+    return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))

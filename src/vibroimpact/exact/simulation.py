@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from vibroimpact.exact import books
 from vibroimpact.exact import events as kernel
 from vibroimpact.exact.certificate import KNOWN, Certificate
 from vibroimpact.exact.flow import flow_of
@@ -19,7 +20,7 @@ from vibroimpact.system import System
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
 """One event: time, module 1 or 2, wall +1 or -1, kind (IMPACT, STICK, RELEASE), state just after it."""
 
-IMPACT, STICK, RELEASE = kernel.IMPACT, kernel.STICK, kernel.RELEASE
+IMPACT, STICK, RELEASE = books.IMPACT, books.STICK, books.RELEASE
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
 FAILURES = {
@@ -27,6 +28,7 @@ FAILURES = {
     kernel.STALLED: "time stands still",
     kernel.CROWDED: "there are too many events",
 }
+NO_TIMES = np.empty(0)
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 
 
@@ -48,17 +50,15 @@ class Run:
     _rows: np.ndarray = field(repr=False)
 
     @cached_property
-    def _ledger(self):
-        """The books of the run, kept in a second one that is the same step by step, so that the first need not pay."""
-        return _integrate(self.system, self.start, self.cycles, self.tau0, np.empty(0), np.empty((0, 8)), watch=True)[
-            -1
-        ]
+    def _books(self):
+        """Ledger and turns, kept in a second run that is the same step by step, so that the first need not pay."""
+        return _integrate(self.system, self.start, self.cycles, self.tau0, NO_TIMES, np.empty((0, 8)), watch=True)[-2:]
 
     @cached_property
     def _variation(self):
         flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
         duration = self.cycles * self.system.period
-        turns = self._ledger[None, [kernel.CLEARED_BY, kernel.CLEARED]]
+        _, turns = self._books
         phase = _phase(self.system, self.tau0)
         return propagate(flow, self.start, self._rows, self.final, phase, duration, limit, turns)
 
@@ -70,7 +70,7 @@ class Run:
     @cached_property
     def certificate(self) -> Certificate:
         """What the run can vouch for."""
-        return Certificate.of(self._ledger, self._variation, self.tau0)
+        return Certificate.of(*self._books, self._variation, self.tau0)
 
 
 def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times=None) -> Run:
@@ -116,10 +116,9 @@ def simulate_many(system: System, states, cycles: int, tau0: float = 0.0, progre
         except ValueError as error:
             raise ValueError(f"states[{row}]: {error}") from None
     _check_window(cycles, tau0)
-    nothing = np.empty(0)
     flow_of(system)  # built once, before the threads share it
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:  # the kernel releases the interpreter's lock
-        runs = [pool.submit(_run, system, state, int(cycles), tau0, nothing) for state in states]
+        runs = [pool.submit(_run, system, state, int(cycles), tau0, NO_TIMES) for state in states]
         if progress:
             _report(runs)
         return [run.result() for run in runs]
@@ -138,7 +137,7 @@ def _report(runs):
 def _run(system, state, cycles, tau0, times):
     """One run from checked arguments."""
     samples = np.empty((len(times), 8))
-    boxes, balls, rows, status, _ = _integrate(system, state, cycles, tau0, times - tau0, samples, watch=False)
+    boxes, balls, rows, status, *_ = _integrate(system, state, cycles, tau0, times, samples, watch=False)
     if status != kernel.FINISHED:
         what = FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
@@ -147,12 +146,12 @@ def _run(system, state, cycles, tau0, times):
     return Run(system, state, tau0, cycles, _table(rows, tau0), samples, final, rows)
 
 
-def _integrate(system, state, cycles, tau0, offsets, samples, watch):
-    """The kernel's run: boxes, balls, events as rows, status, ledger."""
+def _integrate(system, state, cycles, tau0, times, samples, watch):
+    """The kernel's run: boxes, balls, events as rows, status, ledger, turns."""
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles
     boxes, balls = tuple(state[0::2]), tuple(state[1::2])
     phase = _phase(system, tau0)
-    return kernel.integrate(flow_of(system), boxes, balls, phase, cycles, offsets, samples, most_events, watch)
+    return kernel.integrate(flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events, watch)
 
 
 def _phase(system, tau):
@@ -190,7 +189,9 @@ def _check_window(cycles, tau0):
 
 
 def _checked_times(sample_times, start, end):
-    times = np.array([] if sample_times is None else sample_times, dtype=float)
+    if sample_times is None:
+        return NO_TIMES
+    times = np.array(sample_times, dtype=float)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
         raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
     slack = 1e-9 * (1.0 + abs(end))

@@ -9,15 +9,14 @@ import math
 
 import numpy as np
 
+from vibroimpact.exact.books import IMPACT, RELEASE, STICK
 from vibroimpact.exact.compiled import compiled
-from vibroimpact.exact.events import IMPACT, RELEASE, STICK, mode_of
+from vibroimpact.exact.contact import impact
 from vibroimpact.exact.flow import acceleration, advance, inverse_masses
-from vibroimpact.system.restitution import after_impact
+from vibroimpact.exact.motion import mode_of
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
-
-_impact = compiled(after_impact)
 
 
 @compiled
@@ -25,11 +24,9 @@ def _flight(flow, walls, t, matrix):
     """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
     matrix[:] = 0.0
     for k in range(4):
-        x1, x2 = 1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0
-        v1, v2 = 1.0 if k == 2 else 0.0, 1.0 if k == 3 else 0.0
-        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k], _, _ = advance(
-            flow, mode_of(walls), x1, x2, v1, v2, 0.0, 0.0, t
-        )
+        unit = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0, 1.0 if k == 3 else 0.0)
+        later, _, _ = advance(flow, mode_of(walls), unit, 0.0, 0.0, t)
+        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = later
     for i in range(2):
         if walls[i] != 0:  # the ball goes where its box goes
             matrix[4 + i, :4] = matrix[i, :4]
@@ -56,7 +53,7 @@ def _before_impact(q, i, after):
     """The state (8,) just before an impact in module i (0, 1), from the one after it."""
     box, ball = 2 + i, 6 + i
     before = after.copy()
-    before[box], before[ball] = _impact(q.epsilon, 1.0 / q.kappa, after[box], after[ball])
+    before[box], before[ball] = impact(q.epsilon, 1.0 / q.kappa, after[box], after[ball])
     return before
 
 
@@ -80,8 +77,8 @@ def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     """
     box, ball = 2 + i, 6 + i
     r = np.eye(8)
-    r[box, box], r[ball, box] = _impact(q.epsilon, q.kappa, 1.0, 0.0)
-    r[box, ball], r[ball, ball] = _impact(q.epsilon, q.kappa, 0.0, 1.0)
+    r[box, box], r[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
+    r[box, ball], r[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
     before = _before_impact(q, i, after)
     approach = before[box] - before[ball]
     incoming, outgoing = np.empty(8), np.empty(8)
@@ -133,7 +130,7 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
     """Carry perturbations along a run, given by its start and final (8,) in public order and the events (m, 12)
     of the kernel.
 
-    turns: (n, 2) rows of the time by which a ball has turned before a wall, ascending, and of its gap there.
+    turns: (n, 2) rows of the time at which a ball turned before a wall, flight after flight, and of its gap there.
     Returns the Jacobian (8, 8) of the final state by the first one; the covariance (8, 8) that unit rounding errors in
     the start and after every event leave at the end, infinite past the horizon; that horizon: the time at which the
     square root of the covariance's trace first exceeds the limit (inf if never); the smallest depth that an impact cut

@@ -1,0 +1,25 @@
+"""What a run writes down: its events, one row each, and a ledger of what its certificate needs besides."""
+
+from vibroimpact.exact.compiled import inlined
+
+IMPACT, STICK, RELEASE = 0, 1, 2
+FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = range(6)
+"""Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
+neglect."""
+
+
+@inlined
+def record(events, count, time, i, wall, kind, boxes, balls):
+    """Write an event to its row of the table (m, 12); returns the number of events."""
+    row = events[count]
+    row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
+    pack(boxes, balls, row[4:])
+    return count + 1
+
+
+@inlined
+def pack(boxes, balls, state):
+    """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    for i in range(4):
+        state[2 * i] = boxes[i]
+        state[2 * i + 1] = balls[i]
