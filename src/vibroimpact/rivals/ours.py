@@ -21,9 +21,8 @@ class Engine(Method):
         impacts = np.empty(len(hits), IMPACT)
         for name in ("tau", "module", "wall"):
             impacts[name] = hits[name]
-        box = 2 + 2 * hits["module"].astype(int)
-        rows = np.arange(len(hits))
-        impacts["speed"] = np.abs(hits["state"][rows, box] - hits["state"][rows, box + 1]) / system.kappa
+        one, two = (hits["state"][:, box] - hits["state"][:, box + 1] for box in (4, 6))
+        impacts["speed"] = np.abs(np.where(hits["module"] == 1, one, two)) / system.kappa
         return RivalRun(
             run.final, impacts, len(run.events) + 1, doubt=lambda: _doubt(run, tau0 + cycles * system.period)
         )
