@@ -47,6 +47,11 @@ def test_a_longer_simulation_rebuilds_no_algebra(rebuilt):
     assert not rebuilt.planned("stability", *shorter)
 
 
+def test_results_of_a_version_that_wrote_fewer_files_are_not_taken_as_they_are(rebuilt):
+    (rebuilt / "results/simulations/equal/strobe.csv").unlink()
+    assert "simulation" in rebuilt.planned("figures", "--config", "cases={equal: {simulation: {window_cycles: 5}}}")
+
+
 def test_an_edited_library_module_rebuilds_what_uses_it(rebuilt):
     with open(rebuilt / "src/vibroimpact/exact/simulation.py", "a") as module:
         module.write("\n# edited\n")

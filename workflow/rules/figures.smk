@@ -15,6 +15,7 @@ MODEL_INPUTS = {
     "simulation": ["fixed_points", "samples", "events", "summary"],
 }
 WITHOUT_TABLE = "drawings"
+SIMULATED_CASES = {scene["case"] for scene in config["figures"].values() if scene.get("model") == "simulation"}
 
 # How each figure is made of them; for the record that goes with it.
 NOTEBOOK_METHODS = {
@@ -93,3 +94,5 @@ rule figures:
     input:
         [f"results/notebooks/{figure}.html" for figure in config["figures"]],
         [path for figure, scene in config["figures"].items() for path in figure_outputs(figure, scene).values()],
+        # All outputs of a simulation, read or not: if one of them is missing, Snakemake takes the others as they are.
+        expand(rules.simulation.output, case=sorted(SIMULATED_CASES)),
