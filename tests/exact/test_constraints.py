@@ -32,7 +32,7 @@ def test_derivatives_stay_below_their_bounds(chapter, auditor, damping, state, t
     phase = system.Omega * tau
     sine, cosine = np.sin(phase), np.cos(phase)
     jets = jet(q, mode, tuple(state[[0, 2, 4, 6]]), sine, cosine)
-    boxes = remainder(q, mode, jets, horizon * q.drive * q.omega**6)
+    boxes = remainder(q, mode, jets, horizon * q.growth)
     _, force = push(q, mode, jets, 0, 1, sine, cosine, horizon)
     bounds = {7: math.factorial(7) * boxes, 9: math.factorial(7) * force}
     for t in np.linspace(0.0, horizon, 40):

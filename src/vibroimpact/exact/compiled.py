@@ -1,4 +1,5 @@
-"""How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division.
+"""How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division, a product
+and a sum rounded once where the processor can (no sum is reordered).
 
 What runs at every event is inlined: handing over a motion and its Taylor polynomials (some 30 numbers) would cost more
 than what is computed from them. What runs rarely is not, so that it does not get in the way.
@@ -6,5 +7,5 @@ than what is computed from them. What runs rarely is not, so that it does not ge
 
 from numba import njit
 
-compiled = njit(cache=True, error_model="numpy", nogil=True)
-inlined = njit(cache=True, error_model="numpy", nogil=True, forceinline=True)
+compiled = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"})
+inlined = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"}, forceinline=True)

@@ -58,7 +58,7 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
     fall = -q.omega * q.omega
     start = (2.0 * one[2], 2.0 * two[2], 6.0 * one[3], 6.0 * two[3])
     bent = jet(q, mode, start, fall * sine, fall * cosine)
-    bound = remainder(q, mode, bent, horizon * q.drive * q.omega**8)
+    bound = remainder(q, mode, bent, horizon * q.growth * q.omega**2)
     p = bent[0] if i == 0 else bent[1]
     return (
         wall * p[0],

@@ -83,7 +83,7 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
     jets = jet(q, mode, boxes, sine, cosine)
-    bound = remainder(q, mode, jets, window * q.drive * q.omega**6)
+    bound = remainder(q, mode, jets, window * q.growth)
     p = jets[0] if i == 0 else jets[1]
     if 8.0 * window * spread(p, bound, window) > a:
         return False, 0.0

@@ -59,7 +59,8 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
             flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, ledger, turns, watch
         )
         for i in range(2):
-            if abs(later[i] - there[i]) > 1.0 + 16.0 * gap_rounding(later, there, i):
+            beyond = abs(later[i] - there[i]) - 1.0
+            if beyond > 0.0 and beyond > 16.0 * gap_rounding(later, there, i):
                 return later, there, events[:count], PENETRATED, ledger, _table(turns)
         stalled = 0 if t > 0.0 else stalled + 1
         if stalled > PATIENCE or due == STUCK_IN_TIME:

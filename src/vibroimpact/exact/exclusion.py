@@ -76,7 +76,7 @@ def crossing(c, remainder, margin, horizon, short):
     for _ in range(2):
         t -= value(low, t) / slope(low, t)
     unsure = abs(value(low, t)) + margin + 2.0 * remainder * abs(t) ** 7
-    until = abs(t) - 4.0 * unsure / slope(low, t)
+    until = 1.125 * abs(t) - 8.0 * margin / c[1]
     if not abs(t) <= until <= horizon:
         return UNCERTAIN
     width = unsure / least(fall, until)
@@ -91,6 +91,9 @@ def crossing(c, remainder, margin, horizon, short):
 @inlined
 def nearby_zero(c, t):
     """The zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
+    near = -c[0] / c[1]
+    if abs(near * c[2]) < 0.05 * abs(c[1]):
+        t = near - near * near * c[2] / c[1]
     for _ in range(MOST_STEPS):
         step = value(c, t) / slope(c, t)
         t -= step

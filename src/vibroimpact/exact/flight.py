@@ -43,7 +43,7 @@ def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, l
         ledger[EVALUATIONS] += 1
         jets = jet(q, mode, now, s, c)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
-        bound = remainder(q, mode, jets, horizon * q.drive * q.omega**6)
+        bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _next(q, mode, now, there, jets, walls, touching, bound, s, c, horizon, short)
         met, later, end = due >= 0 and abs(step) <= short, now, t + step
         if met:
@@ -112,7 +112,7 @@ def _sooner(boxes, balls):
 def _aim(flow, mode, boxes, balls, walls, sine, cosine, i, t, low, high):
     """The impact of module i that is certain to be alone in [low, high]: (whether found, its time, boxes)."""
     for _ in range(TRIES):
-        j = int(t / flow.spacing + 0.5)
+        j = int(t * flow.density + 0.5)
         now, s, c = node(flow, mode, boxes, sine, cosine, j)
         jets = jet(flow.coefficients, mode, now, s, c)
         there = carry(balls, walls, now, j * flow.spacing)

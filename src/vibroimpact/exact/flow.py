@@ -22,7 +22,10 @@ LONGEST_TABLE = 8192
 
 
 class Coefficients(NamedTuple):
-    """The scalars of (10.2) as the compiled loops read them; drive: |(f1, f2)|; mass: that of box and ball together."""
+    """The scalars of (10.2) as the compiled loops read them.
+
+    drive: |(f1, f2)|; growth: that of the sixth derivative of the force; mass: that of box and ball together.
+    """
 
     k11: float
     k12: float
@@ -36,12 +39,14 @@ class Coefficients(NamedTuple):
     epsilon: float
     kappa: float
     drive: float
+    growth: float
     mass: float
     inverse_mass: float
 
 
 class Flow(NamedTuple):
-    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing and longest time.
+    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing (and its inverse),
+    their longest time.
 
     unit: a time over which nothing in the system changes much, 1 / its fastest rate.
     """
@@ -50,6 +55,7 @@ class Flow(NamedTuple):
     propagators: np.ndarray
     rotations: np.ndarray
     spacing: float
+    density: float
     longest: float
     unit: float
 
@@ -67,6 +73,7 @@ def flow_of(system) -> Flow:
         system.epsilon,
         system.kappa,
         float(np.hypot(*force)),
+        float(np.hypot(*force)) * system.Omega**6,
         1.0 + system.epsilon,
         1.0 / (1.0 + system.epsilon),
     )
@@ -81,6 +88,7 @@ def flow_of(system) -> Flow:
         np.ascontiguousarray(propagators[:, :, :4, :]),
         rotations,
         spacing,
+        1.0 / spacing,
         spacing * (count - 1),
         1.0 / fastest,
     )
@@ -180,7 +188,7 @@ def node(flow, mode, boxes, sine, cosine, j):
 @compiled
 def advance(flow, mode, boxes, sine, cosine, t):
     """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
-    j = int(t / flow.spacing + 0.5)
+    j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     there, s, c = node(flow, mode, boxes, sine, cosine, j)
     angle = flow.coefficients.omega * r

@@ -149,7 +149,8 @@ def _run(system, state, cycles, tau0, times):
 def _integrate(system, state, cycles, tau0, times, samples, watch):
     """The kernel's run: boxes, balls, events as rows, status, ledger, turns."""
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles
-    boxes, balls = tuple(state[0::2]), tuple(state[1::2])
+    values = state.tolist()
+    boxes, balls = tuple(values[0::2]), tuple(values[1::2])
     phase = _phase(system, tau0)
     return kernel.integrate(flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events, watch)
 
@@ -174,8 +175,9 @@ def _checked_state(state):
     state = np.array(state, dtype=float)
     if state.shape != (8,) or not np.isfinite(state).all():
         raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {state.tolist()}")
-    for module, relative in enumerate((state[0] - state[1], state[2] - state[3]), start=1):
-        if abs(relative) > 1.0 + 1e-12 * (1.0 + abs(state[2 * module - 2])):
+    x1, y1, x2, y2 = state[:4].tolist()
+    for module, box, relative in ((1, x1, x1 - y1), (2, x2, x2 - y2)):
+        if abs(relative) > 1.0 + 1e-12 * (1.0 + abs(box)):
             raise ValueError(f"state: |X{module} - Y{module}| = {abs(relative)} is above 1, the ball is beyond a wall")
     return state
 

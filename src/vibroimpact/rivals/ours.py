@@ -17,15 +17,17 @@ class Engine(Method):
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
             return failed(REFUSED, str(error), 0)
-        hits = run.events[run.events["kind"] == IMPACT_KIND]
-        impacts = np.empty(len(hits), IMPACT)
+        events = run.events
+        impacts = np.empty(len(events), IMPACT)
         for name in ("tau", "module", "wall"):
-            impacts[name] = hits[name]
-        one, two = (hits["state"][:, box] - hits["state"][:, box + 1] for box in (4, 6))
-        impacts["speed"] = np.abs(np.where(hits["module"] == 1, one, two)) / system.kappa
-        return RivalRun(
-            run.final, impacts, len(run.events) + 1, doubt=lambda: _doubt(run, tau0 + cycles * system.period)
+            impacts[name] = events[name]
+        velocities = events["state"][:, 4:]
+        rebound = np.where(
+            events["module"] == 1, velocities[:, 0] - velocities[:, 1], velocities[:, 2] - velocities[:, 3]
         )
+        impacts["speed"] = np.abs(rebound) / system.kappa
+        impacts = impacts[events["kind"] == IMPACT_KIND]
+        return RivalRun(run.final, impacts, len(events) + 1, doubt=lambda: _doubt(run, tau0 + cycles * system.period))
 
 
 def _doubt(run, end):
