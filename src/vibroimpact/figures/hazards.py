@@ -36,7 +36,9 @@ def draw(table: pd.DataFrame) -> Figure:
         x, y = methods.index(row.method), hazards.index((row.group, row.hazard))
         axes.add_patch(Rectangle((x, y), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.0))
         axes.text(x + 0.04, y + 0.5, mark, fontsize=7, va="center", family="DejaVu Sans")
-        axes.text(x + 0.95, y + 0.5, _number(row), fontsize=5.2, va="center", ha="right", color="0.25")
+        number = _number(row)
+        size = 5.2 * min(1.0, 11 / max(len(number), 1))  # so that the longest stays clear of the mark
+        axes.text(x + 0.95, y + 0.5, number, fontsize=size, va="center", ha="right", color="0.25")
     for x, method in enumerate(methods):
         axes.text(x + 0.4, -0.3, method, rotation=35, rotation_mode="anchor", ha="left", va="bottom", fontsize=8)
     for y, (group, hazard) in enumerate(hazards):
