@@ -7,6 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.exact.simulation import STICK
 
 UNCOUPLED = dict(alpha12_hat=0.0, gamma12_hat=0.0)
 REST = {
@@ -80,3 +81,37 @@ def test_the_error_includes_the_rounding_of_the_final_state():
 def test_cycles_that_are_no_number_of_cycles(chapter, cycles):
     with pytest.raises(ValueError, match=r"cycles: .* is not a whole number"):
         vi.simulate(chapter(), np.zeros(8), cycles)
+
+
+SYMMETRIC = {
+    # both chatters end at once: changes, forces, cycles, start
+    "in phase": (
+        dict(epsilon=0.8927, kappa=0.8101, alpha12_hat=2.678, gamma12_hat=1.7393, sigma_e_hat=0.6698),
+        (0.8381, -0.1113, -0.1113),
+        3,
+        [0.388, -0.611999999, 0.388, -0.611999999, -0.529, -0.52901, -0.529, -0.52901],
+    ),
+    "in antiphase": (
+        dict(epsilon=0.0917, kappa=0.9442, alpha12_hat=0.8535, gamma12_hat=1.0418, sigma_e_hat=46.3728),
+        (0.68, 1.9352, -1.9352),
+        8,
+        [-0.2794, -1.27939999999, 0.2794, 1.27939999999, 0.6108, 0.6098, -0.6108, -0.6098],
+    ),
+}
+
+
+@pytest.mark.parametrize(("changes", "numbers", "cycles", "start"), SYMMETRIC.values(), ids=SYMMETRIC)
+def test_chatters_of_symmetric_modules_that_end_at_once(chapter, changes, numbers, cycles, start):
+    damping, *forces = numbers
+    system = chapter(*forces, **changes, gamma1_hat=damping, gamma2_hat=damping, sigma20_hat=0.0)
+    run, truth = vi.simulate(system, start, cycles), reference_run(system, start, cycles, 40)
+    np.testing.assert_allclose(run.final, truth.final, rtol=0, atol=1e-13)
+    assert run.certificate.decided
+    for module in (1, 2):
+        sticks, true_sticks = (
+            [event["tau"] for event in events if event["module"] == module and event["kind"] == STICK]
+            for events in (run.events, truth.events)
+        )
+        early = np.array(true_sticks) - sticks  # see docs/engine.md, coincident events
+        assert early.min() > -1e-9
+        assert early.max() < 2e-5

@@ -83,8 +83,8 @@ def crossing(c, remainder, margin, horizon, short):
     if not (width > 0.0 and t + width <= until):
         return UNCERTAIN
     if abs(t) <= short:
-        t = nearby_zero(c, t)
-        return (True, t, width) if abs(t) <= 2.0 * short else UNCERTAIN
+        zero = nearby_zero(c, t)
+        return (True, zero, width) if abs(zero - t) <= width else UNCERTAIN
     return (True, t, width) if width <= 0.5 * t else UNCERTAIN
 
 

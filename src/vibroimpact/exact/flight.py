@@ -45,10 +45,10 @@ def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, l
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _next(q, mode, now, there, jets, walls, touching, bound, s, c, horizon, short)
+        step = max(step, -t)  # an event that was just passed is not before the flight
         met, later, end = due >= 0 and abs(step) <= short, now, t + step
         if met:
             ledger[UNDECIDED] += doubt
-            end = max(end, 0.0)
             later = along(jets, step)
         elif due >= 0 and walls[due] == 0 and end + width + short < reach:
             met, end, later = _aim(flow, mode, boxes, balls, walls, sine, cosine, due, end, end - width, end + width)
