@@ -10,9 +10,7 @@ from vibroimpact.accuracy.horizon import departure
 from vibroimpact.accuracy.reference import proven_run
 from vibroimpact.figures import companion_horizon
 
-WEAK = vi.System(
-    **PARAMETERS, f10_hat=0.5, f20_hat=0.5,
-)  # fmt: skip
+WEAK = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
 START = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
 CYCLES = 60
 

@@ -11,9 +11,9 @@ import pytest
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from checking import assert_caught, build
+from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference import proven_run
 from vibroimpact.checks import figure_check
-from vibroimpact.exact.orbits import orbits
 from vibroimpact.figures import (
     basins,
     branches,
@@ -25,8 +25,6 @@ from vibroimpact.figures import (
     modulation,
     regime_map,
 )
-from vibroimpact.figures.companion_verdicts import fixed_point_rows, orbit_rows
-from vibroimpact.theory.labels import labels
 
 LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -39,15 +37,6 @@ BRANCHES = {
     "attractors": {"values": 15, "starts": 5, "seed": 1},
     "observation": OBSERVATION,
 }
-
-
-def verdicts_of(systems):
-    exact = {case: orbit_rows(case, orbits(system)) for case, system in systems.items()}
-    points = []
-    for case, system in systems.items():
-        listed = vi.fixed_points(system)
-        points.append(fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), exact[case]))
-    return pd.concat(points, ignore_index=True), pd.concat(exact.values(), ignore_index=True)
 
 
 @lru_cache

@@ -1,6 +1,5 @@
 """The recipes of docs/howto_*.md, followed step by step in a copy of the project."""
 
-import importlib.util
 import json
 import os
 import re
@@ -12,12 +11,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-ROOT = Path(__file__).parents[2]
-RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
+from pipeline_trees import ROOT, copied
 
-_spec = importlib.util.spec_from_file_location("pipeline_trees", ROOT / "tests/workflow/conftest.py")
-_trees = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(_trees)
+RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
 
 BLOCK = r"\s+```\w*\n(.*?)```"
 STEPS = re.compile(
@@ -33,7 +29,7 @@ STEPS = re.compile(
 @pytest.fixture
 def project(tmp_path):
     """A copy of the project with its tests, which uses its own library."""
-    tree = _trees.copied(ROOT, tmp_path / "project")
+    tree = copied(ROOT, tmp_path / "project")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
     return tree
 

@@ -10,27 +10,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from verdict_tables import verdicts_of
 from vibroimpact.exact.orbits import half_period_multipliers, orbits
 from vibroimpact.exact.symmetric import symmetric_solutions
 from vibroimpact.figures import companion_10_04, companion_10_05, companion_stability
 from vibroimpact.figures.companion_verdicts import CRITERIA, NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.figures.tables import read, select, write
-from vibroimpact.theory.labels import labels
 
-CHAPTER = dict(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-)
-SYSTEMS = {
-    name: vi.System(**CHAPTER, f10_hat=f1, f20_hat=f2)
-    for name, (f1, f2) in {"equal": (1, 1), "unequal": (1, 0.89), "weak": (0.5, 0.5)}.items()
-}
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 RHO = 14 / (33 * np.pi)
 FOLD, PRINTED, BREAKING = 1 / (1 + RHO**2), 3.3 / 3.65, np.pi**2 / (np.pi**2 - 4)
 COMPANIONS = ["companion_10_04", "companion_10_05", "companion_stability"]
@@ -38,12 +26,7 @@ COMPANIONS = ["companion_10_04", "companion_10_05", "companion_stability"]
 
 @pytest.fixture(scope="module")
 def verdict_tables():
-    exact = {case: orbit_rows(case, orbits(system)) for case, system in SYSTEMS.items()}
-    points = []
-    for case, system in SYSTEMS.items():
-        listed = vi.fixed_points(system)
-        points.append(fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), exact[case]))
-    return pd.concat(points, ignore_index=True), pd.concat(exact.values(), ignore_index=True)
+    return verdicts_of(SYSTEMS)
 
 
 @pytest.fixture(scope="module")

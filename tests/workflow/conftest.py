@@ -1,89 +1,10 @@
-"""A copy of the project to build in, and the same copy built once for all tests."""
+"""Copies of the project that a test may change."""
 
-import fcntl
-import os
 import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-NOT_COPIED = shutil.ignore_patterns(
-    ".git", ".venv", ".cache", ".snakemake", "results", "__pycache__", ".*_cache", ".hypothesis", "*.egg-info", "tests"
-)
-SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), "--cores", "2"]
-
-
-class Tree:
-    """A directory with everything that a build needs."""
-
-    def __init__(self, path: Path):
-        self.path = path
-
-    def __truediv__(self, name):
-        return self.path / name
-
-    def snakemake(self, *arguments, check=True, **environment) -> str:
-        """Output of one Snakemake call."""
-        run = subprocess.run(
-            [*SNAKEMAKE, *arguments],
-            cwd=self.path,
-            env={**os.environ, **environment},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        assert not check or run.returncode == 0, run.stdout
-        self.returncode = run.returncode
-        return run.stdout
-
-    def start(self, *arguments) -> subprocess.Popen:
-        """A Snakemake call in the background, in a process group of its own."""
-        return subprocess.Popen(
-            [*SNAKEMAKE, *arguments],
-            cwd=self.path,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
-
-    def planned(self, *arguments) -> set[str]:
-        """Rules that a build with the library of the tree would run, but for the targets that only gather."""
-        output = self.snakemake(*arguments, "--dry-run", "--quiet", "host", PYTHONPATH=str(self.path / "src"))
-        rules = {
-            line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
-        }
-        return rules - {"all", "figures", "stability", "companions"}
-
-    def edit(self, name, old, new):
-        """Replace a text that must be there in a file of the tree."""
-        text = (self / name).read_text(encoding="utf-8")
-        assert old in text
-        (self / name).write_text(text.replace(old, new), encoding="utf-8")
-
-
-def copied(source: Path, path: Path) -> Tree:
-    shutil.copytree(source, path, symlinks=True, ignore=NOT_COPIED)
-    return Tree(path)
-
-
-@pytest.fixture(scope="session")
-def built(tmp_path_factory) -> Tree:
-    """The project after a build, the same for all test processes. Read it, do not change it."""
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        shared = shared.parent
-    with open(shared / "built.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (shared / "built").exists():
-            copied(ROOT, shared / "built")
-        tree = Tree(shared / "built")
-        tree.snakemake()
-    return tree
+from pipeline_trees import ROOT, Tree, copied
 
 
 @pytest.fixture
