@@ -3,7 +3,7 @@ CORES ?= 2
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 
-.PHONY: help figures check-figures accept report check-bytes benchmark test lock clean set-up
+.PHONY: help figures check-figures accept report check-bytes benchmark test explore lock clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -34,6 +34,11 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 	.venv/bin/ruff format --check
 	.venv/bin/lint-imports
 	.venv/bin/pytest --numprocesses 2 --dist worksteal
+
+explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
+	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \
+	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
+		|| { echo "The same examples again: $$again"; exit 1; }
 
 lock:  ## pin every package anew into environment.lock (needs uv)
 	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \

@@ -1,9 +1,11 @@
-"""Compiled code for the tests, kept in the checkout apart for each state of its sources; the project, built once."""
+"""The same examples in every run; compiled code kept apart for each state of its sources; the project, built once."""
 
 import os
 import sys
 
 import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from pipeline_trees import ROOT, Tree, copied, made_once
 
@@ -14,6 +16,13 @@ from vibroimpact.checks.sources import Sources
 
 settle(ROOT, Sources())
 os.environ.pop("PYTHONPATH", None)
+
+UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("same", derandomize=True, **UNTIMED)
+settings.register_profile("explore", print_blob=True, **UNTIMED)
+settings.load_profile("same")
+# Hypothesis mixes constants of all modules loaded so far into its examples, which then depend on the order of the tests.
+providers._get_local_constants = providers.Constants
 
 
 @pytest.fixture(scope="session")

@@ -13,9 +13,7 @@ from vibroimpact.exact.flow import CONTACT_STATES, flow_of, jet
 unit = st.floats(-1, 1)
 
 
-@settings(
-    max_examples=100, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     state=st.tuples(*[unit] * 8), tau=st.floats(0, 6), horizon=st.floats(0.01, 2),
     forces=st.tuples(unit, unit), size=st.floats(0.01, 10), mode=st.integers(0, 3),

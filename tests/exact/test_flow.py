@@ -71,7 +71,7 @@ def test_least_is_a_lower_bound_and_sharp_at_the_ends(c, t):
     assert least(falling, t) == pytest.approx(np.polyval(falling[::-1], t), rel=1e-12)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(c=polynomials, horizon=st.floats(0.01, 3))
 def test_safe_time_is_safe_and_reaches_far(c, horizon):
     """Positive up to the time returned (numpy's roots), and near the first zero or the horizon."""
@@ -98,7 +98,7 @@ def test_safe_times_converge_to_a_crossing_and_never_pass_it():
     assert now == pytest.approx(crossing_at, abs=1e-8)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(
     c=polynomials,
     fall=st.floats(0.05, 2),

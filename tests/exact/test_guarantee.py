@@ -58,7 +58,7 @@ def assert_same_motion(system, start):
     assert np.abs(times[:, 0] - times[:, 1]).max(initial=0.0) <= 1e-6
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(
     system=systems,
     boxes=st.tuples(*[decimals(-1, 1)] * 4),
@@ -71,7 +71,7 @@ def test_random_systems(system, boxes, gaps, speeds):
     assert_same_motion(system, start)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(
     system=systems,
     walls=st.tuples(st.sampled_from([1, -1]), st.sampled_from([1, -1])),
@@ -87,7 +87,7 @@ def test_starts_next_to_a_wall_almost_at_rest(system, walls, clearance, boxes, s
     assert_same_motion(system, [x1, y[0], x2, y[1], v1, u[0], v2, u[1]])
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(
     system=systems,
     walls=st.tuples(st.sampled_from([1, -1]), st.sampled_from([1, -1, 0])),

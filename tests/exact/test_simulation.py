@@ -185,7 +185,7 @@ def test_undamped_resonance_while_a_ball_sticks(chapter, auditor):
     auditor(system).audit(run, start, 0.0, 3)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     epsilon=st.floats(0.005, 1.0),
     kappa=st.floats(0.05, 0.95),

@@ -1,6 +1,7 @@
 """Copies of the project to build in, and what is made once for all test processes."""
 
 import fcntl
+import multiprocessing
 import os
 import shutil
 import subprocess
@@ -12,7 +13,11 @@ ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "__pycache__", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
-SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), "--cores", "2"]
+CORES = ["--cores", "2"]
+SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
+FORKS = multiprocessing.get_context("forkserver")
+FORKS.set_forkserver_preload(["snakemake.cli"])
+"""Processes that have imported Snakemake, which takes it as long as a dry run of this project."""
 
 
 class Tree:
@@ -50,9 +55,20 @@ class Tree:
             start_new_session=True,
         )
 
+    def dry_run(self, *arguments) -> str:
+        """Output of one Snakemake call that builds nothing, with the library of the tree."""
+        output = self.path / ".cache/dry_run.txt"
+        output.parent.mkdir(exist_ok=True)
+        process = FORKS.Process(target=_dry_run, args=(self.path, output, arguments))
+        process.start()
+        process.join()
+        self.returncode = process.exitcode
+        return output.read_text(encoding="utf-8")
+
     def planned(self, *arguments) -> set[str]:
-        """Rules that a build with the library of the tree would run, but for the targets that only gather."""
-        output = self.snakemake(*arguments, "--dry-run", "--quiet", "host", PYTHONPATH=str(self.path / "src"))
+        """Rules that a build would run, but for the targets that only gather."""
+        output = self.dry_run(*arguments, "--quiet", "host")
+        assert self.returncode == 0, output
         rules = {
             line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
         }
@@ -70,15 +86,29 @@ def copied(source: Path, path: Path) -> Tree:
     return Tree(path)
 
 
+def _dry_run(tree, output, arguments):
+    os.chdir(tree)
+    with open(output, "w", encoding="utf-8") as file:
+        for stream in (sys.stdout, sys.stderr):
+            os.dup2(file.fileno(), stream.fileno())
+    sys.path.insert(0, str(tree / "src"))
+    sys.argv = ["snakemake", *CORES, "--dry-run", *arguments]
+    from snakemake.cli import main
+
+    main()
+
+
 def made_once(tmp_path_factory, name: str, copy: Callable[[Path], object], *targets) -> Tree:
     """A tree that is copied and built by the first test process to ask for it. Read it, do not change it."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
+    tree, made = Tree(shared / name), shared / f"{name}.made"
     with open(shared / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (shared / name).exists():
-            copy(shared / name)
-        tree = Tree(shared / name)
-        tree.snakemake(*targets)
+        if not made.exists():
+            shutil.rmtree(tree.path, ignore_errors=True)
+            copy(tree.path)
+            tree.snakemake(*targets)
+            made.touch()
     return tree

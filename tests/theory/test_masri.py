@@ -145,7 +145,7 @@ class Ball:
         return np.array(found)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(kappas, st.floats(0.3, 2.5))
 def test_multipliers_are_those_of_a_cycle_between_walls(kappa, C):
     """Both impacts of a cycle, nothing mirrored, in 40 digits; finite differences."""

@@ -30,7 +30,7 @@ def excursion(C, kappa):
     return max(-best.fun, np.abs(W(t, C, kappa)).max()) - 1
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(kappas, st.floats(-1, 12))
 def test_within_the_walls_exactly_up_to_the_largest_C(kappa, C):
     limit = penetration.largest_C(kappa)

@@ -63,7 +63,7 @@ def test_slow_flow_is_the_sign_of_the_jacobian_s_eigenvalues(name):
         assert verdicts.fixed_point_error(system, point) < 1e-11
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.sampled_from(list(CASES)), st.integers(0, 2), st.integers(0, 2**32 - 1))
 def test_eigenvalues_stay_within_their_error(name, k, seed):
     """psi and C shifted at random by at most the error."""

@@ -7,7 +7,7 @@ SHOULD_BE_SILENT = ("Traceback", "rule ", "Job stats")
 
 def refused(tree, *arguments):
     """The lines that Snakemake prints about a bad config, after those on its profile and config."""
-    output = tree.snakemake("--dry-run", *arguments, check=False)
+    output = tree.dry_run(*arguments)
     assert tree.returncode != 0
     assert not [word for word in SHOULD_BE_SILENT if word in output], output
     return [line for line in output.splitlines() if line.startswith(("config/config.yaml: ", "--config: "))]

@@ -7,6 +7,7 @@ library; content is compared, never a date, so a file that was only touched has 
 import ast
 import hashlib
 import json
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -103,11 +104,13 @@ def _code(file):
     return "\n".join(text if kind == "code" else repr(text) for text, kind in texts)
 
 
-def _imports(code):
+@cache
+def _imports(code) -> frozenset[str]:
     """Names of all modules that a Python text may import: for `from a import b` both a and a.b."""
+    names = set()
     for node in ast.walk(ast.parse(code)):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
-            yield node.module
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return frozenset(names)
