@@ -21,7 +21,7 @@ UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("same", derandomize=True, **UNTIMED)
 settings.register_profile("explore", print_blob=True, **UNTIMED)
 settings.load_profile("same")
-# Hypothesis mixes constants of all modules loaded so far into its examples, which then depend on the order of the tests.
+# Hypothesis mixes constants of the modules loaded so far into its examples, which then depend on the order of tests.
 providers._get_local_constants = providers.Constants
 
 

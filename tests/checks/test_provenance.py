@@ -58,12 +58,12 @@ def test_same_figure_and_record_same_bytes(figures, tmp_path):
         "    style.save(module.draw(tables.read(source / f'{name}.csv')), outputs, record)"
     )
     made = []
-    for seed in ("0", "1", "2"):
+    for seed in ("0", "1"):
         (tmp_path / seed).mkdir()
         arguments = [sys.executable, "-c", code, str(tmp_path), str(tmp_path / seed), json.dumps(AWKWARD)]
         subprocess.run(arguments, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
         made.append({path.name: digest(path) for path in (tmp_path / seed).iterdir()})
-    assert made[0] == made[1] == made[2]
+    assert made[0] == made[1]
     assert len(made[0]) == 8
 
 

@@ -10,9 +10,11 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from numba.core.caching import _CacheLocator
 
 from pipeline_trees import ROOT, copied
 
+COMPILED = ".cache/numba"
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
 
 BLOCK = r"\s+```\w*\n(.*?)```"
@@ -31,7 +33,16 @@ def project(tmp_path):
     """A copy of the project with its tests, which uses its own library."""
     tree = copied(ROOT, tmp_path / "project")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
+    for source in (ROOT / "src/vibroimpact").glob("*/__init__.py"):
+        compiled = compiled_code(os.environ["NUMBA_CACHE_DIR"], source)
+        if compiled.exists():
+            shutil.copytree(compiled, compiled_code(tree / COMPILED, tree / source.relative_to(ROOT)))
     return tree
+
+
+def compiled_code(cache, source) -> Path:
+    """Where Numba keeps what it compiles of the package of a source, good for every copy with the same content."""
+    return Path(cache, _CacheLocator.get_suitable_cache_subpath(str(source)))
 
 
 def follow(recipe: str, project) -> list[str]:
@@ -61,7 +72,8 @@ def follow(recipe: str, project) -> list[str]:
 def run(command: str, project) -> str:
     """Run a command of a recipe as a reader would, with the environment of these tests active."""
     paths = {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": str(project / "src")}
-    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST", "NUMBA"))}
+    paths |= {"NUMBA_CACHE_DIR": str(project / COMPILED)}
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     done = subprocess.run(
         ["bash", "-ec", command],
         cwd=project.path,

@@ -1,4 +1,4 @@
-"""Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour, files."""
+"""Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour."""
 
 import matplotlib.colors
 import numpy as np
@@ -9,7 +9,6 @@ from matplotlib.lines import Line2D
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
-from vibroimpact.figures.style import save
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -65,10 +64,7 @@ def test_nothing_is_told_by_colour(figures, name):
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_files_are_written(figures, tables, name, tmp_path):
-    outputs = {kind: tmp_path / f"{name}.{kind}" for kind in ("png", "pdf", "svg")}
-    save(figures[name], outputs)
-    assert all(path.stat().st_size > 1000 for path in outputs.values())
+def test_tables_are_tidy(tables, name):
     assert {"panel", "series"} <= set(tables[name]["csv"])
 
 

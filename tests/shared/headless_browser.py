@@ -62,7 +62,7 @@ class Browser:
     def close(self):
         self._session = None
         self.call("Browser.close")
-        self._process.wait(timeout=20)
+        self._process.wait()
         self._reader.close()
         os.close(self._out)
 
