@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import vibroimpact
+from pipeline_trees import run_module
 from vibroimpact.checks import provenance
 from vibroimpact.checks.sources import Sources
 from vibroimpact.figures import style, tables
@@ -96,15 +97,7 @@ def tree(figures, tmp_path):
 
 def ask(tree, *arguments, file="results/figures/fig10_04.png"):
     """Exit status and output of the command, with the library of the tree."""
-    run = subprocess.run(
-        [sys.executable, "-m", "vibroimpact.checks.provenance", file, *arguments],
-        cwd=tree,
-        env={**os.environ, "PYTHONPATH": str(tree / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return run.returncode, run.stdout + run.stderr
+    return run_module(tree, "vibroimpact.checks.provenance", file, *arguments)
 
 
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])

@@ -3,9 +3,11 @@
 import fcntl
 import multiprocessing
 import os
+import runpy
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,8 +18,8 @@ NOT_COPIED = shutil.ignore_patterns(
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
-FORKS.set_forkserver_preload(["snakemake.cli"])
-"""Processes that have imported Snakemake, which takes it as long as a dry run of this project."""
+FORKS.set_forkserver_preload(["snakemake.cli", "matplotlib.figure", "matplotlib.style", "grimp"])
+"""Processes that have imported these already: most of what commands of a second spend their time on."""
 
 
 class Tree:
@@ -57,13 +59,8 @@ class Tree:
 
     def dry_run(self, *arguments) -> str:
         """Output of one Snakemake call that builds nothing, with the library of the tree."""
-        output = self.path / ".cache/dry_run.txt"
-        output.parent.mkdir(exist_ok=True)
-        process = FORKS.Process(target=_dry_run, args=(self.path, output, arguments))
-        process.start()
-        process.join()
-        self.returncode = process.exitcode
-        return output.read_text(encoding="utf-8")
+        self.returncode, output = run_module(self.path, "snakemake", *CORES, "--dry-run", *arguments)
+        return output
 
     def planned(self, *arguments) -> set[str]:
         """Rules that a build would run, but for the targets that only gather."""
@@ -86,16 +83,23 @@ def copied(source: Path, path: Path) -> Tree:
     return Tree(path)
 
 
-def _dry_run(tree, output, arguments):
+def run_module(tree: Path, module: str, *arguments: str) -> tuple[int, str]:
+    """Exit status and output of `python -m module` in a tree, with the library of the tree."""
+    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        process = FORKS.Process(target=_run_module, args=(tree, output.name, module, arguments))
+        process.start()
+        process.join()
+        return process.exitcode, output.read()
+
+
+def _run_module(tree, output, module, arguments):
     os.chdir(tree)
     with open(output, "w", encoding="utf-8") as file:
         for stream in (sys.stdout, sys.stderr):
             os.dup2(file.fileno(), stream.fileno())
     sys.path.insert(0, str(tree / "src"))
-    sys.argv = ["snakemake", *CORES, "--dry-run", *arguments]
-    from snakemake.cli import main
-
-    main()
+    sys.argv[1:] = arguments
+    runpy.run_module(module, run_name="__main__", alter_sys=True)
 
 
 def made_once(tmp_path_factory, name: str, copy: Callable[[Path], object], *targets) -> Tree:

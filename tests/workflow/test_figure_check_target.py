@@ -1,12 +1,10 @@
 """The target figure_check and the command for provenance, on a real build."""
 
 import json
-import os
-import subprocess
-import sys
 
 import pytest
 
+from pipeline_trees import run_module
 from vibroimpact.checks.provenance import embedded
 
 COMPANIONS = ["10_04", "10_05", "stability", "horizon", "branches", "regime_map", "modulation", "basins", "epsilon"]
@@ -82,13 +80,6 @@ def test_every_figure_tells_where_it_comes_from_and_matches_its_tree(built):
     files += ["companion_horizon.svg", "companion_stability.pdf", "companion_regime_map.csv"]
     files += ["../accuracy/work_precision.png", "../accuracy/hazards.svg"]
     for file in files:
-        run = subprocess.run(
-            [sys.executable, "-m", "vibroimpact.checks.provenance", f"results/figures/{file}"],
-            cwd=built.path,
-            env={**os.environ, "PYTHONPATH": str(built / "src")},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert run.returncode == 0, run.stdout + run.stderr
-        assert "The file matches the tree." in run.stdout
+        status, said = run_module(built.path, "vibroimpact.checks.provenance", f"results/figures/{file}")
+        assert status == 0, said
+        assert "The file matches the tree." in said
