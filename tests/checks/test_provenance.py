@@ -54,8 +54,9 @@ def test_same_figure_and_record_same_bytes(figures, tmp_path):
         "import json, sys\nfrom pathlib import Path\n"
         "from vibroimpact.figures import fig10_06, fig10_08, style, tables\n"
         "source, target, record = Path(sys.argv[1]), sys.argv[2], json.loads(sys.argv[3])\n"
-        "for name, module in (('fig10_08', fig10_08), ('fig10_09', fig10_06)):\n"
-        "    outputs = {kind: f'{target}/{name}.{kind}' for kind in ('png', 'pdf', 'svg', 'artists')}\n"
+        "kinds = ['pdf', 'svg', 'artists']\n"
+        "for name, module, kinds in (('fig10_08', fig10_08, ['png', *kinds]), ('fig10_09', fig10_06, kinds)):\n"
+        "    outputs = {kind: f'{target}/{name}.{kind}' for kind in kinds}\n"
         "    style.save(module.draw(tables.read(source / f'{name}.csv')), outputs, record)"
     )
     made = []
@@ -65,7 +66,7 @@ def test_same_figure_and_record_same_bytes(figures, tmp_path):
         subprocess.run(arguments, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
         made.append({path.name: digest(path) for path in (tmp_path / seed).iterdir()})
     assert made[0] == made[1]
-    assert len(made[0]) == 8
+    assert len(made[0]) == 7
 
 
 @pytest.fixture
