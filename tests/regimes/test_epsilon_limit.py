@@ -38,5 +38,5 @@ def test_every_multiplier_is_paired_once(chapter):
     system = chapter(epsilon=0.01)
     for point in vi.fixed_points(system):
         found = compare(system, point)
-        orbit = min((o for o in vi.orbits(system) if o.symmetric), key=lambda o: abs(o.C[:, 0] - point.C).max())
+        orbit = min((o for o in vi.orbits(system) if o.symmetric), key=lambda o: abs(o.C - point.C).max())
         np.testing.assert_allclose(np.sort_complex(found.multipliers), np.sort_complex(orbit.multipliers), rtol=1e-9)

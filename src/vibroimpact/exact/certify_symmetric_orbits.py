@@ -88,8 +88,9 @@ class _Condition:
         self.rate = arb_mat(rate_matrix(system)[:4, :4].tolist())
         epsilon, kappa = arb(system.epsilon), arb(system.kappa)
         omega = arb(system.Omega)
-        self.kick = 4 * epsilon / self.half_period
-        self.own_velocity = 2 / self.half_period * (1 + 2 * epsilon - kappa) / (1 + kappa)
+        self.place = 1 / (1 + epsilon)
+        self.kick = 4 * epsilon * self.place / self.half_period
+        self.own_velocity = 2 * self.place / self.half_period * (1 + 2 * epsilon - kappa) / (1 + kappa)
         self.omega = omega
         stiffness = acb_mat([[acb(z.real, z.imag) for z in row] for row in dynamic_stiffness(system).tolist()])
         try:
@@ -150,7 +151,9 @@ class _Condition:
     def _own(self, i):
         """P[i, i]: the response just before the own impact."""
         before = self.start[2 + i, i] - 1
-        return _series([acb((self.own_velocity + self.kick * before) / self.omega, self.kick * self.start[i, i] - 1)])
+        return _series(
+            [acb((self.own_velocity + self.kick * before) / self.omega, self.kick * self.start[i, i] - self.place)]
+        )
 
 
 def _series(coefficients):

@@ -31,8 +31,8 @@ _OF_ORBIT = [
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
     """A row per exact orbit, in order: what it is and what the criteria say.
 
-    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (mean ball speed
-    times a quarter period), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
+    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
+    of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
     (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, residual, one column per
     criterion.
     """
@@ -41,10 +41,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     for orbit in orbits:
         counts[orbit.symmetric] += 1
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
-        C = verdicts.slow_variables(orbit)[1]
         says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
-        numbers = [*C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
+        numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
     return pd.DataFrame(rows, columns=_OF_ORBIT)
 
