@@ -47,7 +47,7 @@ class Orbit:
 
     @property
     def C(self) -> np.ndarray:
-        """Amplitude of the saw-tooth of each module, shape (2,): C_i of (10.11), negative for a root that is no motion."""
+        """Amplitudes of the saw-teeth, C_i of (10.11), shape (2,); negative for a root that is no motion."""
         plus, minus = self.ball_speeds.T
         # Both flights cover the same path in one period: plus t = minus (T - t).
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)

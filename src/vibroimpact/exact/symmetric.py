@@ -1,9 +1,9 @@
 """All symmetric 1:1 responses, state(tau + T/2) = -state(tau), as the roots of one function of one variable.
 
-Module i meets wall +1 at tau_i and wall -1 half a period later. With the amplitude C_i = 1 - U_i(tau_i) of its saw-tooth,
-as in (10.12), the ball flies 2 C_i / (1 + epsilon) in half a period: at the speed V_i = 4 C_i / ((1 + epsilon) T). Each
-impact turns it round, which kicks box i by -2 epsilon V_i and +2 epsilon V_i in turn. Superposing the forced response and both trains of kicks, the
-conditions on module i (it meets the wall; Newton's rule) are the imaginary and the real part of
+Module i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball
+flies 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact turns it round,
+which kicks box i by -2 epsilon V_i and +2 epsilon V_i in turn. Superposing the forced response and both trains of
+kicks, the conditions on module i (it meets the wall; Newton's rule) are the imaginary and the real part of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
@@ -83,8 +83,8 @@ def symmetric_solutions(system) -> np.ndarray:
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    if not system.forcing.any():
-        return np.empty((0, 4))  # impacts dissipate: nothing can last without forcing
+    if system.has_undriven_module:
+        return np.empty((0, 4))
     conditions = SymmetricConditions(system)
     uncoupled = system.alpha12 == 0 and system.gamma12 == 0
     starts = _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions)
@@ -101,7 +101,7 @@ def _uncoupled_starts(conditions):
         p, a = diagonal[i], conditions.amplitude[i]
         C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
         C = C.real[abs(C.imag) < _NEAR]
-        single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C] if a else [])
+        single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C])
     return np.array([(t1, t2, c1, c2) for t1, c1 in single[0] for t2, c2 in single[1]]).reshape(-1, 4)
 
 
