@@ -34,7 +34,7 @@ def compute(systems: dict, points: pd.DataFrame, orbits: pd.DataFrame) -> pd.Dat
     its orbit; "printed", "stable": lower left and upper right corner of the region that (10.26), Masri's analysis
     allows), label, C1, C2, one per criterion.
     """
-    motions = orbits[orbits["admissible"]]
+    motions = orbits[orbits["admissible"].astype(bool)].astype({"symmetric": bool})
     parts = []
     for case, system in systems.items():
         here, exact = points[points["case"] == case], motions[motions["case"] == case]

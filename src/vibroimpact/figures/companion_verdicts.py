@@ -56,12 +56,14 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         orbits: `orbit_rows` of the same case.
 
     Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
-    orbit that is nearest in C, and to which no other fixed point is nearer; "" if there is none), one per criterion.
+    orbit that goes with it, see `partners`; "" if there is none), one per criterion.
     """
     labelled = sorted(labelled, key=lambda pair: pair[0])
-    partners = _partners(np.array([point.C for _, point in labelled]).reshape(-1, 2), orbits[orbits["symmetric"]])
+    symmetric = orbits[orbits["symmetric"].astype(bool)]  # a table without rows has no types
+    found = partners([point.C for _, point in labelled], symmetric[["C1", "C2"]].to_numpy(float))
     rows = []
-    for (label, point), partner in zip(labelled, partners, strict=True):
+    for (label, point), place in zip(labelled, found, strict=True):
+        partner = None if place is None else symmetric.iloc[place]
         exact = NO_ORBIT if partner is None else partner["floquet"]
         within = all(stays_within_walls(C, system.kappa) for C in point.C)
         says = {**verdicts.of_fixed_point(system, point), "floquet": exact}
@@ -71,10 +73,13 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
     return pd.DataFrame(rows, columns=["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA])
 
 
-def _partners(points, orbits):
-    """For each point (n, 2) the row of the orbit that is nearest and has no nearer point, or None."""
-    if not len(points) or orbits.empty:
+def partners(points, orbits) -> list[int | None]:
+    """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
+
+    None where another fixed point is nearer to that orbit, or there is none.
+    """
+    points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
+    if not len(orbits):
         return [None] * len(points)
-    gaps = np.linalg.norm(points[:, None] - orbits[["C1", "C2"]].to_numpy()[None], axis=2)
-    nearest = gaps.argmin(axis=1)
-    return [orbits.iloc[k] if gaps[:, k].argmin() == n else None for n, k in enumerate(nearest)]
+    gaps = np.linalg.norm(points[:, None] - orbits[None], axis=2)
+    return [int(k) if gaps[:, k].argmin() == n else None for n, k in enumerate(gaps.argmin(axis=1))]
