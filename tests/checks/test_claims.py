@@ -72,7 +72,7 @@ def evidence():
             case: {"fixed_points": {"proved": len(proof.isolated), "complete": proof.complete}}
             for case, proof in proofs.items()
         },
-        verdict_grid=verdict_grid.compute(systems["equal"], (1.0, 1.6), (1.0, 1.6), points=4, epsilon=[0.1]),
+        verdict_grid=verdict_grid.compute(systems["equal"], (0.9, 1.5), (0.83, 1.43), points=3, epsilon=[0.1]),
         modulation=modulation.compute(
             {case: systems[case] for case in ("equal", "weak")},
             starts=4,
