@@ -1,6 +1,7 @@
 """Claims: the list is sound, verdicts follow from what is computed, and other evidence leads to other verdicts."""
 
 import dataclasses
+import re
 from pathlib import Path
 
 import numpy as np
@@ -116,6 +117,12 @@ def test_the_list_is_sound_and_every_check_is_used():
     assert problems(list(CLAIMS.values())) == []
     assert len(DOCUMENT["claims"]) == len(CLAIMS) >= 25
     assert {claim["check"] for claim in CLAIMS.values()} == set(CHECKS)
+
+
+@pytest.mark.parametrize("document", ["README.md", "CHANGELOG.md"])
+def test_documents_count_the_claims(document):
+    counts = re.findall(r"(\d+) claims", (ROOT / document).read_text(encoding="utf-8"))
+    assert counts == [str(len(CLAIMS))]
 
 
 def test_problems_of_a_list_are_named():
