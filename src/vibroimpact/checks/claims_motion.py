@@ -185,7 +185,7 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
         "points": len(evidence.fixed_points),
         "largest distance in C": off.max(),
         "points over the grid": len(grid),
-        "without an orbit": int((~grid["admissible"]).sum()),
+        "without an orbit between the walls": int((~grid["admissible"]).sum()),
         f"fixed points at forces {f10_hat}, {f20_hat}": len(fixed_points(system)),
         "exact orbits there": sum(orbit.symmetric and orbit.admissible for orbit in orbits(system)),
         "f20 of the fold of fixed points": folds["fixed point"],
