@@ -1,12 +1,14 @@
 """Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
 
+from contextlib import suppress
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, letter_panel, new_figure, styled
 from vibroimpact.figures.tables import curve, join, select
-from vibroimpact.regimes.epsilon_limit import compare, first_order, order
+from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
 from vibroimpact.theory.fixed_points import fixed_points
 from vibroimpact.theory.labels import labels
 
@@ -37,18 +39,28 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict) 
     for case, system in systems.items():
         points = fixed_points(system)
         for label, point in sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]):
-            found = [compare(system.with_(epsilon=e), point) for e in epsilon]
+            found = list(_compared(system, point, epsilon))
             if {"case": case, "label": label} == mixed:
-                curves += _mixed(f"{case}, {label}", epsilon, found)
+                curves += _mixed(f"{case}, {label}", found)
                 continue
             added = first_order(system, point, _STEP)
             for panel, errors in zip([*PANELS, TWO_TERMS], [*_errors(found), _two_terms(found, added)], strict=True):
-                curves.append(curve(panel, f"{case}, {label}", epsilon=epsilon, error=errors))
-                small = epsilon < fit_below
-                slope, uncertainty = order(epsilon[small], errors[small])
+                reached = np.array([c.epsilon for c in found])
+                curves.append(curve(panel, f"{case}, {label}", epsilon=reached, error=errors))
+                small = reached < fit_below
+                slope, uncertainty = order(reached[small], errors[small])
                 named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
                 orders.append({"case": case, "label": label, **named})
-    return {"csv": join(curves), "orders": pd.DataFrame(orders)}
+    nothing = pd.DataFrame(columns=["panel", "series", "label", "epsilon", "error", "rate"])
+    columns = ["case", "label", "panel", "order", "uncertainty"]
+    return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
+
+
+def _compared(system, point, epsilon):
+    """Comparisons at every epsilon at which there is an orbit."""
+    for value in epsilon:
+        with suppress(NoOrbit):
+            yield compare(system.with_(epsilon=value), point)
 
 
 def _errors(found):
@@ -62,7 +74,8 @@ def _two_terms(found, added):
     return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
 
 
-def _mixed(name, epsilon, found):
+def _mixed(name, found):
+    epsilon = [c.epsilon for c in found]
     for k in range(8):
         group = "slow flow" if k < 4 else "impact map"
         yield curve("mixed", f"exact {k}", label=name, epsilon=epsilon, rate=[abs(c.rates[k]) for c in found])
@@ -79,6 +92,10 @@ def draw(tables: dict) -> Figure:
     grid = figure.subplots(2, 2, sharex=True)
     for axes, (panel, name), letter in zip(grid.flat, PANELS.items(), "abc", strict=False):
         rows = table[table["panel"] == panel]
+        axes.set(xscale="log", yscale="log", ylabel=name)
+        letter_panel(axes, letter)
+        if rows.empty:
+            continue
         if panel == "distance":
             _draw_two_terms(axes, table[table["panel"] == TWO_TERMS])
         for marker, (series, line) in zip(MARKERS, rows.groupby("series", sort=False), strict=False):
@@ -89,12 +106,11 @@ def draw(tables: dict) -> Figure:
         axes.annotate("slope 1", (ends[0], line[0]), (30, 4), textcoords="offset points", fontsize=8.5)
         fitted = orders[orders["panel"] == panel]["order"]
         axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
-        axes.set(xscale="log", yscale="log", ylabel=name)
-        letter_panel(axes, letter)
-    mixed = table[table["panel"] == "mixed"]
-    _draw_mixed(grid[1, 1], mixed)
     letter_panel(grid[1, 1], "d")
-    grid[1, 1].set_title(f"{mixed['label'].iloc[0]}: slow and fast mix", loc="right", pad=3)
+    mixed = table[table["panel"] == "mixed"]
+    if len(mixed):
+        _draw_mixed(grid[1, 1], mixed)
+        grid[1, 1].set_title(f"{mixed['label'].iloc[0]}: slow and fast mix", loc="right", pad=3)
     for axes in grid[-1]:
         axes.set_xlabel(r"$\varepsilon$")
     handles, names = grid[0, 0].get_legend_handles_labels()

@@ -11,6 +11,10 @@ from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.response import impact_times
 
 
+class NoOrbit(ValueError):
+    """There is no symmetric orbit to compare a fixed point with."""
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """A fixed point and the symmetric orbit next to it, at one epsilon.
@@ -38,7 +42,7 @@ def compare(system, point) -> Comparison:
     """Compare a fixed point with the nearest symmetric orbit.
 
     Raises:
-        ValueError: the system has no symmetric orbit.
+        NoOrbit: the system has no symmetric orbit.
     """
     root, offset = _nearest(system, point)
     exact = symmetric_orbit(system, root).multipliers
@@ -66,7 +70,7 @@ def first_order(system, point, step: float) -> np.ndarray:
     by Richardson's extrapolation; its error is of order step^3.
 
     Raises:
-        ValueError: as `compare`.
+        NoOrbit: as `compare`.
     """
     slopes = [_nearest(system.with_(epsilon=n * step), point)[1] / (n * step) for n in (1, 2, 4)]
     return (8 * slopes[0] - 6 * slopes[1] + slopes[2]) / 3
@@ -91,7 +95,7 @@ def _nearest(system, point):
     """The root of the symmetric orbit nearest to a fixed point, and its offset from it."""
     roots = symmetric_solutions(system)
     if not len(roots):
-        raise ValueError("system: it has no symmetric 1:1 orbit")
+        raise NoOrbit("system: it has no symmetric 1:1 orbit")
     phases = np.angle(np.exp(1j * system.Omega * (roots[:, :2] - impact_times(system, point))))
     offsets = np.concatenate([roots[:, 2:] - point.C, phases], axis=1)
     nearest = np.linalg.norm(offsets, axis=1).argmin()
