@@ -121,6 +121,33 @@ def test_an_undamped_system_driven_at_its_resonance_is_refused():
 
 
 @pytest.mark.parametrize(
+    ("parameters", "path"),
+    [
+        ({"sigma_e_hat": 0, "sigma20_hat": 0, "alpha12_hat": 0}, "system.sigma_e_hat"),
+        ({"sigma20_hat": (3 * 1.02) ** 2 * 10 - 10, "alpha12_hat": 0}, "cases.weak.system"),
+    ],
+)
+def test_an_undamped_system_without_isolated_responses_is_refused(parameters, path):
+    """At a resonance that no force loads, and at one with the third harmonic of the impacts."""
+    config = copy.deepcopy(GOOD)
+    config["system"] |= {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0} | parameters
+    unforced = {"f10_hat": 0.0, "f20_hat": 0.0} if path == "system.sigma_e_hat" else {}
+    config["cases"] = {"weak": config["cases"]["weak"] | unforced}
+    found = [(place, what) for place, what in problems(config, SCHEMA) if "unknown case" not in what]
+    assert [place for place, _ in found] == [path]
+    assert "resonance" in found[0][1]
+
+
+def test_no_force_and_an_unforced_uncoupled_module_are_right():
+    config = copy.deepcopy(GOOD)
+    config["cases"]["weak"] |= {"f10_hat": 0.0, "f20_hat": 0.0}
+    assert problems(config, SCHEMA) == []
+    config["system"] |= {"alpha12_hat": 0, "gamma12_hat": 0}
+    config["cases"]["weak"] |= {"f10_hat": 1.0}
+    assert problems(config, SCHEMA) == []
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("system:\n  kappa: 0.65\n  kappa: 0.7\n", "line 3, column 3: key 'kappa' given twice"),

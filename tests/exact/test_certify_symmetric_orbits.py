@@ -7,6 +7,8 @@ flint = pytest.importorskip("flint", reason="python-flint belongs to the optiona
 
 from vibroimpact.exact import certify_symmetric_orbits as module  # noqa: E402
 from vibroimpact.exact.certify_symmetric_orbits import certify  # noqa: E402
+from vibroimpact.exact.impulse_response import forced_amplitude  # noqa: E402
+from vibroimpact.exact.orbits import orbits  # noqa: E402
 from vibroimpact.exact.symmetric import symmetric_solutions  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
@@ -66,10 +68,29 @@ def test_a_vanishing_condition_does_not_run_for_ever(chapter, monkeypatch):
     assert covered == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("changes", [{"f10_hat": 0}, {"f20_hat": 0}])
-def test_a_box_at_rest_is_refused(chapter, changes):
-    with pytest.raises(ValueError, match="does not move"):
-        certify(chapter(alpha12_hat=0, gamma12_hat=0, **changes))
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"f10_hat": 0, "f20_hat": 0},
+        {"f10_hat": 0, "alpha12_hat": 0, "gamma12_hat": 0},
+        {"f20_hat": 0, "alpha12_hat": 0, "gamma12_hat": 0},
+    ],
+)
+def test_a_module_that_nothing_drives_has_no_response(chapter, changes):
+    system = chapter(**changes)
+    assert certify(system) == module.Proof([], [], complete=True)
+    assert orbits(system) == []
+
+
+def test_a_box_held_still_by_the_other_one(chapter):
+    """Box 2 tuned as an undamped absorber of the force on box 1, which then does not move without balls."""
+    absorber = {"gamma2_hat": 0, "gamma12_hat": 0, "alpha12_hat": 1, "f10_hat": 1.5, "f20_hat": 0}
+    # 1 + epsilon (sigma20_hat + alpha12_hat) = Omega^2 with Omega = 1 + epsilon sigma_e_hat, in exact fractions.
+    system = chapter(epsilon=0.25, sigma_e_hat=0.5, sigma20_hat=0.0625, **absorber)
+    assert forced_amplitude(system)[0] == 0
+    proof = certify(system)
+    assert proof.complete
+    assert proof.isolated
 
 
 def test_resonance_is_refused(chapter):

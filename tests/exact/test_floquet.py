@@ -178,7 +178,7 @@ def test_symmetry_breaks_where_a_half_period_multiplier_is_minus_one(chapter):
 
     def lowest(f):
         symmetric = [o for o in search(chapter(f, f), starts=1).orbits if o.symmetric and o.admissible]
-        return half_period_multipliers(max(symmetric, key=lambda o: o.C[0, 0])).real.min()
+        return half_period_multipliers(max(symmetric, key=lambda o: o.C[0])).real.min()
 
     def inequality(f):
         """Distance of the flight fractions from one half, for the most nearly symmetric asymmetric pair."""

@@ -120,7 +120,27 @@ def test_the_average_of_a_free_ball_is_its_flight(case):
         durations = np.mod(orbit.impact_phases[:, ::-1] - orbit.impact_phases, 1) * case.period
         travelled = orbit.ball_speeds * durations
         np.testing.assert_allclose(travelled[:, 0], travelled[:, 1], rtol=1e-11)
-        np.testing.assert_allclose(orbit.C, orbit.ball_speeds * case.period / 4, rtol=1e-15)
+
+
+def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
+    """Half of what Z = W - U covers, from samples; on flights of half a period (1 + epsilon) pi |Y'| / (2 Omega)."""
+    instants = np.linspace(0, case.period, 4001)
+    for orbit in (o for o in orbits(case) if o.admissible):
+        X, Y = (vi.simulate(case, orbit.state, 1, sample_times=instants).samples[:, k:4:2] for k in (0, 1))
+        Z = X - Y - (X + case.epsilon * Y)
+        np.testing.assert_allclose(np.ptp(Z, axis=0) / 2, orbit.C, rtol=2e-3)
+        if orbit.symmetric:
+            speed = orbit.ball_speeds[:, 0]
+            np.testing.assert_allclose(orbit.C, (1 + case.epsilon) * np.pi * speed / (2 * case.Omega), rtol=1e-14)
+
+
+def test_C_of_a_symmetric_orbit_is_one_minus_U_at_the_wall(case):
+    """(10.12) holds at every epsilon."""
+    for orbit in (o for o in orbits(case) if o.symmetric and o.admissible):
+        for module, at in enumerate(orbit.impact_phases[:, 0] * case.period):
+            state = vi.simulate(case, orbit.state, 1, sample_times=[at]).samples[0]
+            X, Y = state[2 * module : 2 * module + 2]
+            assert 1 - (X + case.epsilon * Y) == pytest.approx(orbit.C[module], abs=1e-10)
 
 
 def test_identical_modules_swap(chapter):
@@ -173,8 +193,9 @@ def test_uncoupled_single_module_in_closed_form(chapter):
     amplitude = abs(system.forcing[0] / (1 - system.Omega**2 + 1j * gamma * system.Omega))
     real = (2 / h * (1 + 2 * epsilon - kappa) / (1 + kappa) + 4 * epsilon / h * v) / system.Omega
     imaginary = 4 * epsilon / h * x - 1
-    C = np.roots([real**2 + imaginary**2, 2 * imaginary, 1 - amplitude**2])
-    found = {round(float(o.C[0, 0]), 10) for o in orbits(system) if o.symmetric}
+    # Roots are amplitudes of the ball; its saw-tooth is 1 + epsilon times as high.
+    C = (1 + epsilon) * np.roots([real**2 + imaginary**2, 2 * imaginary, 1 - amplitude**2])
+    found = {round(float(o.C[0]), 10) for o in orbits(system) if o.symmetric}
     assert found == {round(float(c), 10) for c in C}
 
 
@@ -187,7 +208,7 @@ def test_small_epsilon_leads_to_the_invariant_manifold(chapter):
         symmetric = [o for o in orbits(system) if o.symmetric]
         assert len(symmetric) == 4
         B2 = np.array([o.state[[0, 2]] ** 2 + o.state[[4, 6]] ** 2 for o in symmetric])
-        C = np.array([o.C[:, 0] for o in symmetric])
+        C = np.array([o.C for o in symmetric])
         errors.append(abs(B2 - (1 - 2 * C + (1 + rho**2) * C**2)).max())
     assert errors[1] < 1e-3
     assert errors[0] / errors[1] == pytest.approx(10, rel=0.2)
@@ -196,7 +217,8 @@ def test_small_epsilon_leads_to_the_invariant_manifold(chapter):
 def test_format_and_order(scene):
     found = orbits(scene)
     for orbit in found:
-        assert orbit.impact_phases.shape == orbit.ball_speeds.shape == orbit.C.shape == (2, 2)
+        assert orbit.impact_phases.shape == orbit.ball_speeds.shape == (2, 2)
+        assert orbit.C.shape == (2,)
         assert ((orbit.impact_phases >= 0) & (orbit.impact_phases < 1)).all()
         assert orbit.state.shape == orbit.multipliers.shape == (8,)
         assert orbit.multipliers.dtype == complex

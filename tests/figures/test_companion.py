@@ -85,7 +85,7 @@ def test_point_c_of_the_equal_case_breaks_symmetry_though_the_theory_calls_it_st
     assert len(outside) == 1
     assert outside[0].real < -1.5
     small = SYSTEMS["equal"].with_(epsilon=0.002)
-    nearest = min((o for o in orbits(small) if o.symmetric), key=lambda o: np.abs(o.C[:, 0] - [c["C1"], c["C2"]]).max())
+    nearest = min((o for o in orbits(small) if o.symmetric), key=lambda o: np.abs(o.C - [c["C1"], c["C2"]]).max())
     assert np.abs(nearest.multipliers).max() < 1
 
 

@@ -149,9 +149,19 @@ def test_basins_need_a_stable_asymmetric_orbit():
         basins.compute(SYSTEMS["weak"], 3, OBSERVATION)
 
 
-def test_orders_are_one_and_the_mixed_point_is_left_out(tables):
+@pytest.mark.parametrize("forces", [(0.0, 0.0), (0.5, 0.5)])
+def test_the_limit_of_small_epsilon_is_drawn_without_points_and_without_the_mixed_one(forces):
+    system = SYSTEMS["weak"].with_(f10_hat=forces[0], f20_hat=forces[1])
+    mixed = {"case": "weak", "label": "c"}
+    found = epsilon_limit.compute({"weak": system}, (0.01, 0.001), 3, fit_below=0.1, mixed=mixed)
+    assert len(found["orders"]) == 4 * len(vi.fixed_points(system))
+    epsilon_limit.draw(found)
+
+
+def test_orders_are_one_or_two_with_two_terms_and_the_mixed_point_is_left_out(tables):
     orders = tables["epsilon"]["orders"]
-    np.testing.assert_allclose(orders["order"], 1, atol=0.05)
+    assert (orders["panel"] == "two terms").any()
+    np.testing.assert_allclose(orders["order"], np.where(orders["panel"] == "two terms", 2, 1), atol=0.05)
     assert not ((orders["case"] == "unequal") & (orders["label"] == "b")).any()
     mixed = tables["epsilon"]["csv"].query("panel == 'mixed'")
     assert set(mixed["label"]) == {"unequal, b"}

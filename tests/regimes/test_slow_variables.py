@@ -28,13 +28,13 @@ def made_up_motion():
     displacements = np.stack([X[:, 0], Y[:, 0], X[:, 1], Y[:, 1]], axis=1)
     rows = [(m, w, n) for n in range(500, 504) for m in (1, 2) for w in (1, -1)]
     module, wall, cycle = np.array(rows).T
-    speed = 4 * C[module - 1] / SYSTEM.period / (1 + SYSTEM.epsilon)
+    ball = -wall * C[module - 1] / (1 + SYSTEM.epsilon)
     impacts = {
         "module": module,
         "wall": wall,
         "tau": (cycle + AT_PLUS[module - 1] + (wall < 0) * 0.5) * SYSTEM.period,
-        "dY1": np.where(module == 1, wall * speed, 99.0),
-        "dY2": np.where(module == 2, wall * speed, 99.0),
+        "Y1": np.where(module == 1, ball, 99.0),
+        "Y2": np.where(module == 2, ball, 99.0),
     }
     return tau, displacements, impacts
 

@@ -103,6 +103,44 @@ def test_each_box_holds_a_zero_of_the_slow_flow():
         )
 
 
-def test_nothing_moves_without_forcing():
-    with pytest.raises(ValueError, match=r"^system: f10_hat and f20_hat are 0"):
-        certify(CHAPTER.with_(f10_hat=0, f20_hat=0))
+UNCOUPLED = {"alpha12_hat": 0, "gamma12_hat": 0}
+UNDAMPED = {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0}
+
+
+@pytest.mark.parametrize(
+    ("f10", "f20", "changes"),
+    [
+        (0.1, 0.1, {}),
+        (0, 0.3, {}),
+        (0, 0, {}),
+        (0, 0, UNDAMPED),
+        (1, 0, UNCOUPLED),
+        (0, 1, UNCOUPLED | UNDAMPED),
+    ],
+)
+def test_no_fixed_point_is_a_result(f10, f20, changes):
+    """No zero of (10.22) is there: the balls dissipate more than the forces supply, or than can be supplied."""
+    proof = certify(CHAPTER.with_(f10_hat=f10, f20_hat=f20, **changes))
+    assert proof == certify_fixed_points.Proof([], [], complete=True)
+
+
+def test_every_damped_system_gets_a_proof_whatever_drives_it():
+    """As many proved as listed, none among them, at random parameters and weak forces."""
+    rng, without = np.random.default_rng(4), 0
+    ranges = {
+        "kappa": (0.1, 0.9),
+        "alpha12_hat": (0, 1),
+        "gamma1_hat": (0.1, 0.5),
+        "gamma2_hat": (0.1, 0.5),
+        "gamma12_hat": (0, 0.5),
+        "sigma20_hat": (-0.5, 1),
+        "sigma_e_hat": (-0.5, 1),
+        "f10_hat": (0, 0.8),
+        "f20_hat": (0, 0.8),
+    }
+    for _ in range(12):
+        system = System(epsilon=0.1, **{name: rng.uniform(*ends) for name, ends in ranges.items()})
+        proof = certify(system)
+        assert proof.complete
+        without += not proof.isolated
+    assert without >= 3

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 import vibroimpact as vi
 from vibroimpact.exact.orbits import half_period_multipliers, orbits
 from vibroimpact.theory import masri
-from vibroimpact.theory.stability import printed_limit
+from vibroimpact.theory.stability import limit_with_squares, printed_limit
 
 kappas = st.floats(0.05, 0.95)
 FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
@@ -74,10 +74,17 @@ def test_multipliers_are_the_squares_of_the_derived_eigenvalues(kappa, C):
     assert found.prod() == pytest.approx(product, rel=1e-9, abs=1e-13 * np.abs(found).max() ** 2)
 
 
-def conditions(factors, kappa, share):
-    """1 -+ trace + det of the half-cycle map with its nine terms times `factors`, at a share of the C of (10.26)."""
-    rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
-    C = share * 4 / (4 + np.pi * rho)
+def rho_of(kappa):
+    return 2 * (1 - kappa) / (np.pi * (1 + kappa))
+
+
+LIMITS = {"printed": lambda k: 4 / (4 + np.pi * rho_of(k)), "with squares": lambda k: (1 + k) ** 2 / (2 * (1 + k**2))}
+"""(10.26) as printed, and as it would read if its squares had been lost: 4 / (4 + pi^2 rho^2)."""
+
+
+def conditions(factors, kappa, C):
+    """1 -+ trace + det of the half-cycle map with its nine terms times `factors`."""
+    rho = rho_of(kappa)
     cos, sin, slope = rho * C, 1 - C, -2 * C / np.pi
     by_t2 = -factors[0] * cos + factors[1] * slope
     by_t1 = -factors[2] * cos - factors[3] * slope + factors[4] * np.pi * sin
@@ -87,22 +94,26 @@ def conditions(factors, kappa, share):
     return np.array([1 - trace + det, 1 + trace + det])
 
 
-def limits_at_10_26(factors):
-    """Whether a multiplier +1, or -1, is met at (10.26) for three kappa, and not on both sides of it."""
-    at, beside = ([np.abs(conditions(factors, k, share)) for k in (0.3, 0.65, 0.8)] for share in (1.0, 0.9))
+def limits_at(limit, factors):
+    """Whether a multiplier +1, or -1, is met at a limit for three kappa, and not on both sides of it."""
+    at, beside = ([np.abs(conditions(factors, k, share * limit(k))) for k in (0.3, 0.65, 0.8)] for share in (1, 0.9))
     return (np.max(at, axis=0) < 1e-6) & (np.max(beside, axis=0) > 1e-6)
 
 
-def test_no_slip_in_one_or_two_terms_gives_the_printed_limit():
+def test_without_a_slip_the_limit_is_the_fold():
+    assert conditions(np.ones(9), 0.65, FOLD)[0] == pytest.approx(0, abs=1e-12)
+    assert limits_at(lambda k: 1 / (1 + rho_of(k) ** 2), np.ones(9)).tolist() == [True, False]
+
+
+@pytest.mark.parametrize("reading", LIMITS)
+def test_no_slip_in_one_or_two_terms_gives_the_printed_limit(reading):
     """Terms of the linearised conditions dropped, reversed, halved or doubled, one or two at a time."""
-    unchanged = conditions(np.ones(9), 0.65, FOLD * 3.65 / 3.3)
-    assert unchanged[0] == pytest.approx(0, abs=1e-12), "without a slip the limit is the fold"
     for places in itertools.combinations(range(9), 2):
         for slips in itertools.product([1, 0, -1, 0.5, 2], repeat=2):
             factors = np.ones(9)
             factors[list(places)] = slips
             if (factors[:2] != 0).any():
-                assert not limits_at_10_26(factors).any()
+                assert not limits_at(LIMITS[reading], factors).any()
 
 
 # A ball between walls that oscillate as prescribed
@@ -218,6 +229,15 @@ def test_above_the_upper_limit_an_asymmetric_motion_attracts():
 # Limits and verdict
 
 
+@given(kappas)
+def test_both_readings_of_10_26_lie_below_the_fold(kappa):
+    assert printed_limit(rho_of(kappa)) == pytest.approx(LIMITS["printed"](kappa), rel=1e-14)
+    assert limit_with_squares(rho_of(kappa)) == pytest.approx(LIMITS["with squares"](kappa), rel=1e-13)
+    for limit in LIMITS.values():
+        assert limit(kappa) < masri.lower_limit(kappa)
+        assert np.abs(masri.impact_multipliers(limit(kappa), kappa)).max() > 1
+
+
 def test_limits_at_the_chapter_s_kappa():
     assert masri.lower_limit(0.65) == pytest.approx(FOLD, rel=1e-14)
     assert masri.upper_limit(0.65) == pytest.approx(BREAKING, rel=1e-14)
@@ -260,8 +280,8 @@ def test_fast_multipliers_of_exact_orbits_tend_to_masri_s(forcing):
         gaps = []
         for epsilon in (2e-5, 1e-5):
             listed = [o for o in orbits(vi.System(epsilon=epsilon, **CHAPTER, **f)) if o.symmetric]
-            orbit = min(listed, key=lambda o: np.abs(o.C[:, 0] - point.C).max())
-            assert np.abs(orbit.C[:, 0] - point.C).max() < 10 * epsilon
+            orbit = min(listed, key=lambda o: np.abs(o.C - point.C).max())
+            assert np.abs(orbit.C - point.C).max() < 10 * epsilon
             fast = np.array([orbit.multipliers[np.abs(orbit.multipliers - m).argmin()] for m in expected])
             gaps.append(np.abs(fast / expected - 1))
         assert np.all(gaps[1] < 5e-3)
@@ -274,16 +294,14 @@ def test_symmetry_breaks_at_the_upper_limit_as_epsilon_tends_to_0():
 
     def upper(epsilon, f):
         listed = [o for o in orbits(vi.System(epsilon=epsilon, **alone, f10_hat=f, f20_hat=f)) if o.symmetric]
-        return max(listed, key=lambda o: o.C[:, 0].min())
+        return max(listed, key=lambda o: o.C.min())
 
     def above(f, epsilon):
         return np.abs(half_period_multipliers(upper(epsilon, f)) + 1).min() * np.sign(
             np.abs(half_period_multipliers(upper(epsilon, f))).max() - 1
         )
 
-    breaking = [
-        upper(epsilon, brentq(above, 1.67, 1.69, args=(epsilon,), xtol=1e-9)).C[0, 0] for epsilon in (2e-3, 1e-3)
-    ]
+    breaking = [upper(epsilon, brentq(above, 1.67, 1.69, args=(epsilon,), xtol=1e-9)).C[0] for epsilon in (2e-3, 1e-3)]
     shift = BREAKING - np.array(breaking)
     assert np.all(shift > 0)
     assert shift[0] / shift[1] == pytest.approx(2, rel=0.01)

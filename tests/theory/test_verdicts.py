@@ -123,7 +123,7 @@ def test_an_orbit_of_small_epsilon_is_judged_as_its_fixed_point():
     system = case("unequal").with_(epsilon=1e-4)
     symmetric = [orbit for orbit in orbits(system) if orbit.symmetric]
     for point in vi.fixed_points(system):
-        orbit = min(symmetric, key=lambda o: np.abs(o.C[:, 0] - point.C).max())
+        orbit = min(symmetric, key=lambda o: np.abs(o.C - point.C).max())
         assert verdicts.of_orbit(orbit) == verdicts.of_fixed_point(system, point)
 
 
@@ -132,7 +132,7 @@ def test_psi_of_an_orbit_solves_the_slow_flow_to_leading_order():
     rest = []
     for epsilon in (2e-4, 1e-4):
         system = case("equal").with_(epsilon=epsilon)
-        orbit = min((o for o in orbits(system) if o.symmetric), key=lambda o: np.abs(o.C[:, 0] - [1.191, 1.119]).max())
+        orbit = min((o for o in orbits(system) if o.symmetric), key=lambda o: np.abs(o.C - [1.191, 1.119]).max())
         psi, C = verdicts.slow_variables(orbit)
         rest.append(np.abs(np.concatenate(rates(system, B_of_C(C, rho(0.65)), psi, C))).max())
     assert rest[1] < 1e-3

@@ -8,13 +8,18 @@ import pandas as pd
 import pytest
 from papermill import PapermillExecutionError
 
+import certificates
 import fixed_points
 import gather
+import orbits
 import simulate
+import verdict_grid
+import verdicts
 from chapter import PARAMETERS
 from notebook import main as notebook
 from offline import markdown_to_html
 from vibroimpact.exact.simulation import simulate as integrate
+from vibroimpact.figures import companion_stability
 from vibroimpact.system import System
 
 SYSTEM = {
@@ -32,6 +37,36 @@ def test_fixed_points_of_cases_are_gathered_as_they_are(tmp_path):
     gather.main(paths, tmp_path / "all.csv")
     first, rest = paths[0].read_text(), paths[1].read_text().split("\n", 1)[1]
     assert (tmp_path / "all.csv").read_text() == first + rest
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"f10_hat": 0.0, "f20_hat": 0.0},
+        {"f10_hat": 0.1, "f20_hat": 0.1},
+        {"f20_hat": 0.0, "alpha12_hat": 0.0, "gamma12_hat": 0.0},
+    ],
+)
+def test_a_case_without_responses_goes_through_all_stages(tmp_path, changes):
+    """No force, too weak a force, a module that nothing drives: empty tables, proved, and a figure without points."""
+    system = SYSTEM | changes
+    paths = {name: tmp_path / f"{name}.csv" for name in ("fixed_points", "orbits", "verdicts", "verdict_grid")}
+    fixed_points.main("still", system, paths["fixed_points"])
+    orbits.main("still", system, paths["orbits"])
+    verdicts.main("still", system, paths, paths["verdicts"])
+    tables = {name: pd.read_csv(paths[name]) for name in ("verdicts", "orbits")}
+    assert [len(table) for table in tables.values()] == [0, 0]
+    certificates.main({"still": system}, tmp_path / "certificates.json")
+    proofs = json.loads((tmp_path / "certificates.json").read_text())["still"]
+    assert proofs["fixed_points"]["complete"]
+    assert proofs["symmetric_orbits"]["complete"]
+    assert proofs["fixed_points"]["proved"] == proofs["symmetric_orbits"]["proved"] == 0
+    table = companion_stability.compute({"still": System(**system)}, tables["verdicts"], tables["orbits"])
+    companion_stability.draw(table)
+    verdict_grid.main(
+        system, {"f10_range": (0, 0.1), "f20_range": (0, 0.1), "points": 2, "epsilon": [0.1]}, paths["verdict_grid"]
+    )
+    assert pd.read_csv(paths["verdict_grid"]).empty
 
 
 def test_a_simulation_leaves_its_window_only(tmp_path):

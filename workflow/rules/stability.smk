@@ -72,10 +72,26 @@ rule certificates:
         "../scripts/certificates.py"
 
 
+rule verdict_grid:
+    output:
+        **in_report({"csv": "results/verdict_grid.csv"}, "Tables", "verdict_grid"),
+    params:
+        system=next(iter(all_systems().values())),
+        settings=config["stability"]["verdict_grid"],
+        code=code("workflow/scripts/verdict_grid.py"),
+    log:
+        "results/logs/verdict_grid.log",
+    benchmark:
+        "results/benchmarks/verdict_grid.tsv"
+    script:
+        "../scripts/verdict_grid.py"
+
+
 rule stability:
     input:
         [f"results/{name}.csv" for name in GATHERED],
         rules.certificates.output,
+        rules.verdict_grid.output,
         [path for name in STABILITY_FIGURES for path in companion_outputs(name).values()],
 
 
@@ -93,6 +109,7 @@ rule claims:
         fixed_points="results/fixed_points.csv",
         orbits="results/orbits.csv",
         certificates="results/certificates.json",
+        verdict_grid="results/verdict_grid.csv",
         modulation="results/regimes/modulation.csv",
         special_points="results/regimes/special_points.csv",
         epsilon_orders="results/regimes/epsilon_orders.csv",

@@ -12,7 +12,7 @@ from vibroimpact.checks.claims_evidence import Evidence, Simulation
 from vibroimpact.figures.atomic import replacing
 from vibroimpact.system import System
 
-TABLES = ("fixed_points", "orbits", "modulation", "special_points", "epsilon_orders")
+TABLES = ("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders")
 
 
 def main(claims, systems: dict, inputs: dict, outputs: dict) -> None:

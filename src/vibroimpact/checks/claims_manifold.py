@@ -8,7 +8,7 @@ from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
 from vibroimpact.theory.penetration import largest_C
 from vibroimpact.theory.sawtooth import sawtooth
-from vibroimpact.theory.stability import printed_limit
+from vibroimpact.theory.stability import limit_with_squares, printed_limit
 
 CHECKS = (
     "fold_of_the_manifold",
@@ -60,8 +60,8 @@ def _furthest(C, kappa):
 def printed_condition(evidence):
     """(10.26) against the multipliers of the impact map: at the limit, and all the way above it."""
     kappa = evidence.system.kappa
-    limit, end = printed_limit(rho(kappa)), largest_C(kappa)
-    at_limit = np.abs(impact_multipliers(limit, kappa)).max()
+    limit, squared, end = printed_limit(rho(kappa)), limit_with_squares(rho(kappa)), largest_C(kappa)
+    at_limit, at_squared = (np.abs(impact_multipliers(C, kappa)).max() for C in (limit, squared))
     above = np.linspace(limit, end, 500)[1:]
     stable = np.array([_is_stable(C, kappa) for C in above])
     below = np.array([_is_stable(C, kappa) for C in np.linspace(0.0, limit, 200)[1:]])
@@ -72,6 +72,8 @@ def printed_condition(evidence):
     numbers = {
         "(10.26)": limit,
         "largest multiplier there": at_limit,
+        "with squares": squared,
+        "largest multiplier at that": at_squared,
         "derived lower limit": lower_limit(kappa),
         "derived upper limit": upper_limit(kappa),
         "stable share above": stable.mean(),

@@ -50,16 +50,16 @@ def phases_can_be_eliminated(evidence):
 def label_of_a_point(evidence, case, label, says):
     """What a caption calls a point: against the theory with both time scales, and against its exact orbit."""
     row = evidence.points(case).loc[label]
-    theory = _theory(row)
+    said = theory(row)
     parts = {
-        f"{says} by theory, fast and slow": None if theory not in (STABLE, UNSTABLE) else theory == says,
+        f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
         f"{says} in truth": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
     }
     criteria = ("printed_10_26", "masri_derived", "slow_flow", "floquet")
     return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
 
 
-def _theory(row):
+def theory(row):
     """Verdict of both time scales together."""
     says = {row["masri_derived"], row["slow_flow"]}
     return UNSTABLE if UNSTABLE in says else STABLE if says == {STABLE} else UNDECIDED
@@ -70,7 +70,7 @@ def stable_points(evidence, case, number):
     points = evidence.points(case)
     counts = {
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
-        "by theory, fast and slow": sum(_theory(row) == STABLE for _, row in points.iterrows()),
+        "by theory, fast and slow": sum(theory(row) == STABLE for _, row in points.iterrows()),
         "in truth": int((points["floquet"] == STABLE).sum()),
     }
     return Finding({f"{number} {name}": count == number for name, count in counts.items()}, counts)

@@ -10,7 +10,9 @@ import reprlib
 import yaml
 from jsonschema import Draft202012Validator
 
+from vibroimpact.exact.impulse_response import ImpulseResponse
 from vibroimpact.system import System
+from vibroimpact.theory.fixed_points import refuse_free_motion
 
 KINDS = {"number": "a number", "integer": "a whole number", "string": "text", "object": "a mapping", "array": "a list"}
 
@@ -80,7 +82,7 @@ def _across_fields(config):
     found = {}
     for case, settings in config["cases"].items():
         try:
-            System(**case_parameters(config, case))
+            _refuse_resonance(System(**case_parameters(config, case)))
         except ValueError as error:
             name, _, what = str(error).partition(": ")
             found[f"system.{name}" if name in config["system"] else f"cases.{case}.{name}"] = what
@@ -94,6 +96,14 @@ def _across_fields(config):
         if "case" in scene and scene["case"] not in config["cases"]:
             found[f"{place}.case"] = f"unknown case {scene['case']!r}{_hint(scene['case'], config['cases'])}"
     return list(found.items())
+
+
+def _refuse_resonance(system):
+    """Refuse an undamped system whose periodic responses are not isolated, or not bounded."""
+    refuse_free_motion(system)
+    if not system.has_undriven_module:
+        for sign in (1, -1):
+            ImpulseResponse(system, sign)
 
 
 def _scenes(config):

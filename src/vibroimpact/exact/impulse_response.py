@@ -86,7 +86,9 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
     return powers[:count]
 
 
-@lru_cache(maxsize=16)
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """The impulse response of a system, kept for reuse."""
-    return ImpulseResponse(system, sign)
+    """The impulse response of a system, kept for reuse: it is the same under all forces."""
+    return _kept(system.with_(f10_hat=0.0, f20_hat=0.0), sign)
+
+
+_kept = lru_cache(maxsize=16)(ImpulseResponse)

@@ -12,6 +12,7 @@ from vibroimpact.exact.impulse_response import forced_amplitude, impulse_respons
 from vibroimpact.exact.saltation import BALLS, BOXES
 from vibroimpact.exact.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
+from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 
 _MODULES = np.array([1, 1, 2, 2])
@@ -46,8 +47,11 @@ class Orbit:
 
     @property
     def C(self) -> np.ndarray:
-        """Ball speed times a quarter period, (2, 2): on a symmetric orbit the C_i of (10.11)."""
-        return self.ball_speeds * self.system.period / 4
+        """Amplitudes of the saw-teeth, C_i of (10.11), shape (2,); negative for a root that is no motion."""
+        plus, minus = self.ball_speeds.T
+        # Both flights cover the same path in one period: plus t = minus (T - t).
+        path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
+        return sawtooth_amplitude(self.system.epsilon, path)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +132,7 @@ def symmetric_orbit(system, root) -> Orbit:
     """The orbit of a root (4,) of the symmetric equations: impact times of both modules at one wall, then C_1, C_2."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
-    changes = 8 * C / system.period
+    changes = 4 * path_of(system.epsilon, C) / system.period
     return _orbit(system, np.stack([times, later], axis=1), changes, np.full(2, 0.5), sign=-1)
 
 

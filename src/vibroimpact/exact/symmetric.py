@@ -1,9 +1,9 @@
 """All symmetric 1:1 responses, state(tau + T/2) = -state(tau), as the roots of one function of one variable.
 
-Module i meets wall +1 at tau_i and wall -1 half a period later. Half a period of free flight gives the ball the
-speed V_i = 2 (1 - X_i(tau_i)) / (T/2) = 4 C_i / T with C_i = 1 - X_i(tau_i). Each impact turns it round, which kicks
-box i by -2 epsilon V_i and +2 epsilon V_i in turn. Superposing the forced response and both trains of kicks, the
-conditions on module i (it meets the wall; Newton's rule) are the imaginary and the real part of
+Module i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball
+flies 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact turns it round,
+which kicks box i by -2 epsilon V_i and +2 epsilon V_i in turn. Superposing the forced response and both trains of
+kicks, the conditions on module i (it meets the wall; Newton's rule) are the imaginary and the real part of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
@@ -20,6 +20,7 @@ from numpy.polynomial import chebyshev
 
 from vibroimpact.exact.impulse_response import forced_amplitude, impulse_response
 from vibroimpact.exact.newton import newton
+from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
@@ -41,8 +42,10 @@ class SymmetricConditions:
         self.omega = system.Omega
         self.amplitude = forced_amplitude(system)
         self._response = impulse_response(system, sign=-1)
-        self._kick = 8 * system.epsilon / system.period
-        self._incoming = 4 / system.period * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
+        self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
+        speed = path_of(system.epsilon, 1.0) / (system.period / 2)
+        self._kick = 2 * system.epsilon * speed
+        self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
         """P and the factor dP of its derivatives for impact times (n, 2): both (n, 2, 2) complex.
@@ -51,7 +54,7 @@ class SymmetricConditions:
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
-        matrix = (self._incoming * own + self._kick * v) / self.omega + 1j * (self._kick * x - own)
+        matrix = (self._incoming * own + self._kick * v) / self.omega + 1j * (self._kick * x + self._place * own)
         change = self._kick * (a / self.omega + 1j * v) * (1 - own)
         return matrix, change
 
@@ -80,8 +83,8 @@ def symmetric_solutions(system) -> np.ndarray:
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    if not system.forcing.any():
-        return np.empty((0, 4))  # impacts dissipate: nothing can last without forcing
+    if system.has_undriven_module:
+        return np.empty((0, 4))
     conditions = SymmetricConditions(system)
     uncoupled = system.alpha12 == 0 and system.gamma12 == 0
     starts = _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions)
@@ -98,7 +101,7 @@ def _uncoupled_starts(conditions):
         p, a = diagonal[i], conditions.amplitude[i]
         C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
         C = C.real[abs(C.imag) < _NEAR]
-        single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C] if a else [])
+        single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C])
     return np.array([(t1, t2, c1, c2) for t1, c1 in single[0] for t2, c2 in single[1]]).reshape(-1, 4)
 
 

@@ -53,8 +53,8 @@ def compute(system, paths: list[dict], longest_step: float, seeds: int, attracto
         attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
         observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
 
-    Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C is a
-    quarter of the ball's path per cycle) and "special_points" (path, family, kind, p, C1, C2).
+    Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor
+    C belongs to half of the ball's mean path per cycle) and "special_points" (path, family, kind, p, C1, C2).
     """
     parts = []
     for panel, settings in zip("abcdefgh", paths, strict=False):

@@ -34,7 +34,7 @@ def compute(systems: dict, points: pd.DataFrame, orbits: pd.DataFrame) -> pd.Dat
     its orbit; "printed", "stable": lower left and upper right corner of the region that (10.26), Masri's analysis
     allows), label, C1, C2, one per criterion.
     """
-    motions = orbits[orbits["admissible"]]
+    motions = orbits[orbits["admissible"].astype(bool)].astype({"symmetric": bool})
     parts = []
     for case, system in systems.items():
         here, exact = points[points["case"] == case], motions[motions["case"] == case]
@@ -49,7 +49,8 @@ def compute(systems: dict, points: pd.DataFrame, orbits: pd.DataFrame) -> pd.Dat
             "stable": [lower_limit(system.kappa), upper_limit(system.kappa)],
         }
         parts += [curve(case, series, C1=corner, C2=corner) for series, corner in corners.items()]
-    return join(part for part in parts if len(part))
+    columns = ["panel", "series", "label", "C1", "C2", *CRITERIA]
+    return join(part for part in parts if len(part)).reindex(columns=columns)
 
 
 def _rows(case, series, rows):
@@ -68,10 +69,11 @@ def _links(case, points, orbits):
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white."""
     cases = list(dict.fromkeys(table["panel"]))
-    most = max(len(_motions(table, case)) for case in cases)
+    most = max(1, *(len(_motions(table, case)) for case in cases))
     figure = new_figure(DOUBLE_COLUMN, PLANE + ROW * most + FRAME)
     grid = figure.subplots(2, len(cases), squeeze=False, height_ratios=[PLANE, ROW * most])
-    end = 1.1 * np.nanmax(pd.concat([_motions(table, case) for case in cases])[["C1", "C2"]])
+    places = table[["C1", "C2"]].to_numpy(float)
+    end = 1.1 * places[np.isfinite(places)].max()
     for letter, case, (plane, matrix) in zip("abcdefgh", cases, grid.T, strict=False):
         letter_panel(plane, letter)
         _draw_plane(plane, table, case, end)

@@ -31,8 +31,8 @@ _OF_ORBIT = [
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
     """A row per exact orbit, in order: what it is and what the criteria say.
 
-    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (mean ball speed
-    times a quarter period), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
+    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
+    of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
     (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, residual, one column per
     criterion.
     """
@@ -41,10 +41,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     for orbit in orbits:
         counts[orbit.symmetric] += 1
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
-        C = verdicts.slow_variables(orbit)[1]
         says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
-        numbers = [*C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
+        numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
     return pd.DataFrame(rows, columns=_OF_ORBIT)
 
@@ -57,12 +56,14 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         orbits: `orbit_rows` of the same case.
 
     Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
-    orbit that is nearest in C, and to which no other fixed point is nearer; "" if there is none), one per criterion.
+    orbit that goes with it, see `partners`; "" if there is none), one per criterion.
     """
     labelled = sorted(labelled, key=lambda pair: pair[0])
-    partners = _partners(np.array([point.C for _, point in labelled]).reshape(-1, 2), orbits[orbits["symmetric"]])
+    symmetric = orbits[orbits["symmetric"].astype(bool)]  # a table without rows has no types
+    found = partners([point.C for _, point in labelled], symmetric[["C1", "C2"]].to_numpy(float))
     rows = []
-    for (label, point), partner in zip(labelled, partners, strict=True):
+    for (label, point), place in zip(labelled, found, strict=True):
+        partner = None if place is None else symmetric.iloc[place]
         exact = NO_ORBIT if partner is None else partner["floquet"]
         within = all(stays_within_walls(C, system.kappa) for C in point.C)
         says = {**verdicts.of_fixed_point(system, point), "floquet": exact}
@@ -72,10 +73,13 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
     return pd.DataFrame(rows, columns=["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA])
 
 
-def _partners(points, orbits):
-    """For each point (n, 2) the row of the orbit that is nearest and has no nearer point, or None."""
-    if not len(points) or orbits.empty:
+def partners(points, orbits) -> list[int | None]:
+    """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
+
+    None where another fixed point is nearer to that orbit, or there is none.
+    """
+    points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
+    if not len(orbits):
         return [None] * len(points)
-    gaps = np.linalg.norm(points[:, None] - orbits[["C1", "C2"]].to_numpy()[None], axis=2)
-    nearest = gaps.argmin(axis=1)
-    return [orbits.iloc[k] if gaps[:, k].argmin() == n else None for n, k in enumerate(nearest)]
+    gaps = np.linalg.norm(points[:, None] - orbits[None], axis=2)
+    return [int(k) if gaps[:, k].argmin() == n else None for n, k in enumerate(gaps.argmin(axis=1))]

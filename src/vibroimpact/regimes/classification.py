@@ -8,6 +8,7 @@ from scipy.stats import qmc
 
 from vibroimpact.exact.simulation import IMPACT, Run, simulate, simulate_many
 from vibroimpact.regimes.periodicity import mirror_distance, repeats_after
+from vibroimpact.system.amplitude import sawtooth_amplitude
 
 SYMMETRIC, ASYMMETRIC, MODULATED = "symmetric", "asymmetric", "modulated"
 IDLE, NO_IMPACTS, OTHER = "one ball idle", "no impacts", "other periodic"
@@ -37,8 +38,9 @@ class Regime:
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """A quarter of each ball's path per cycle, shape (2,): on a symmetric 1:1 response C_i."""
-        return np.array([self._path(ball) for ball in (1, 3)]) / (4 * self.run.cycles)
+        """C_i of half of each ball's mean path per cycle, shape (2,): on a 1:1 response that of its saw-tooth."""
+        path = np.array([self._path(ball) for ball in (1, 3)])
+        return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
 
     @property
     def lean(self) -> float:

@@ -11,35 +11,41 @@ from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.response import impact_times
 
 
+class NoOrbit(ValueError):
+    """There is no symmetric orbit to compare a fixed point with."""
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """A fixed point and the symmetric orbit next to it, at one epsilon.
 
-    distance: of C and impact phases [rad] of both modules, Euclidean. rates: log(mu) / (epsilon 2 pi / Omega) of the
-    exact multipliers, predicted: what slow flow (first four) and impact map (last four) give for the same, paired so
-    that the multipliers are nearest together; both (8,) complex. multipliers, predicted_multipliers likewise.
+    offset: C and impact phases [rad] of both modules, orbit minus fixed point, (4,); distance: its norm.
+    rates: log(mu) / (epsilon 2 pi / Omega) of the exact multipliers, predicted: what slow flow (first four) and impact
+    map (last four) give for the same, paired so that the multipliers are nearest together; both (8,) complex.
+    multipliers, predicted_multipliers likewise.
     """
 
     epsilon: float
-    distance: float
+    offset: np.ndarray
     multipliers: np.ndarray
     predicted_multipliers: np.ndarray
     rates: np.ndarray
     predicted: np.ndarray
+
+    @property
+    def distance(self) -> float:
+        """Euclidean distance of fixed point and orbit."""
+        return float(np.linalg.norm(self.offset))
 
 
 def compare(system, point) -> Comparison:
     """Compare a fixed point with the nearest symmetric orbit.
 
     Raises:
-        ValueError: the system has no symmetric orbit.
+        NoOrbit: the system has no symmetric orbit.
     """
-    roots = symmetric_solutions(system)
-    if not len(roots):
-        raise ValueError("system: it has no symmetric 1:1 orbit")
-    distances = [_distance(system, point, root) for root in roots]
-    nearest = int(np.argmin(distances))
-    exact = symmetric_orbit(system, roots[nearest]).multipliers
+    root, offset = _nearest(system, point)
+    exact = symmetric_orbit(system, root).multipliers
     slow_time = system.epsilon * system.period
     fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C])
     predicted = np.concatenate([np.exp(point.slow_eigenvalues * slow_time), fast])
@@ -49,12 +55,25 @@ def compare(system, point) -> Comparison:
     rates = np.concatenate([point.slow_eigenvalues, np.log(fast.astype(complex)) / slow_time])
     return Comparison(
         epsilon=system.epsilon,
-        distance=distances[nearest],
+        offset=offset,
         multipliers=exact[pairs],
         predicted_multipliers=predicted,
         rates=np.log(exact[pairs]) / slow_time,
         predicted=rates,
     )
+
+
+def first_order(system, point, step: float) -> np.ndarray:
+    """What the second term of (10.7) adds to a fixed point, per epsilon: C and impact phases [rad], (4,).
+
+    The derivative of the exact orbit by epsilon at 0, from three small epsilon (step, and twice and four times that)
+    by Richardson's extrapolation; its error is of order step^3.
+
+    Raises:
+        NoOrbit: as `compare`.
+    """
+    slopes = [_nearest(system.with_(epsilon=n * step), point)[1] / (n * step) for n in (1, 2, 4)]
+    return (8 * slopes[0] - 6 * slopes[1] + slopes[2]) / 3
 
 
 def order(epsilon, errors) -> tuple[float, float]:
@@ -72,8 +91,12 @@ def order(epsilon, errors) -> tuple[float, float]:
     return float(slope), float(np.sqrt(covariance[0, 0] * np.sum(residual**2) / (len(epsilon) - 2)))
 
 
-def _distance(system, point, root):
-    """Euclidean distance of (C_i, impact phase at wall +1 [rad]) of a root and a fixed point."""
-    phase = system.Omega * (root[:2] - impact_times(system, point))
-    phase = np.angle(np.exp(1j * phase))
-    return float(np.linalg.norm(np.concatenate([root[2:] - point.C, phase])))
+def _nearest(system, point):
+    """The root of the symmetric orbit nearest to a fixed point, and its offset from it."""
+    roots = symmetric_solutions(system)
+    if not len(roots):
+        raise NoOrbit("system: it has no symmetric 1:1 orbit")
+    phases = np.angle(np.exp(1j * system.Omega * (roots[:, :2] - impact_times(system, point))))
+    offsets = np.concatenate([roots[:, 2:] - point.C, phases], axis=1)
+    nearest = np.linalg.norm(offsets, axis=1).argmin()
+    return roots[nearest], offsets[nearest]

@@ -15,6 +15,7 @@ from vibroimpact.exact.asymmetric import AsymmetricConditions, asymmetric_soluti
 from vibroimpact.exact.orbits import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.symmetric import SymmetricConditions, symmetric_solutions, wrapped
 from vibroimpact.regimes.clearance import largest_excursion
+from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.theory.fixed_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
@@ -123,9 +124,9 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """A quarter of the balls' path per cycle, shape (2,): on a symmetric orbit C_i."""
+        """C_i, shape (2,)."""
         u = flight_fractions(system, x)
-        return x[4:] * u * (1 - u) * system.period / 2
+        return sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
 
     @staticmethod
     def member(system, x):

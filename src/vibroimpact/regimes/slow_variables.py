@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vibroimpact.system.amplitude import sawtooth_amplitude
+
 WALLS = (1, -1)
 
 
@@ -22,15 +24,6 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
     return np.abs(phasor), -np.angle(phasor)
 
 
-def sawtooth_amplitude(ball_velocity, epsilon: float, Omega: float):
-    """C of a saw-tooth with the slope of the ball's flight: Z = W - U = -(1 + epsilon) Y, half a period long.
-
-    Args:
-        ball_velocity: Y' of the flight, any shape, either sign.
-    """
-    return (1 + epsilon) * np.pi * np.abs(ball_velocity) / (2 * Omega)
-
-
 def phase_in_cycle(tau, period: float):
     """Fraction of the forcing period, in [0, 1), at which events happen."""
     return np.remainder(np.asarray(tau) / period, 1.0)
@@ -47,7 +40,7 @@ class SlowVariables:
 
     Attributes:
         B, psi: amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).
-        C: from the mean speed of the ball's flights, shape (2,).
+        C: from the mean path of the ball from wall to wall, shape (2,).
         impact_phases: mean phase in the cycle, [module, wall +1 / wall -1], shape (2, 2), fractions in [0, 1).
     """
 
@@ -66,7 +59,7 @@ def measure(system, tau, displacements, impacts) -> SlowVariables:
 
     Args:
         tau, displacements: evenly spaced times of whole periods (end left out) and X1, Y1, X2, Y2 there, shape (n, 4).
-        impacts: mapping of arrays (m,): tau, module, wall and dY1, dY2 just after the impact.
+        impacts: mapping of arrays (m,): tau, module, wall, Y1, Y2.
 
     Raises:
         ValueError: a ball misses one of its walls.
@@ -77,11 +70,12 @@ def measure(system, tau, displacements, impacts) -> SlowVariables:
     module, wall = np.asarray(impacts["module"]), np.asarray(impacts["wall"])
     phase = phase_in_cycle(impacts["tau"], system.period)
     for i in (1, 2):
-        speed = np.asarray(impacts[f"dY{i}"])[module == i]
+        ball, ends = np.asarray(impacts[f"Y{i}"]), np.empty(2)
         for column, side in enumerate(WALLS):
             here = (module == i) & (wall == side)
             if not here.any():
                 raise ValueError(f"impacts: none of module {i} at the wall {side:+d}")
             phases[i - 1, column] = mean_phase(phase[here])
-        C[i - 1] = np.mean(sawtooth_amplitude(speed, system.epsilon, system.Omega))
+            ends[column] = ball[here].mean()
+        C[i - 1] = sawtooth_amplitude(system.epsilon, ends[1] - ends[0])
     return SlowVariables(B=B, psi=psi, C=C, impact_phases=phases)

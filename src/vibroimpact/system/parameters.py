@@ -98,6 +98,13 @@ class System:
         """Forcing amplitudes (f_10, f_20), shape (2,), (10.4)."""
         return self.epsilon * np.array([self.f10_hat, self.f20_hat])
 
+    @property
+    def has_undriven_module(self) -> bool:
+        """Whether some module has neither a force nor a neighbour that it feels: its impacts can only die out."""
+        uncoupled = self.alpha12_hat == 0 and self.gamma12_hat == 0
+        forced = [self.f10_hat != 0, self.f20_hat != 0]
+        return not (all(forced) if uncoupled else any(forced))
+
     def with_(self, **changes: float) -> "System":
         """The same system with some parameters changed."""
         return replace(self, **changes)

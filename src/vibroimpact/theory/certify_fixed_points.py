@@ -43,16 +43,18 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many fixed points a system has, C_i of either sign.
 
+    There is none where a module is driven by nothing: what its ball dissipates, mu rho C_i^2, leaves C_i = 0, and
+    `search` refuses the free motion that would be left.
+
     Raises:
-        ValueError: as `fixed_points.search`; or no module is forced (there is no fixed point then).
+        ValueError: as `fixed_points.search`.
     """
-    if not (system.f10_hat or system.f20_hat):
-        raise ValueError("system: f10_hat and f20_hat are 0; without forcing there is nothing to prove")
     listed = search(system)
     with ctx.workprec(_BITS):
-        isolated, undecided = _subdivide(_Balance(system))
+        isolated, undecided = ([], []) if system.has_undriven_module else _subdivide(_Balance(system))
     points = [point.C for point in listed.points + listed.outside]
-    counts = np.array([[_holds(box, C) for C in points] for box in isolated], dtype=int).reshape(len(isolated), -1)
+    counts = np.array([[_holds(box, C) for C in points] for box in isolated], dtype=int)
+    counts = counts.reshape(len(isolated), len(points))
     matched = len(points) == len(isolated) and (counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all()
     return Proof(isolated, undecided, bool(matched and not undecided))
 

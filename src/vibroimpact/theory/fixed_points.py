@@ -54,8 +54,8 @@ def search(system) -> FixedPointSearch:
         ValueError: the undamped slow flow without balls is at a resonance that the forces do not load: a free motion
             of any phase may then touch the walls, and fixed points need not be isolated.
     """
+    refuse_free_motion(system)
     balance = Balance.of(system)
-    _refuse_free_motion(system, balance)
     radius = search_radius(system)
     zeros, multiple = real_zeros(*balance.polynomials(), radius)
     points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
@@ -109,7 +109,13 @@ def _fixed_point(system, C, psi, multiple):
     )
 
 
-def _refuse_free_motion(system, balance):
+def refuse_free_motion(system) -> None:
+    """Refuse a system whose fixed points need not be isolated.
+
+    Raises:
+        ValueError: as `search`.
+    """
+    balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
     own, force = np.abs(balance.q[:, 0]).max(), np.abs(balance.forcing).max()
     scale = own + abs(balance.K)

@@ -6,3 +6,8 @@ import numpy as np
 def printed_limit(rho):
     """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho)."""
     return 4 / (4 + np.pi * rho)
+
+
+def limit_with_squares(rho):
+    """(10.26) if its squares were lost in print: 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2))."""
+    return 4 / (4 + (np.pi * rho) ** 2)

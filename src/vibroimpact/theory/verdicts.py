@@ -55,13 +55,13 @@ def of_orbit(orbit) -> dict[str, str]:
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
-    """(psi, C) of an exact orbit, each (2,): C_i is ball speed times a quarter period, psi_i follows by (10.17).
+    """(psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
 
-    Where the flights from both walls differ, their mean speed and the mean of their impact phases are taken.
+    Where the flights from both walls differ, the mean of their impact phases is taken.
     """
-    C = orbit.C.mean(axis=1)
     around = np.exp(2j * np.pi * orbit.impact_phases)
-    return np.angle(around[:, 0] - around[:, 1]) - impact_phase(C, rho(orbit.system.kappa)), C
+    phase = impact_phase(orbit.C, rho(orbit.system.kappa))
+    return np.angle(around[:, 0] - around[:, 1]) - phase, orbit.C
 
 
 def fixed_point_error(system, point) -> float:

@@ -1,0 +1,147 @@
+"""Every table and number of docs/stability.md, computed anew and compared to as many digits as the page has."""
+
+import re
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from verdict_tables import verdicts_of
+from vibroimpact.exact.orbits import half_period_multipliers, symmetric_orbit
+from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.theory.masri import impact_multipliers
+from vibroimpact.theory.penetration import largest_C
+
+PAGE = (Path(__file__).parents[2] / "docs/stability.md").read_text(encoding="utf-8")
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+BREAKING = np.pi**2 / (np.pi**2 - 4)
+ALONE = {**PARAMETERS, "alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0}
+
+
+def cells(heading):
+    """Rows of the table whose first row begins with a heading, that row first."""
+    text = PAGE[PAGE.index(f"| {heading} |") :].split("\n\n")[0]
+    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in text.splitlines()]
+    return [row for row in rows if not set("".join(row)) <= set("-")]
+
+
+def said(text):
+    """The one number that the page has at the group of a pattern, and half a unit of its last digit."""
+    ((whole, *_),) = {found if isinstance(found, tuple) else (found,) for found in re.findall(text, PAGE)}
+    return number(whole)
+
+
+def number(text):
+    text = text.replace("−", "-").strip("*")
+    return pytest.approx(float(text), abs=0.5001 * 10.0 ** -len(text.partition(".")[2]))
+
+
+@cache
+def tables():
+    return verdicts_of(SYSTEMS)
+
+
+def nearest_orbit(system, C):
+    roots = symmetric_solutions(system)
+    return symmetric_orbit(system, roots[np.abs(roots[:, 2:] - C).max(axis=1).argmin()])
+
+
+def point_c():
+    return min(vi.fixed_points(SYSTEMS["equal"]), key=lambda point: abs(point.C[1] - 1.6771)).C
+
+
+def test_multipliers_at_the_limits():
+    """By their sum and product, which a double multiplier does not blur."""
+    for C, _, mu in cells("$C$")[1:]:
+        shown = [float(value.replace("−", "-")) for value in mu.split(", ")]
+        expected = impact_multipliers(float(C), 0.65)
+        assert sum(shown) == pytest.approx(expected.sum().real, abs=1.1e-3), C
+        assert np.prod(shown) == pytest.approx(0.65**2, abs=2e-3), C
+
+
+def test_largest_C_within_the_walls():
+    kappas, C = cells("$\\kappa$")
+    for kappa, value in zip(kappas[1:], C[1:], strict=True):
+        # At 0.0867, itself rounded, the value is that of symmetry breaking.
+        assert largest_C(float(kappa)) == pytest.approx(float(value), abs=4e-4 if kappa == "0.0867" else 5.1e-5)
+    assert largest_C(1 - 1e-9) == said(r"1 at\n\$\\kappa\\to0\$ to ([\d.]+) at")
+    largest = max(point.C.max() for system in SYSTEMS.values() for point in vi.fixed_points(system))
+    assert largest == said(r"the largest \$C\$ is ([\d.]+)\)")
+    assert largest < largest_C(0.65) == said(r"holds for \$0\\le C\\le ([\d.]+)\$")
+
+
+def test_how_far_the_limit_has_moved():
+    assert BREAKING - float(cells("$\\varepsilon$")[1][1]) == said(r"the limit has moved by ([\d.]+):")
+
+
+def test_the_reading_with_squares():
+    assert said(r"\}\$ was meant: ([\d.]+) in place") == 1.65**2 / (2 * (1 + 0.65**2))
+    assert said(r"in place of ([\d.]+) at") == 3.3 / 3.65
+    assert impact_multipliers(1.65**2 / (2 * (1 + 0.65**2)), 0.65).max() == said(r"multiplier of ([\d.]+) at the limit")
+
+
+@pytest.mark.parametrize("column", range(5))
+def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
+    """The forcing raised until a half-period multiplier of the upper orbit is -1."""
+    epsilons, C = (row[1:] for row in cells("$\\varepsilon$"))
+    epsilon = float(epsilons[column])
+
+    def upper(f):
+        system = vi.System(**ALONE | {"epsilon": epsilon}, f10_hat=f, f20_hat=f)
+        roots = symmetric_solutions(system)
+        return symmetric_orbit(system, roots[roots[:, 2:].min(axis=1).argmax()])
+
+    breaking = brentq(lambda f: half_period_multipliers(upper(f)).real.min() + 1, 1.45, 1.72, xtol=1e-10)
+    np.testing.assert_allclose(upper(breaking).C, float(C[column]), atol=5.1e-5)
+    assert (upper(breaking).C < BREAKING).all()
+
+
+def test_point_c_of_the_equal_case():
+    """Its distance from the limit, the multiplier of its exact orbit, and the epsilon up to which that is stable."""
+    system, C = SYSTEMS["equal"], point_c()
+
+    def lowest(epsilon):
+        return half_period_multipliers(nearest_orbit(system.with_(epsilon=epsilon), C)).real.min()
+
+    assert BREAKING - C[1] == said(r"lies ([\d.]+) below the limit")
+    assert lowest(0.1) == said(r"half-period multiplier \$(-[\d.]+)\$")
+    assert brentq(lambda epsilon: lowest(epsilon) + 1, 1e-3, 5e-3, xtol=1e-9) == said(
+        r"only for \$\\varepsilon < ([\d.]+)\$"
+    )
+    assert nearest_orbit(system, C).C[1] == said(r"its exact orbit has \$C_2 = ([\d.]+)\$")
+
+
+def test_verdicts_on_the_fixed_points():
+    points, _ = tables()
+    rows = cells("case, label")[1:]
+    assert len(rows) == len(points)
+    for (name, C, _, *verdicts), (_, point) in zip(rows, points.iterrows(), strict=True):
+        assert name == f"{point['case']}, {point['label']}"
+        assert [point["C1"], point["C2"]] == [number(value) for value in C.split(", ")]
+        criteria = ["printed_10_26", "masri_derived", "slow_flow", "floquet"]
+        assert [verdict.strip("*") for verdict in verdicts] == point[criteria].tolist()
+
+
+@pytest.mark.parametrize("case", ["equal", "unequal"])
+def test_the_asymmetric_pair(case):
+    _, orbits = tables()
+    stable = orbits[(orbits["case"] == case) & (orbits["floquet"] == "stable")]
+    assert len(stable) == 2
+    assert not stable["symmetric"].any()
+    C1, C2, modulus = re.search(rf"in\s+the {case} case \(\$C = ([\d.]+), ([\d.]+)\$[^)]*?([\d.]+)\)", PAGE).groups()
+    for _, orbit in stable.iterrows():
+        assert [orbit["C1"], orbit["C2"], orbit["modulus_1"]] == [number(C1), number(C2), number(modulus)]
+        assert orbit["masri_derived"] == "stable"
+
+
+def test_no_symmetric_response_is_stable_and_how_often_the_criteria_are_right():
+    points, orbits = tables()
+    assert not (orbits["symmetric"] & (orbits["floquet"] == "stable")).any()
+    both = (points["masri_derived"] == "stable") & (points["slow_flow"] == "stable")
+    assert (points["printed_10_26"] == points["floquet"]).sum() == 3
+    assert (both == (points["floquet"] == "stable")).sum() == 6
+    assert len(points) == 7

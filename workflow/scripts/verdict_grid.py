@@ -1,0 +1,14 @@
+"""Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
+
+from adapter import logging_to, write_csv
+from vibroimpact.figures.verdict_grid import compute
+from vibroimpact.system import System
+
+
+def main(parameters: dict, settings: dict, output) -> None:
+    write_csv(compute(System(**parameters), **settings), output)
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        main(snakemake.params.system, snakemake.params.settings, snakemake.output[0])
