@@ -3,7 +3,7 @@
 import numpy as np
 
 from vibroimpact.checks.claims_finding import Finding
-from vibroimpact.regimes.classification import IDLE, MODULATED
+from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.fixed_points import fixed_points
@@ -23,6 +23,8 @@ CHECKS = (
 )
 SIMILAR = 0.1
 """Largest relative difference of amplitudes that are called similar here: what a figure of the chapter shows."""
+LARGE = 0.5 / np.sqrt(2)
+"""Standard deviation over mean of the amplitudes 1 + d cos of a beat of depth d = 1/2, largest 3 times smallest."""
 PER_CYCLE = 2
 
 
@@ -82,8 +84,8 @@ def only_possible_behaviour(evidence, case):
     motions = evidence.motions(case)
     parts = {
         "no stable 1:1 response": not (motions["floquet"] == STABLE).any(),
-        "all spread starts end modulated": shares.get(MODULATED, 0.0) == 1.0,
-        "so does the start from rest, with both balls": rest == MODULATED,
+        "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
+        "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
     }
     numbers = {f"share {regime}": share for regime, share in shares.items()}
     return Finding(parts, numbers | {"from rest": rest, "one ball idle from rest": rest == IDLE})
@@ -115,11 +117,11 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Modulation depth (largest - smallest) / (largest + smallest) amplitude of each box above one half."""
-    rows = evidence.measured(case, "spread", "modulation depth").set_index("module")
-    depth = rows["mean"].loc[[1, 2]]
-    parts = {f"box {i}": depth[i] - 2 * rows.loc[i, "uncertainty"] > 0.5 for i in (1, 2)}
-    return Finding(parts, {"modulation depth": depth.tolist()})
+    """Amplitudes of each box vary more than in a sinusoidal beat whose largest is 3 times its smallest."""
+    rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
+    found = rows["mean"].loc[[1, 2]]
+    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
+    return Finding(parts, {"amplitude variation": found.tolist()})
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
@@ -129,9 +131,9 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
     parts = {
         "stable responses at first": stable[0] > 0,
         "none at last": stable[-1] == 0,
-        "modulated response at last": shares.get(MODULATED, 0.0) > 0,
+        "modulated response at last": shares.get(STRONGLY_MODULATED, 0.0) > 0,
     }
-    return Finding(parts, {"stable 1:1 orbits": stable, "modulated share at last": shares.get(MODULATED, 0.0)})
+    return Finding(parts, {"stable 1:1 orbits": stable, "modulated share at last": shares.get(STRONGLY_MODULATED, 0.0)})
 
 
 def periodic_solutions(evidence):
