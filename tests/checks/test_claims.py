@@ -26,7 +26,7 @@ DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
 STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
-OBSERVATION = {"cycles": 250, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 10, "block": 10, "retest": 1000}
+OBSERVATION = {"cycles": 250, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 
 
 def points_of(case, system, exact):

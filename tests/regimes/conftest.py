@@ -19,4 +19,4 @@ def chapter():
 @pytest.fixture(scope="session")
 def observation():
     """That of the default build."""
-    return Observation(cycles=250, rounds=3, window=24, nearness=0.02, blocks=10, block=10, retest=10000)
+    return Observation(cycles=250, rounds=3, window=24, nearness=0.02, blocks=6, block=20, retest=10000)

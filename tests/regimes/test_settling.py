@@ -1,6 +1,7 @@
 """Names of motions that do not repeat: on made-up evidence, on motions that are known, and against longer runs."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -94,7 +95,7 @@ def test_transients_next_to_periodic_cells_are_periodic_or_unsettled(chapter, ob
 def test_a_torus_is_quasi_periodic(chapter, observation):
     """Just below the Neimark-Sacker point of the asymmetric pair, from its own surroundings."""
     pair = [o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1]
-    near = pair[0].state + 1e-2 * np.eye(8)[4]
+    near = pair[0].state + 1e-3 * np.eye(8)[4]
     assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [QUASI_PERIODIC]
     assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [ASYMMETRIC]
 
@@ -102,9 +103,9 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
 def test_names_last_fifty_times_as_long(chapter, observation):
     """A coarse map; `snakemake confusion` makes the whole table (docs/regimes.md)."""
     counts = Counter()
-    for f10, f20 in tile((0.0, 1.6), (0.0, 1.6), 5, 0, 1):
+    for f10, f20 in tile((0.0, 1.6), (0.0, 1.6), 4, 0, 1):
         counts += confusion(chapter(f10, f20), starts(4, seed=4), observation, times=50)
-    assert counts.total() == 100
+    assert counts.total() == 64
     settled = {(name, later): n for (name, later), n in counts.items() if name != UNSETTLED}
     assert {later for (name, later) in settled if name in PERIODIC | {IDLE, NO_IMPACTS}} <= PERIODIC | {
         IDLE,
@@ -113,15 +114,13 @@ def test_names_last_fifty_times_as_long(chapter, observation):
     assert all(name == later for name, later in settled if name not in CHAOS)
     chaotic = sum(n for (name, _), n in settled.items() if name in CHAOS)
     kept = sum(n for (name, later), n in settled.items() if name in CHAOS and later in CHAOS)
-    assert kept >= 0.95 * chaotic > 30
-    assert counts[STRONGLY_MODULATED, STRONGLY_MODULATED] > 20
+    assert kept >= 0.95 * chaotic > 20
+    assert counts[STRONGLY_MODULATED, STRONGLY_MODULATED] > 15
 
 
 def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, observation):
-    """Chaos of 1000 cycles or so at (1, 0.975): a short look takes it for lasting, a longer one finds it out."""
-    from dataclasses import replace
-
-    system, states = chapter(1.0, 0.975), starts(12, seed=1)
+    """Chaos of 1600 cycles or so at (1, 0.97): a short look takes it for lasting, a longer one finds it out."""
+    system, states = chapter(1.0, 0.97), starts(12, seed=1)
     short = [r.name for r in settle(system, states, replace(observation, rounds=1, retest=1))]
     long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
     assert set(short) & set(CHAOS)

@@ -77,7 +77,7 @@ def compute(
         lifetimes: of `coexistence.compute_lifetimes`; those along one of the paths are drawn.
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C is a
-    quarter of the ball's path per cycle; rows of the panel "mean life", labelled by the path, with life, error, least,
+    quarter of the ball's path per cycle; rows of the panel "mean life", labelled by the path, with life, uncertainty, least,
     and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2).
     """
     parts = []
@@ -102,7 +102,7 @@ def compute(
 
 def _lives(lifetimes):
     for name, rows in lifetimes.groupby("path"):
-        yield curve(LIVES, LIVES, label=name, **{key: rows[key] for key in ("p", "life", "error", "least")})
+        yield curve(LIVES, LIVES, label=name, **{key: rows[key] for key in ("p", "life", "uncertainty", "least")})
 
 
 def _coexistence(lifetimes, special):
@@ -186,7 +186,7 @@ def _life(column, lives, along):
         shaded.axvspan(*window, zorder=0, **BOTH)
         shaded.axvline(window.iloc[-1], zorder=0.5, **CRISIS)
     measured = lives[lives["life"].notna()]
-    axes.errorbar(measured["p"], measured["life"], yerr=measured["error"], **LIFE, **BARS)
+    axes.errorbar(measured["p"], measured["life"], yerr=measured["uncertainty"], **LIFE, **BARS)
     least = lives[lives["least"].notna()]
     axes.plot(least["p"], least["least"], **LEAST)
     axes.set(yscale="log", ylabel="mean life, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)

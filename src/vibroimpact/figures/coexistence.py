@@ -20,14 +20,14 @@ def compute_lifetimes(system, along, values, starts: int, seed: int, step: int, 
         starts, seed: of `regimes.classification.starts`. step, longest: see `regimes.lifetimes.lifetime`.
         observation: arguments of `regimes.settling.Observation`.
 
-    Returns columns path, p, starts, escapes, cycles (watched), life, error, least (lower bound where none escaped).
+    Returns columns path, p, starts, escapes, cycles (watched), life, uncertainty, least (lower bound where none escaped).
     """
     path, observed, rows = Path(system, tuple(along)), Observation(**observation), []
     for p in sorted(values):
         found = lifetime(path(p), spread_starts(starts, seed), step, longest, observed.window, observed.nearness)
         life = found.mean if found.escapes else np.nan
         rows.append((" ".join(along), p, starts, found.escapes, found.total, life, found.error, found.least))
-    return pd.DataFrame(rows, columns=["path", "p", "starts", "escapes", "cycles", "life", "error", "least"])
+    return pd.DataFrame(rows, columns=["path", "p", "starts", "escapes", "cycles", "life", "uncertainty", "least"])
 
 
 def compute_tori(system, paths: list[dict], cycles: int, discarded: int):

@@ -15,7 +15,7 @@ RECURRENT = 0.1
 """A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
 """Part of the time that a module spends in bursts: below, it is not in resonance; above, it is always."""
-DISCARDED = 2
+DISCARDED = 1
 """Blocks before those that count."""
 LONGER = 10
 """How many times longer the second look at an exponent is, where the first leaves its sign open."""
@@ -76,8 +76,8 @@ def resonant_shares(run: Run) -> np.ndarray:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Whether a motion comes back to its start within so many cycles, seen once per cycle; a decaying one does not."""
+    """Whether a motion is near its start again in the second half of so many cycles; a decaying one is not."""
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
-    away = np.abs(states[1:] - states[0]) / np.where(extent > 0, extent, 1.0)
+    away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)
     return bool(away.max(axis=1).min() <= RECURRENT)
