@@ -77,8 +77,8 @@ def compute(
         lifetimes: of `coexistence.compute_lifetimes`; those along one of the paths are drawn.
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C is a
-    quarter of the ball's path per cycle; rows of the panel "mean life", labelled by the path, with life, uncertainty, least,
-    and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2).
+    quarter of the ball's path per cycle; rows of the panel "mean life", labelled by the path, with life,
+    uncertainty, least, and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2).
     """
     parts = []
     for panel, settings in zip("abcdefgh", paths, strict=False):
@@ -160,7 +160,6 @@ def draw(tables: dict) -> Figure:
         _marks(grid[1, column], points[(points["family"] != FixedPoints.name) & points["admissible"]])
         attractors = mine[mine["series"] == "attractor"]["p"]
         grid[1, column].set(xlim=(attractors.min(), attractors.max()))
-        _life(grid[:, column], lives[lives["label"] == along[panel]], along[panel])
         for row, what in enumerate(("theory", "exact")):
             letter_panel(grid[row, column], "abcdefgh"[row * len(panels) + column])
             grid[row, column].set_title(what, loc="right", pad=3)
@@ -169,13 +168,15 @@ def draw(tables: dict) -> Figure:
         axes.label_outer()
     for axes in grid[:2, 0]:
         axes.set_ylabel("$C_2$")
+    letters = iter("abcdefghijklmnop"[2 * len(panels) :])
+    for column, panel in enumerate(panels):
+        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
     figure.legend(handles=_legend(special), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
     return figure
 
 
-def _life(column, lives, along):
+def _life(exact, axes, lives, along, letters):
     """Mean lives below the other panels of a path, and the window of coexistence; nothing where none is known."""
-    exact, axes = column[1:]
     if lives.empty:
         axes.set_axis_off()
         exact.set_xlabel(_axis(along))
@@ -190,6 +191,7 @@ def _life(column, lives, along):
     least = lives[lives["least"].notna()]
     axes.plot(least["p"], least["least"], **LEAST)
     axes.set(yscale="log", ylabel="mean life, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
+    letter_panel(axes, next(letters))
     axes.set_title("life of the chaos", loc="right", pad=3)
 
 

@@ -20,7 +20,7 @@ def compute_lifetimes(system, along, values, starts: int, seed: int, step: int, 
         starts, seed: of `regimes.classification.starts`. step, longest: see `regimes.lifetimes.lifetime`.
         observation: arguments of `regimes.settling.Observation`.
 
-    Returns columns path, p, starts, escapes, cycles (watched), life, uncertainty, least (lower bound where none escaped).
+    Returns columns path, p, starts, escapes, cycles (watched), life, uncertainty, least (the bound where none escaped).
     """
     path, observed, rows = Path(system, tuple(along)), Observation(**observation), []
     for p in sorted(values):

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, letter_panel, new_figure, styled
-from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, REGIMES
+from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.regime_map import cell, tile
 from vibroimpact.regimes.settling import Observation
@@ -25,7 +25,6 @@ DARKEST = 1.7
 """Share that would be black: all starts are a grey on which black lines are seen."""
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
-TITLE = {name: f"{name} (from rest)" for name in (IDLE, NO_IMPACTS)}
 
 
 def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_range, starts, seed, observation):
@@ -76,7 +75,7 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     cells, cases = (table[table["series"] == name] for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
-    figure = new_figure(DOUBLE_COLUMN, 150.0)
+    figure = new_figure(DOUBLE_COLUMN, 138.0)
     grid = figure.subplots(-(-len(REGIMES) // COLUMNS), COLUMNS, sharex=True, sharey=True)
     empty = grid.flat[len(REGIMES) :]
     for axes in empty:
@@ -88,7 +87,7 @@ def draw(tables: dict) -> Figure:
             axes.add_collection(LineCollection(borders, colors=BLACK, **style))
         axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
         letter_panel(axes, letter)
-        axes.set_title(TITLE.get(regime, regime), loc="right", pad=3)
+        axes.set_title(regime, loc="right", pad=3)
         axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20))
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_locator(MaxNLocator(TICKS))
@@ -101,7 +100,8 @@ def draw(tables: dict) -> Figure:
         mesh, ax=grid, label="share of starts", shrink=0.6, pad=0.02, boundaries=np.linspace(0, 1, 101)
     )
     bar.set_ticks(np.linspace(0, 1, 6))
-    figure.legend(handles=_legend(), loc="outside lower center", ncols=3, fontsize=8.5)
+    legend = empty[0].legend(handles=_legend(), loc="center left", fontsize=8.5, frameon=False)
+    legend.set_in_layout(False)
     return figure
 
 
