@@ -29,7 +29,20 @@ from vibroimpact.figures import (
 
 LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
-OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02}
+OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 2000}
+LIFETIMES = pd.DataFrame(
+    {
+        "path": "f20_hat",
+        "p": [0.90, 0.95, 0.96, 0.98],
+        "starts": 48,
+        "escapes": [0, 0, 9, 40],
+        "cycles": [200000, 200000, 180000, 20000],
+        "life": [np.nan, np.nan, 20000.0, 500.0],
+        "uncertainty": [np.nan, np.nan, 6666.0, 80.0],
+        "least": [66761.6, 66761.6, np.nan, np.nan],
+    }
+)
+"""Mean lives along the path, made up."""
 START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60
 BRANCHES = {
     "paths": [{"along": ["f20_hat"], "range": [0.7, 1.2]}],
@@ -37,6 +50,7 @@ BRANCHES = {
     "seeds": 2,
     "attractors": {"values": 15, "starts": 5, "seed": 1},
     "observation": OBSERVATION,
+    "lifetimes": LIFETIMES,
 }
 
 
@@ -67,7 +81,7 @@ COMPUTE = {
         [regime_cells(change(SYSTEMS["equal"]))], 10, all_systems(change)
     ),
     "companion_modulation": lambda change: modulation.compute(
-        all_systems(change), starts=6, seed=2, cycles=300, blocks=30, block=5, observation=OBSERVATION
+        all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
     "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), 15, OBSERVATION),
     "companion_epsilon": lambda change: epsilon_limit.compute(
@@ -236,10 +250,10 @@ def test_lost_digits_are_caught(verdict):
 
 def test_another_style_of_simulated_artists_is_caught(verdict, monkeypatch):
     """Their places are not compared, all else is."""
-    monkeypatch.setitem(branches.DOTS[True], "marker", "x")
+    monkeypatch.setitem(branches.DOTS[branches.VARYING], "marker", "x")
     assert_caught(verdict("companion_branches", computed("companion_branches")), "marker: x instead of .")
 
 
 def test_another_scale_of_grey_is_caught(verdict, monkeypatch):
-    monkeypatch.setitem(basins.SHADES, "modulated", "0.9")
+    monkeypatch.setitem(basins.SHADES, "strongly modulated", "0.9")
     assert_caught(verdict("companion_basins", computed("companion_basins")), "faces 1: #e6e6e6ff instead of #ffffffff")

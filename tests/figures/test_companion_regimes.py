@@ -10,8 +10,21 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
 
-OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02}
+OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+LIFETIMES = pd.DataFrame(
+    {
+        "path": "f20_hat",
+        "p": [0.90, 0.95, 0.96, 0.98],
+        "starts": 48,
+        "escapes": [0, 0, 9, 40],
+        "cycles": [200000, 200000, 180000, 20000],
+        "life": [np.nan, np.nan, 20000.0, 500.0],
+        "uncertainty": [np.nan, np.nan, 6666.0, 80.0],
+        "least": [66761.6, 66761.6, np.nan, np.nan],
+    }
+)
+"""Mean lives along the path, made up."""
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
@@ -36,10 +49,11 @@ def tables():
             seeds=2,
             attractors={"values": 3, "starts": 3, "seed": 1},
             observation=OBSERVATION,
+            lifetimes=LIFETIMES,
         ),
         "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, SYSTEMS),
         "modulation": modulation.compute(
-            SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=5, observation=OBSERVATION
+            SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
         "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
         "epsilon": epsilon_limit.compute(
@@ -80,7 +94,7 @@ def test_nothing_leaves_the_paper(figures, name):
 
 def test_stable_pieces_are_bold_solid_and_unstable_ones_dashed(tables, figures):
     table = tables["branches"]["csv"]
-    theory, exact = figures["branches"].axes
+    theory, exact, _ = figures["branches"].axes
     for _, piece in table[table["branch"].notna()].groupby(["series", "branch", "piece"]):
         if not piece["admissible"].iloc[0]:
             continue
@@ -106,6 +120,33 @@ def test_simulated_attractors_lie_on_the_stable_branch(tables):
     assert len(simulated)
     for module in ("C1", "C2"):
         np.testing.assert_allclose(simulated[module], np.interp(simulated["p"], stable["p"], stable[module]), atol=0.02)
+
+
+def test_lives_and_the_window_of_coexistence_are_drawn(tables, figures):
+    """Shaded from the Neimark-Sacker point of the stable pair to the crisis, half way between the values around it."""
+    table, special = tables["branches"]["csv"], tables["branches"]["special_points"]
+    window = table[table["series"] == "coexistence"]["p"].tolist()
+    point = special[(special["family"] == "asymmetric orbit") & (special["kind"] == "Neimark-Sacker")]
+    assert window[0] in point[point["admissible"]]["p"].tolist()
+    assert window[1] == pytest.approx(0.955)
+    _, exact, lives = figures["branches"].axes
+    for axes in (exact, lives):
+        (band,) = [patch for patch in axes.patches if patch.get_label() == branches.BOTH["label"]]
+        assert (band.get_x(), band.get_x() + band.get_width()) == pytest.approx(tuple(window))
+    dots = {line.get_marker(): line.get_xydata() for line in lives.lines if len(line.get_xdata()) > 1}
+    np.testing.assert_allclose(dots["o"], LIFETIMES[["p", "life"]].dropna())
+    np.testing.assert_allclose(dots["^"], LIFETIMES[["p", "least"]].dropna())
+
+
+def test_exponents_have_errors_and_windows_show_what_converges(tables):
+    exponents = tables["modulation"]["csv"].query("panel == 'exponents'")
+    assert (exponents["error"] >= 0).all()
+    windows = tables["modulation"]["windows"]
+    assert set(windows["cycles"]) == {100, 200}
+    assert set(windows["quantity"]) == {"amplitude variation", "depth from extremes"}
+    measures = tables["modulation"]["measures"]
+    rest = measures[(measures["start"] == "rest") & (measures["quantity"] == "largest Lyapunov exponent")]
+    assert rest["uncertainty"].notna().all()
 
 
 def test_tiles_make_up_the_map(tables):

@@ -5,8 +5,6 @@ import numpy as np
 from vibroimpact.regimes.basins import MIRRORED, ends, plane, stable_response
 from vibroimpact.regimes.classification import ASYMMETRIC
 
-OBSERVATION = dict(cycles=250, rounds=2, window=24, nearness=0.02)
-
 
 def test_the_plane_varies_the_balls_alone():
     state = np.array([0.1, 0.5, -0.2, 0.3, 0.4, -0.6, 0.7, -0.8])
@@ -18,22 +16,22 @@ def test_the_plane_varies_the_balls_alone():
     assert len(np.unique(W.round(9), axis=0)) == 16
 
 
-def test_the_orbit_is_in_its_own_basin(chapter):
+def test_the_orbit_is_in_its_own_basin(chapter, observation):
     system = chapter(1.0, 0.89)
     orbit = stable_response(system)
     flights = orbit.ball_speeds[:, ::-1] / orbit.ball_speeds.sum(axis=1, keepdims=True)
     assert flights[0, 0] > 0.5  # a longer flight from wall +1, which is a positive lean
-    assert ends(system, [orbit.state, orbit.state + 1e-3], **OBSERVATION) == [ASYMMETRIC] * 2
+    assert ends(system, [orbit.state, orbit.state + 1e-3], observation) == [ASYMMETRIC] * 2
 
 
 def test_without_a_stable_asymmetric_orbit_there_is_no_plane(chapter):
     assert stable_response(chapter(0.5, 0.5)) is None
 
 
-def test_mirrored_starts_under_mirrored_forces_end_in_the_mirror_image(chapter):
+def test_mirrored_starts_under_mirrored_forces_end_in_the_mirror_image(chapter, observation):
     states = plane(stable_response(chapter(1.0, 0.89)).state, 6)
-    ours = ends(chapter(1.0, 0.89), states, **OBSERVATION)
-    mirrored = ends(chapter(-1.0, -0.89), -states, **OBSERVATION)
+    ours = ends(chapter(1.0, 0.89), states, observation)
+    mirrored = ends(chapter(-1.0, -0.89), -states, observation)
     swap = {ASYMMETRIC: MIRRORED, MIRRORED: ASYMMETRIC}
     assert {ASYMMETRIC, MIRRORED} <= set(ours)
     assert [swap.get(name, name) for name in ours] == mirrored

@@ -34,7 +34,7 @@ def test_a_stable_orbit_is_one_burst_without_modulation(chapter):
     orbit = next(o for o in vi.orbits(system) if o.admissible and abs(o.multipliers[0]) < 1)
     found = measures(system, orbit.state, 50)
     for module in (1, 2):
-        assert found["modulation depth", module] < 1e-10
+        assert found["amplitude variation", module] < 1e-10
         assert found["impacts per cycle", module] == 2
         assert found["sticks per 1000 cycles", module] == 0
         assert found["resonant share", module] == pytest.approx(1, abs=0.02)

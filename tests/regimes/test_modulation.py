@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from vibroimpact.regimes.modulation import cycle_amplitudes, modulation_depth, swells
+import vibroimpact as vi
+from vibroimpact.regimes.modulation import cycle_amplitudes, extreme_depth, sampled, swells, variation
 
 PER_CYCLE = 40
 
@@ -16,9 +17,9 @@ def beating(cycles, length, depth):
 def test_a_steady_response_is_not_modulated():
     amplitudes = cycle_amplitudes(0.3 * np.sin(2 * np.pi * np.arange(400) / PER_CYCLE), PER_CYCLE)
     assert amplitudes == pytest.approx(np.full(10, 0.3), rel=1e-12)
-    assert modulation_depth(amplitudes) == pytest.approx(0, abs=1e-12)
+    assert variation(amplitudes) == pytest.approx(0, abs=1e-12)
     assert len(swells(np.ones(10))) == 0
-    assert modulation_depth(np.zeros(3)) == 0
+    assert variation(np.zeros(3)) == extreme_depth(np.zeros(3)) == 0
 
 
 def test_an_unfinished_cycle_is_left_out():
@@ -28,7 +29,8 @@ def test_an_unfinished_cycle_is_left_out():
 @pytest.mark.parametrize("length", [12, 20, 33])
 def test_swells_are_one_modulation_period_apart(length):
     amplitudes = cycle_amplitudes(beating(10 * length, length, 0.5), PER_CYCLE)
-    assert modulation_depth(amplitudes) == pytest.approx(0.5, abs=0.05)
+    assert variation(amplitudes) == pytest.approx(0.5 / np.sqrt(2), abs=0.03)
+    assert extreme_depth(amplitudes) == pytest.approx(0.5, abs=0.05)
     found = swells(amplitudes)
     assert len(found) == 10
     assert np.diff(found).mean() == pytest.approx(length, abs=0.2)
@@ -42,3 +44,18 @@ def test_ripples_on_a_swell_are_not_counted():
 
 def test_a_window_that_begins_high_counts_from_the_next_swell():
     assert swells([1.0, 0.9, 0.1, 0.5, 1.0, 0.9, 0.0, 1.0]).tolist() == [4, 7]
+
+
+def test_variation_tends_to_a_limit_where_the_depth_from_extremes_grows(chapter):
+    """Over 100, 1000 and 10 000 cycles of the strongly modulated response."""
+    system = chapter(0.5, 0.5)
+    start = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 500).final
+    run = sampled(system, start, 10000)
+    for box in (0, 2):
+        amplitudes = cycle_amplitudes(run.samples[:, box], 24)
+        windows = [amplitudes[:cycles] for cycles in (100, 1000, 10000)]
+        short, middle, long = (variation(window) for window in windows)
+        assert abs(middle - long) < 0.03 * long
+        assert abs(short - long) < 0.15 * long
+        depths = [extreme_depth(window) for window in windows]
+        assert depths[0] + 0.03 < depths[1] < depths[2]

@@ -33,7 +33,7 @@ def test_a_changed_figure_fails_with_its_reason_and_a_page_to_read(rebuilt):
     rebuilt.edit("figures/fig10_04.artists.json", '"unstable"', '"instable"')
     (rebuilt / "figures/fig10_05.csv").unlink()
     basins = rebuilt / "figures/companion_basins.csv"
-    basins.write_text(basins.read_text().replace(",modulated,", ",symmetric,"))
+    basins.write_text(basins.read_text().replace(",strongly modulated,", ",symmetric,"))
     before = {path.name: path.read_bytes() for path in (rebuilt / "figures").iterdir()}
     output = rebuilt.snakemake("figure_check", check=False)
     assert rebuilt.returncode == 1

@@ -48,7 +48,9 @@ COMPANIONS = {
         "method": f"continuation of fixed points and exact 1:1 responses; attractors by {SIMULATED}",
         "system": REGIMES["branches"]["case"],
         "settings": keys_of("regimes.branches", "case") | OBSERVED,
-        "config": ["regimes.branches.case"],
+        "config": ["regimes.branches.case", "regimes.coexistence"],
+        "inputs": {"lifetimes": rules.coexistence.output.lifetimes},
+        "before": [step(*STEPS["coexistence"])],
         "tables": {"special_points": "results/regimes/special_points.csv"},
     },
     "companion_regime_map": {
@@ -65,7 +67,7 @@ COMPANIONS = {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
         "settings": keys_of("regimes.modulation") | OBSERVED,
-        "tables": {"measures": "results/regimes/modulation.csv"},
+        "tables": {"measures": "results/regimes/modulation.csv", "windows": "results/regimes/modulation_windows.csv"},
     },
     "companion_basins": {
         "module": "basins",
@@ -132,4 +134,5 @@ for name, companion in COMPANIONS.items():
 
 rule companions:
     input:
+        rules.coexistence.output,
         [path for name in COMPANIONS for path in companion_outputs(name).values()],

@@ -24,6 +24,11 @@ STEPS = {
         DOUBLE,
         "workflow/scripts/regime_tile.py",
     ),
+    "coexistence": (
+        "direct integration of (10.1) until a periodic motion catches a start, censored; tori swept both ways",
+        DOUBLE,
+        "workflow/scripts/coexistence.py",
+    ),
 }
 EXACT = "direct integration of (10.1), event by event, in ball arithmetic, proved by doubling the digits"
 

@@ -8,7 +8,7 @@ from vibroimpact.checks.claims_points import theory
 from vibroimpact.exact.orbits import orbits
 from vibroimpact.exact.symmetric import symmetric_solutions
 from vibroimpact.figures.companion_verdicts import NO_ORBIT
-from vibroimpact.regimes.classification import IDLE, MODULATED
+from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
@@ -31,6 +31,8 @@ CHECKS = (
 )
 SIMILAR = 0.1
 """Largest relative difference of amplitudes that are called similar here: what a figure of the chapter shows."""
+LARGE = 0.5 / np.sqrt(2)
+"""Standard deviation over mean of the amplitudes 1 + d cos of a beat of depth d = 1/2, largest 3 times smallest."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
 """Two epsilon, each small enough that the distance of theory and truth is proportional to it."""
@@ -97,8 +99,8 @@ def only_possible_behaviour(evidence, case):
     motions = evidence.motions(case)
     parts = {
         "no stable 1:1 response": not (motions["floquet"] == STABLE).any(),
-        "all spread starts end modulated": shares.get(MODULATED, 0.0) == 1.0,
-        "so does the start from rest, with both balls": rest == MODULATED,
+        "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
+        "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
     }
     numbers = {f"share {regime}": share for regime, share in shares.items()}
     return Finding(parts, numbers | {"from rest": rest, "one ball idle from rest": rest == IDLE})
@@ -130,11 +132,11 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Modulation depth (largest - smallest) / (largest + smallest) amplitude of each box above one half."""
-    rows = evidence.measured(case, "spread", "modulation depth").set_index("module")
-    depth = rows["mean"].loc[[1, 2]]
-    parts = {f"box {i}": depth[i] - 2 * rows.loc[i, "uncertainty"] > 0.5 for i in (1, 2)}
-    return Finding(parts, {"modulation depth": depth.tolist()})
+    """Amplitudes of each box vary more than in a sinusoidal beat whose largest is 3 times its smallest."""
+    rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
+    found = rows["mean"].loc[[1, 2]]
+    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
+    return Finding(parts, {"amplitude variation": found.tolist()})
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
@@ -165,7 +167,7 @@ def unstable_means_modulated(evidence):
 
 def _modulated_share(evidence, case):
     shares = evidence.measured(case, "spread", "share of starts").set_index("regime")["mean"]
-    return shares.get(MODULATED, 0.0)
+    return shares.get(STRONGLY_MODULATED, 0.0)
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):

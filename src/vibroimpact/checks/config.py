@@ -109,7 +109,7 @@ def _refuse_resonance(system):
 def _scenes(config):
     """Everything that may name a case, with its place."""
     yield from ((f"figures.{figure}", scene) for figure, scene in config["figures"].items())
-    yield from ((f"regimes.{name}", config["regimes"][name]) for name in ("branches", "basins"))
+    yield from ((f"regimes.{name}", config["regimes"][name]) for name in ("branches", "coexistence", "basins"))
     yield "regimes.epsilon.mixed", config["regimes"]["epsilon"]["mixed"]
 
 

@@ -9,16 +9,32 @@ from matplotlib.patches import Patch
 from vibroimpact.figures.style import BLACK, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.tables import curve, join
 from vibroimpact.regimes.basins import MIRRORED, ends, plane, stable_response
-from vibroimpact.regimes.classification import ASYMMETRIC
+from vibroimpact.regimes.classification import (
+    ASYMMETRIC,
+    CHAOTIC,
+    HOPPING,
+    IDLE,
+    NO_IMPACTS,
+    OTHER,
+    QUASI_PERIODIC,
+    STRONGLY_MODULATED,
+    SYMMETRIC,
+    UNSETTLED,
+)
+from vibroimpact.regimes.settling import Observation
 
 SHADES = {
-    "modulated": "white",
+    STRONGLY_MODULATED: "white",
     ASYMMETRIC: "0.25",
     MIRRORED: "0.65",
-    "other periodic": "0.82",
-    "symmetric": "0.45",
-    "one ball idle": "0.9",
-    "no impacts": "0.95",
+    CHAOTIC: "0.95",
+    OTHER: "0.82",
+    SYMMETRIC: "0.45",
+    QUASI_PERIODIC: "0.55",
+    HOPPING: "0.9",
+    IDLE: "0.75",
+    NO_IMPACTS: "0.35",
+    UNSETTLED: "0.1",
 }
 
 
@@ -27,7 +43,7 @@ def compute(system, points: int, observation: dict) -> dict:
 
     Args:
         points: starts along each axis, in the middles of equal parts of -1 < W_i < 1.
-        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
+        observation: arguments of `regimes.settling.Observation`.
 
     Returns "csv": columns panel, series ("start", "orbit"), label (regime), W1, W2; and "shares": columns regime,
     share, uncertainty (of a share of so many independent starts, binomial).
@@ -39,7 +55,7 @@ def compute(system, points: int, observation: dict) -> dict:
     if orbit is None:
         raise ValueError("system: it has no stable asymmetric 1:1 orbit, so that there is no plane through it")
     states = plane(orbit.state, points)
-    names = ends(system, states, **observation)
+    names = ends(system, states, Observation(**observation))
     W1, W2 = states[:, 0] - states[:, 1], states[:, 2] - states[:, 3]
     own = orbit.state[0::2][:2] - orbit.state[1::2][:2]
     table = join(

@@ -7,10 +7,20 @@ from matplotlib.lines import Line2D
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.tables import curve, join, select
-from vibroimpact.regimes.classification import MODULATED, REGIMES, settle
+from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.lyapunov import largest_exponent
-from vibroimpact.regimes.modulation import burst_lengths, mean_and_error, measures
+from vibroimpact.regimes.modulation import (
+    PER_CYCLE,
+    burst_lengths,
+    cycle_amplitudes,
+    extreme_depth,
+    mean_and_error,
+    measures,
+    sampled,
+    variation,
+)
+from vibroimpact.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
@@ -19,39 +29,61 @@ DOTS = {
     "spread starts": {"label": "spread starts", "linestyle": "none", "color": GREY, **_DOT},
     "from rest": {"label": "from rest", "linestyle": "none", "color": "white", "markeredgecolor": BLACK, **_DIAMOND},
 }
+BARS = {"elinewidth": 0.7, "ecolor": GREY, "capsize": 0}
+"""Standard errors of single exponents."""
 GRID = 0.25
 """The axis of exponents ends at multiples of this, wherever those of chaotic motions lie."""
 
 
-def compute(systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, observation: dict) -> dict:
+SHOWN = 4
+"""So many starts of a regime are watched over the longest of the windows."""
+
+
+def compute(
+    systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
+) -> dict:
     """Measures of every regime that starts end in, case by case; the start from rest is kept apart.
 
     Args:
         systems: case -> system. starts: number of spread starts beside the one from rest.
         cycles: window of the measures. blocks, block: of the Lyapunov exponent, so many blocks of so many cycles.
-        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
+        windows: lengths in cycles over which measures of the envelope are compared.
+        observation: arguments of `regimes.settling.Observation`.
 
     Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
-    uncertainty (standard error over starts; binomial for the share of starts; blank for one start); and "csv", what is
-    drawn: burst lengths [cycles] and the part of bursts longer than that, and the exponent of each start, per period.
+    uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
+    blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
+    spread starts; and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, and the
+    exponent of each start with its standard error, per period.
     """
-    tables = [_case(case, system, starts, seed, cycles, blocks, block, observation) for case, system in systems.items()]
-    rows, curves = zip(*tables, strict=True)
-    return {"measures": pd.concat(rows, ignore_index=True), "csv": join(part for parts in curves for part in parts)}
+    tables = [
+        _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
+        for case, system in systems.items()
+    ]
+    rows, compared, curves = zip(*tables, strict=True)
+    return {
+        "measures": pd.concat(rows, ignore_index=True),
+        "windows": pd.DataFrame(
+            [row for part in compared for row in part],
+            columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
+        ),
+        "csv": join(part for parts in curves for part in parts),
+    }
 
 
-def _case(case, system, starts, seed, cycles, blocks, block, observation):
-    regimes = settle(system, spread_starts(starts + 1, seed), **observation)
+def _case(case, system, starts, seed, cycles, blocks, block, windows, observation):
+    regimes = settle(system, spread_starts(starts + 1, seed), Observation(**observation))
     groups = {("rest", regimes[0].name): regimes[:1]}
     for name in REGIMES:
         if members := [regime for regime in regimes[1:] if regime.name == name]:
             groups["spread", name] = members
-    rows, curves = [], []
+    rows, curves, compared = [], [], []
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
         exponents = [largest_exponent(system, state, blocks, block) for state in states]
         found = [
-            measures(system, state, cycles) | {(EXPONENT, 0): e} for state, e in zip(states, exponents, strict=True)
+            measures(system, state, cycles) | {(EXPONENT, 0): exponent.mean}
+            for state, exponent in zip(states, exponents, strict=True)
         ]
         key = {"case": case, "start": start, "regime": name}
         if start == "spread":
@@ -60,12 +92,33 @@ def _case(case, system, starts, seed, cycles, blocks, block, observation):
             rows.append({**key, "starts": starts, "quantity": SHARE, "module": 0, "mean": share, "uncertainty": error})
         for quantity, module in found[0]:
             mean, error, count = mean_and_error([values[quantity, module] for values in found])
+            if quantity == EXPONENT and count == 1:
+                error = exponents[0].error
             named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
             rows.append({**key, "starts": count, **named})
-        curves.append(curve("exponents", case, label=f"{start}, {name}", exponent=exponents))
-        if (start, name) == ("spread", MODULATED):
+        curves.append(curve("exponents", case, label=f"{start}, {name}", **_columns(exponents)))
+        if (start, name) == ("spread", STRONGLY_MODULATED):
+            compared = _windows(case, system, states[:SHOWN], windows)
             curves += [_survival(case, system, states, cycles, module) for module in (1, 2)]
-    return pd.DataFrame(rows), curves
+    return pd.DataFrame(rows), compared, curves
+
+
+def _columns(exponents):
+    means, errors = zip(*exponents, strict=True)
+    return {"exponent": means, "error": errors}
+
+
+def _windows(case, system, states, windows):
+    """Measures of the envelope over windows of several lengths, which begin together."""
+    runs = [sampled(system, state, max(windows)) for state in states]
+    rows = []
+    for module in (1, 2):
+        envelopes = [cycle_amplitudes(run.samples[:, 2 * module - 2], PER_CYCLE) for run in runs]
+        for cycles in windows:
+            for name, measure in (("amplitude variation", variation), ("depth from extremes", extreme_depth)):
+                mean, error, _ = mean_and_error([measure(envelope[:cycles]) for envelope in envelopes])
+                rows.append((case, module, cycles, name, mean, error))
+    return rows
 
 
 def _survival(case, system, states, cycles, module):
@@ -110,10 +163,11 @@ def _exponents(axes, exponents, cases):
         rows = exponents[exponents["series"] == case]
         rest = rows["label"].str.startswith("rest")
         x = place + np.linspace(-0.25, 0.25, len(rows))
-        axes.plot(x[~rest], rows["exponent"][~rest], **DOTS["spread starts"])
-        axes.plot(place - 0.33, rows["exponent"][rest].iloc[0], **DOTS["from rest"])
+        for mine, at, name in ((~rest, x[~rest], "spread starts"), (rest, place - 0.33, "from rest")):
+            axes.errorbar(at, rows["exponent"][mine], yerr=rows["error"][mine], **BARS, **DOTS[name])
     axes.axhline(0, color=BLACK, linewidth=0.6)
-    low, high = exponents["exponent"].min(), exponents["exponent"].max()
+    low, high = ((exponents["exponent"] + sign * exponents["error"]) for sign in (-1, 1))
+    low, high = low.min(), high.max()
     axes.set(xticks=range(len(cases)), xticklabels=cases, xlim=(-0.5, len(cases) - 0.5))
     axes.set(ylim=(np.floor(low / GRID) * GRID, np.ceil(high / GRID) * GRID))
     axes.set_ylabel(r"$\lambda_{\max}$ per forcing period")

@@ -10,20 +10,21 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.style import BLACK, DOUBLE_COLUMN, letter_panel, new_figure, styled
-from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, REGIMES
+from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.regime_map import cell, tile
+from vibroimpact.regimes.settling import Observation
 
 LINES = {
     "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 0.9},
     "stable points": {"linestyles": "solid", "linewidths": 1.2},
 }
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 4.0, "markeredgewidth": 0.9}
+COLUMNS = 4
 DARKEST = 1.7
 """Share that would be black: all starts are a grey on which black lines are seen."""
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
-TITLE = {name: f"{name} (from rest)" for name in (IDLE, NO_IMPACTS)}
 
 
 def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_range, starts, seed, observation):
@@ -31,13 +32,13 @@ def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_ra
 
     Args:
         points: cells along each axis. starts, seed: see `regimes.classification.starts`.
-        observation: cycles, rounds, window, nearness of `regimes.classification.settle`.
+        observation: arguments of `regimes.settling.Observation`.
 
     Returns columns f10_hat, f20_hat, a share per regime, from_rest, fixed_points, stable_points.
     """
-    states = spread_starts(starts, seed)
+    states, observed = spread_starts(starts, seed), Observation(**observation)
     cells = [
-        cell(system.with_(f10_hat=f10, f20_hat=f20), states, **observation)
+        cell(system.with_(f10_hat=f10, f20_hat=f20), states, observed)
         for f10, f20 in tile(f10_range, f20_range, points, number, tiles)
     ]
     rows = [dataclasses.asdict(c) for c in cells]
@@ -74,28 +75,33 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     cells, cases = (table[table["series"] == name] for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
-    figure = new_figure(DOUBLE_COLUMN, 120.0)
-    grid = figure.subplots(2, 3, sharex=True, sharey=True)
-    for axes, regime, letter in zip(grid.flat, REGIMES, "abcdef", strict=True):
+    figure = new_figure(DOUBLE_COLUMN, 138.0)
+    grid = figure.subplots(-(-len(REGIMES) // COLUMNS), COLUMNS, sharex=True, sharey=True)
+    empty = grid.flat[len(REGIMES) :]
+    for axes in empty:
+        axes.set_axis_off()
+    for axes, regime, letter in zip(grid.flat, REGIMES, "abcdefghijklmnop", strict=False):
         mesh = axes.pcolormesh(f10, f20, _square(cells, regime), cmap="Greys", vmin=0, vmax=DARKEST, rasterized=True)
         for column, style in LINES.items():
             borders = _borders(f10, f20, _square(cells, column.replace(" ", "_")))
             axes.add_collection(LineCollection(borders, colors=BLACK, **style))
         axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
         letter_panel(axes, letter)
-        axes.set_title(TITLE.get(regime, regime), loc="right", pad=3)
+        axes.set_title(regime, loc="right", pad=3)
         axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20))
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_locator(MaxNLocator(TICKS))
-    for axes in grid[-1]:
+    for axes in grid.flat[len(REGIMES) - COLUMNS : len(REGIMES)]:
         axes.set_xlabel(r"$\hat f_{10}$")
+        axes.tick_params(labelbottom=True)
     for axes in grid[:, 0]:
         axes.set_ylabel(r"$\hat f_{20}$")
     bar = figure.colorbar(
         mesh, ax=grid, label="share of starts", shrink=0.6, pad=0.02, boundaries=np.linspace(0, 1, 101)
     )
     bar.set_ticks(np.linspace(0, 1, 6))
-    figure.legend(handles=_legend(), loc="outside lower center", ncols=3, fontsize=8.5)
+    legend = empty[0].legend(handles=_legend(), loc="center left", fontsize=8.5, frameon=False)
+    legend.set_in_layout(False)
     return figure
 
 

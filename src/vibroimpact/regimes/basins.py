@@ -3,8 +3,9 @@
 import numpy as np
 
 from vibroimpact.exact.orbits import orbits
-from vibroimpact.regimes.classification import ASYMMETRIC, settle
+from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.regime_map import centres
+from vibroimpact.regimes.settling import Observation, settle
 
 MIRRORED = "asymmetric, mirrored"
 
@@ -26,7 +27,7 @@ def plane(state, points: int) -> np.ndarray:
     return states
 
 
-def ends(system, states, cycles: int, rounds: int, window: int, nearness: float) -> list[str]:
+def ends(system, states, observation: Observation) -> list[str]:
     """Regime that each start ends in; of two mirrored asymmetric responses the one of negative lean is MIRRORED."""
-    regimes = settle(system, states, cycles, rounds, window, nearness)
+    regimes = settle(system, states, observation)
     return [MIRRORED if regime.name == ASYMMETRIC and regime.lean < 0 else regime.name for regime in regimes]

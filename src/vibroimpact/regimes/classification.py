@@ -1,4 +1,4 @@
-"""Which regime a start ends in: a simulation until it repeats, and a label read off its displacements and impacts."""
+"""Names of regimes, and the recognition of those that repeat, from displacements and impacts over a window."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,13 +6,18 @@ from functools import cached_property
 import numpy as np
 from scipy.stats import qmc
 
-from vibroimpact.exact.simulation import IMPACT, Run, simulate, simulate_many
+from vibroimpact.exact.simulation import IMPACT, Run, simulate
 from vibroimpact.regimes.periodicity import mirror_distance, repeats_after
 from vibroimpact.system.amplitude import sawtooth_amplitude
 
-SYMMETRIC, ASYMMETRIC, MODULATED = "symmetric", "asymmetric", "modulated"
-IDLE, NO_IMPACTS, OTHER = "one ball idle", "no impacts", "other periodic"
-REGIMES = (SYMMETRIC, ASYMMETRIC, OTHER, MODULATED, IDLE, NO_IMPACTS)
+SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
+STRONGLY_MODULATED, CHAOTIC, HOPPING = "strongly modulated", "chaotic", "hopping"
+QUASI_PERIODIC, IDLE, NO_IMPACTS = "quasi-periodic", "one ball idle", "no impacts"
+UNSETTLED = "unsettled"
+CHAOS = (STRONGLY_MODULATED, CHAOTIC, HOPPING)
+APERIODIC = (*CHAOS, QUASI_PERIODIC)
+REGIMES = (SYMMETRIC, ASYMMETRIC, OTHER, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
+"""All names; docs/regimes.md states the test of each."""
 
 _PER_CYCLE = 2
 _NEWTON, _SETTLED = 12, 1e-11
@@ -61,49 +66,22 @@ class Regime:
         return np.abs(np.diff([run.samples[0, ball], *turns, run.final[ball]])).sum()
 
 
-def settle(system, states, cycles: int, rounds: int, window: int, nearness: float) -> list[Regime]:
-    """The regime that each start ends in.
-
-    Every start is simulated for so many cycles, then observed over a window; those that come to nothing periodic are
-    given as many cycles again, up to so many rounds. What is left is called modulated: quasi-periodic, chaotic, of a
-    period above half the window, or not settled yet.
-
-    Args:
-        states: (n, 8) starts at tau = 0.
-        nearness: as in `observe`.
-
-    Returns one Regime per start, in their order.
-    """
-    found: list[Regime | None] = [None] * len(states)
-    waiting, now = list(range(len(states))), np.array(states, dtype=float)
-    for _ in range(rounds):
-        now = np.array([run.final for run in simulate_many(system, now, cycles)])
-        regimes = [observe(system, state, window, nearness) for state in now]
-        for place, regime in zip(waiting, regimes, strict=True):
-            found[place] = regime
-        again = [k for k, regime in enumerate(regimes) if regime.name == MODULATED]
-        if not again:
-            break
-        waiting, now = [waiting[k] for k in again], now[again]
-    return found
-
-
 def observe(system, state, window: int, nearness: float) -> Regime:
     """The regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
 
     Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
     to the periodic motion itself, if an attracting one is that near; the window is then on that motion. This tells a
-    slow spiral into a 1:1 response from a modulated motion long before the spiral ends.
+    slow spiral into a 1:1 response from a modulated motion long before the spiral ends. What does not repeat is called
+    unsettled here (see `settling`).
     """
     run = _window(system, state, window)
-    if len(run.events) and not _idle(run):
+    if not _idle(run):
         repeats = repeats_after(run.samples[:, :4], _PER_CYCLE, nearness)
         cycle = None if repeats is None else attracting_cycle(system, run.final, repeats, reach=10 * nearness)
         if cycle is None:
-            return Regime(run, MODULATED, None)
+            return Regime(run, UNSETTLED, None)
         run = _window(system, cycle, window)
-    name, repeats = classify(run)
-    return Regime(run, name, repeats)
+    return Regime(run, *classify(run))
 
 
 def attracting_cycle(system, state, cycles: int, reach: float) -> np.ndarray | None:
@@ -134,18 +112,19 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     run: samples every half period, both ends included.
 
-    A ball is idle if it is at rest throughout: one that drifts slowly will meet a wall. 1:1 responses repeat every
-    cycle with one impact at each wall of each module; their symmetry is that of state to minus state, half a period
-    later.
+    A ball is idle if it is at rest throughout: one that drifts, however slowly, will meet a wall. With both at rest
+    there will be no impacts once the boxes repeat. 1:1 responses repeat every cycle with one impact at each wall of
+    each module; their symmetry is that of state to minus state, half a period later.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
-    if not len(run.events):
-        return NO_IMPACTS, repeats
-    if _idle(run):
+    at_rest = ~run.samples[:, [5, 7]].any(axis=0)
+    if at_rest.all():
+        return (UNSETTLED if repeats is None else NO_IMPACTS), repeats
+    if at_rest.any():
         return IDLE, repeats
     if repeats is None:
-        return MODULATED, None
+        return UNSETTLED, None
     if repeats > 1 or not _two_impacts(run):
         return OTHER, repeats
     mirrored = mirror_distance(displacements, _PER_CYCLE) <= _MIRRORED
@@ -159,7 +138,7 @@ def _window(system, state, cycles):
 
 def _idle(run):
     """Whether one of the balls is at rest at all samples."""
-    return not run.samples[:, 5].any() or not run.samples[:, 7].any()
+    return bool((~run.samples[:, [5, 7]].any(axis=0)).any())
 
 
 def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:

@@ -2,7 +2,10 @@
 
 import numpy as np
 
-from vibroimpact.exact.simulation import IMPACT, STICK, simulate
+from vibroimpact.exact.simulation import IMPACT, STICK, Run, simulate
+
+PER_CYCLE = 24
+"""Samples in a forcing period that amplitudes are taken from."""
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
@@ -12,8 +15,17 @@ def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
     return 0.5 * (by_cycle.max(axis=1) - by_cycle.min(axis=1))
 
 
-def modulation_depth(amplitudes) -> float:
-    """(largest - smallest) / (largest + smallest) amplitude: 0 for a steady response, 1 if it dies out between."""
+def variation(amplitudes) -> float:
+    """Standard deviation of the amplitudes over their mean: 0 for a steady response, d / sqrt(2) for a beat 1 + d cos.
+
+    It tends to a limit with the length of the window, which the depth from largest and smallest amplitude does not.
+    """
+    mean = np.mean(amplitudes)
+    return float(np.std(amplitudes) / mean) if mean > 0 else 0.0
+
+
+def extreme_depth(amplitudes) -> float:
+    """(largest - smallest) / (largest + smallest) amplitude, which grows with the window: kept for comparison."""
     largest, smallest = np.max(amplitudes), np.min(amplitudes)
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
@@ -55,22 +67,26 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
     return np.stack([tau[first[long]], tau[last[long]]], axis=1)
 
 
-def measures(system, state, cycles: int, per_cycle: int = 24) -> dict[tuple[str, int], float]:
+def sampled(system, state, cycles: int) -> Run:
+    """So many cycles from a state at a cycle's start, with PER_CYCLE samples in each and one at the end."""
+    return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
+
+
+def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
     """What a modulated motion is like, by (quantity, module), over so many cycles from a state at a cycle's start.
 
-    modulation depth: of the box amplitudes cycle by cycle. impacts per cycle; sticks per 1000 cycles. resonant share:
-    part of the time within bursts (see `bursts`). burst length [cycles]: mean, nan if there are none.
+    amplitude variation: of the box cycle by cycle (see `variation`). impacts per cycle; sticks per 1000 cycles.
+    resonant share: part of the time within bursts (see `bursts`). burst length [cycles]: mean, nan if there are none.
     """
-    times = np.arange(cycles * per_cycle + 1) * (system.period / per_cycle)
-    run = simulate(system, state, cycles, sample_times=times)
+    run = sampled(system, state, cycles)
     found = {}
     for module in (1, 2):
         mine = run.events[run.events["module"] == module]
         impacts, sticks = mine[mine["kind"] == IMPACT], mine[mine["kind"] == STICK]
-        amplitudes = cycle_amplitudes(run.samples[:, 2 * module - 2], per_cycle)
+        amplitudes = cycle_amplitudes(run.samples[:, 2 * module - 2], PER_CYCLE)
         lengths = np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
         found |= {
-            ("modulation depth", module): modulation_depth(amplitudes),
+            ("amplitude variation", module): variation(amplitudes),
             ("impacts per cycle", module): len(impacts) / cycles,
             ("sticks per 1000 cycles", module): 1000 * len(sticks) / cycles,
             ("resonant share", module): float(lengths.sum() / cycles),

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.regimes.classification import REGIMES, settle
+from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.families import FixedPoints
+from vibroimpact.regimes.settling import Observation, settle
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,9 @@ def tile(f10_range, f20_range, points: int, tile: int, tiles: int) -> np.ndarray
     return np.stack([f10.ravel(), f20.ravel()], axis=1)[tile::tiles]
 
 
-def cell(system, starts, cycles: int, rounds: int, window: int, nearness: float) -> Cell:
-    """Simulate from every start, shape (n, 8), rest first, and ask the theory; see `settle` for the numbers."""
-    regimes = [regime.name for regime in settle(system, starts, cycles, rounds, window, nearness)]
+def cell(system, starts, observation: Observation) -> Cell:
+    """Simulate from every start, shape (n, 8), rest first, and ask the theory."""
+    regimes = [regime.name for regime in settle(system, starts, observation)]
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return Cell(
         f10_hat=system.f10_hat,

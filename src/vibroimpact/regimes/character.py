@@ -1,0 +1,83 @@
+"""What a motion that does not repeat is called: by its Lyapunov exponent, its time in resonance, and its recurrence."""
+
+import numpy as np
+
+from vibroimpact.exact.simulation import IMPACT, Run, simulate
+from vibroimpact.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
+from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
+from vibroimpact.regimes.modulation import bursts
+
+CERTAIN = 3.0
+"""So many standard errors are counted as the uncertainty of an exponent."""
+RESOLVED = 0.02
+"""Smallest exponent, per forcing period, that is told from growth with a power of time."""
+RECURRENT = 0.1
+"""A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
+RESONANT = (0.1, 0.9)
+"""Part of the time that a module spends in bursts: below, it is not in resonance; above, it is always."""
+DISCARDED = 1
+"""Blocks before those that count."""
+LONGER = 10
+"""How many times longer the second look at an exponent is, where the first leaves its sign open."""
+
+POSITIVE, ZERO, OPEN = "positive", "zero", "open"
+NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
+
+NAMES = {
+    (POSITIVE, AT_TIMES): STRONGLY_MODULATED,
+    (POSITIVE, ALWAYS): CHAOTIC,
+    (POSITIVE, NEVER): HOPPING,
+    (ZERO, AT_TIMES): QUASI_PERIODIC,
+    (ZERO, ALWAYS): QUASI_PERIODIC,
+    (ZERO, NEVER): QUASI_PERIODIC,
+}
+"""(sign of the largest exponent, when a module is in resonance) -> name; what is not listed is unsettled."""
+
+
+def character(run: Run, blocks: int, block: int) -> str:
+    """Name of a motion that does not repeat, from a run over whole cycles and what comes after it.
+
+    Args:
+        blocks, block: of the exponent, so many blocks of so many cycles.
+    """
+    exponent = largest_exponent(run.system, run.final, blocks, block, DISCARDED)
+    if sign(exponent) != POSITIVE:
+        exponent = largest_exponent(run.system, run.final, blocks, LONGER * block, DISCARDED)
+    found = sign(exponent)
+    if found == ZERO and not recurs(run.system, run.final, LONGER * blocks * block):
+        return UNSETTLED
+    return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
+
+
+def sign(exponent: Exponent) -> str:
+    """POSITIVE or ZERO where the error allows to say so; OPEN otherwise, as for a periodic motion not reached yet."""
+    reach = CERTAIN * exponent.error
+    if exponent.mean - reach > RESOLVED:
+        return POSITIVE
+    return ZERO if abs(exponent.mean) <= reach <= RESOLVED else OPEN
+
+
+def resonance(shares) -> str:
+    """When modules are in resonance, from the part of the time of each, shape (2,): one that comes and goes decides."""
+    low, high = RESONANT
+    shares = np.asarray(shares)
+    if ((low <= shares) & (shares <= high)).any():
+        return AT_TIMES
+    return ALWAYS if (shares > high).any() else NEVER
+
+
+def resonant_shares(run: Run) -> np.ndarray:
+    """Part of the time that each module is in bursts of resonance, shape (2,)."""
+    shares = np.zeros(2)
+    for module in (1, 2):
+        mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
+        shares[module - 1] = np.diff(bursts(mine["tau"], mine["wall"], run.system.period)).sum()
+    return shares / (run.cycles * run.system.period)
+
+
+def recurs(system, state, cycles: int) -> bool:
+    """Whether a motion is near its start again in the second half of so many cycles; a decaying one is not."""
+    states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
+    extent = np.ptp(states, axis=0)
+    away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)
+    return bool(away.max(axis=1).min() <= RECURRENT)

@@ -1,0 +1,86 @@
+"""How long chaos lives that starts leave for a periodic motion: the censored estimate of a mean life."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.exact.simulation import simulate_many
+from vibroimpact.regimes.classification import UNSETTLED, observe
+
+UNSEEN = 0.05
+"""A life below the lower bound would have shown an escape but with this probability."""
+
+
+@dataclass(frozen=True)
+class Lifetime:
+    """Escapes among so many trials, each a start followed over `step` cycles that had not escaped before."""
+
+    escapes: int
+    trials: int
+    step: int
+
+    @property
+    def total(self) -> int:
+        """Cycles that were watched."""
+        return self.trials * self.step
+
+    @property
+    def mean(self) -> float:
+        """Mean life in cycles, the most likely one for exponential lives seen every `step` cycles; inf if none ended.
+
+        For lives much longer than a step it is total time over escapes.
+        """
+        if self.escapes == 0:
+            return np.inf
+        return 0.0 if self.escapes == self.trials else -self.step / np.log1p(-self.escapes / self.trials)
+
+    @property
+    def error(self) -> float:
+        """Standard error of the mean life, nan where none, or all, ended."""
+        if self.escapes in (0, self.trials):
+            return np.nan
+        part = self.escapes / self.trials
+        return self.mean**2 / self.step * np.sqrt(part / (1 - part) / self.trials)
+
+    @property
+    def least(self) -> float:
+        """Lower bound of the mean life where none ended, nan elsewhere."""
+        return np.nan if self.escapes else -self.total / np.log(UNSEEN)
+
+
+def lifetime(system, states, step: int, longest: int, window: int, nearness: float) -> Lifetime:
+    """Follow starts until a periodic motion has caught them, looked for every `step` cycles.
+
+    The first step is not counted, so that starts in the basin of the periodic motion, and the time that it takes to
+    settle there, do not enter: exponential lives have no memory.
+
+    Args:
+        states: (n, 8) starts.
+        longest: cycles after which a start is given up.
+        window, nearness: as in `observe`.
+    """
+    escapes = trials = 0
+    now = _staying(system, states, step, window, nearness)
+    for _ in range(longest // step - 1):
+        if not now:
+            break
+        stay = _staying(system, now, step, window, nearness)
+        trials, escapes = trials + len(now), escapes + len(now) - len(stay)
+        now = stay
+    return Lifetime(escapes, trials, step)
+
+
+def bracket(values, escapes) -> tuple[float, float]:
+    """Between which neighbouring values the crisis lies: the last without escapes and the first with some, ascending.
+
+    nan for a side that has no such value.
+    """
+    values, some = np.asarray(values, dtype=float), np.asarray(escapes) > 0
+    first = int(np.argmax(some)) if some.any() else len(values)
+    return (values[first - 1] if first > 0 else np.nan), (values[first] if first < len(values) else np.nan)
+
+
+def _staying(system, states, step, window, nearness):
+    """Where those starts are after a step that no periodic motion has caught."""
+    finals = [run.final for run in simulate_many(system, states, step)]
+    return [state for state in finals if observe(system, state, window, nearness).name == UNSETTLED]

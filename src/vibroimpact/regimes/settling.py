@@ -1,0 +1,99 @@
+"""Which regime each start ends in: rounds until it repeats, a name for what does not, longer runs to try the name."""
+
+from dataclasses import dataclass, replace
+
+from vibroimpact.exact.simulation import simulate, simulate_many
+from vibroimpact.regimes.character import character
+from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, UNSETTLED, Regime, observe
+
+
+@dataclass(frozen=True)
+class Observation:
+    """How long motions are looked at.
+
+    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness: as in
+    `observe`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
+    retest: cycles over which such a name is tried.
+    """
+
+    cycles: int
+    rounds: int
+    window: int
+    nearness: float
+    blocks: int
+    block: int
+    retest: int
+
+
+def settle(system, states, observation: Observation) -> list[Regime]:
+    """The regime that each start ends in, one per start, in their order.
+
+    A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
+    `retest` cycles. If it stays with a name of this kind, all bear the name of its longer run. If it ends elsewhere, so
+    may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
+
+    Args:
+        states: (n, 8) starts at tau = 0.
+    """
+    first = _rounds(system, states, observation)
+    regimes = list(first)
+    for name in (*APERIODIC, IDLE):
+        members = [k for k, regime in enumerate(first) if regime.name == name and regime.repeats is None]
+        if members:
+            _try(system, regimes, members, observation)
+    return regimes
+
+
+def _rounds(system, states, observation):
+    """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
+    found: list[Regime | None] = [None] * len(states)
+    waiting, now = range(len(states)), states
+    for _ in range(observation.rounds):
+        runs = dict(zip(waiting, simulate_many(system, now, observation.cycles), strict=True))
+        for place, run in runs.items():
+            found[place] = observe(system, run.final, observation.window, observation.nearness)
+        waiting = [place for place in runs if _passing(found[place])]
+        now = [runs[place].final for place in waiting]
+        if not waiting:
+            break
+    for place in waiting:
+        found[place] = named(runs[place], observation)
+        if found[place].name == UNSETTLED:
+            found[place] = _later(system, found[place], observation)
+    return found
+
+
+def named(run, observation: Observation) -> Regime:
+    """The regime at the end of a run, with a name for one that does not repeat."""
+    regime = observe(run.system, run.final, observation.window, observation.nearness)
+    if regime.name == UNSETTLED:
+        return replace(regime, name=character(run, observation.blocks, observation.block))
+    return regime
+
+
+def _passing(regime):
+    """Whether a longer run may end in another regime."""
+    return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
+
+
+def _later(system, regime, observation):
+    return named(simulate(system, regime.run.final, observation.retest), observation)
+
+
+def _try(system, regimes, members, observation):
+    """Rename, in place, the members of one name by what comes of the last of them, the witness."""
+    *others, witness = members
+    before, after = regimes[witness].name, _later(system, regimes[witness], observation)
+    regimes[witness] = after
+    if _same_kind(before, after.name):
+        for k in others:
+            regimes[k] = replace(regimes[k], name=after.name)
+        return
+    for k in others:
+        later = _later(system, regimes[k], observation)
+        regimes[k] = replace(later, name=UNSETTLED) if _same_kind(before, later.name) else later
+
+
+def _same_kind(before, after):
+    """Whether a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
+    return before == after or (before in CHAOS and after in CHAOS)

@@ -1,0 +1,127 @@
+"""Names of motions that do not repeat: on made-up evidence, on motions that are known, and against longer runs."""
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.regimes.character import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
+from vibroimpact.regimes.classification import (
+    APERIODIC,
+    ASYMMETRIC,
+    CHAOS,
+    HOPPING,
+    IDLE,
+    NO_IMPACTS,
+    OTHER,
+    QUASI_PERIODIC,
+    REGIMES,
+    STRONGLY_MODULATED,
+    SYMMETRIC,
+    UNSETTLED,
+    starts,
+)
+from vibroimpact.regimes.confusion import confusion
+from vibroimpact.regimes.lyapunov import Exponent
+from vibroimpact.regimes.regime_map import tile
+from vibroimpact.regimes.settling import settle
+
+PERIODIC = {SYMMETRIC, ASYMMETRIC, OTHER}
+
+
+@pytest.mark.parametrize(
+    ("mean", "error", "expected"),
+    [
+        (0.5, 0.1, POSITIVE),
+        (0.5, 0.2, OPEN),
+        (0.015, 0.0001, OPEN),  # a perturbation that grows with time, not exponentially, within 100 cycles
+        (0.001, 0.001, ZERO),
+        (-0.001, 0.001, ZERO),
+        (0.01, 0.02, OPEN),
+        (-0.012, 0.0001, OPEN),  # a periodic motion that is not reached yet
+    ],
+)
+def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
+    assert sign(Exponent(mean, error)) == expected
+
+
+@pytest.mark.parametrize(
+    ("shares", "expected"),
+    [
+        ((0.0, 0.05), NEVER),
+        ((0.6, 0.05), AT_TIMES),
+        ((1.0, 0.5), AT_TIMES),
+        ((1.0, 0.95), ALWAYS),
+        ((1.0, 0.0), ALWAYS),
+    ],
+)
+def test_a_module_that_comes_and_goes_makes_bursts(shares, expected):
+    assert resonance(shares) == expected
+
+
+def test_every_name_is_a_regime_once():
+    assert len(set(REGIMES)) == len(REGIMES)
+    assert set(APERIODIC) | {UNSETTLED, IDLE, NO_IMPACTS} | PERIODIC == set(REGIMES)
+
+
+def ends(chapter, f10, f20, observation, count=5):
+    return [regime.name for regime in settle(chapter(f10, f20), starts(count, seed=1), observation)]
+
+
+def test_what_is_not_driven_decays_and_gets_no_other_name(chapter, observation):
+    """All energy is lost in the end, ever more slowly: nothing but rest is a regime without forcing."""
+    assert ends(chapter, 0.0, 0.0, observation) == [NO_IMPACTS] + 4 * [UNSETTLED]
+    decaying = vi.simulate(chapter(0.0, 0.0), starts(2, seed=1)[1], 1000)
+    assert not recurs(chapter(0.0, 0.0), decaying.final, 1000)
+
+
+def test_weak_forces_make_balls_hop(chapter, observation):
+    system = chapter(0.03, 0.03)
+    regimes = settle(system, starts(4, seed=1)[1:], observation)
+    assert {regime.name for regime in regimes} == {HOPPING}
+    run = vi.simulate(system, regimes[0].run.final, 2000)
+    assert len(run.events) / run.cycles < 1.5
+
+
+@pytest.mark.parametrize(("f10", "f20"), [(0.773, 1.093), (0.720, 1.093), (1.200, 1.147)])
+def test_transients_next_to_periodic_cells_are_periodic_or_unsettled(chapter, observation, f10, f20):
+    names = set(ends(chapter, f10, f20, observation))
+    assert names <= PERIODIC | {UNSETTLED}
+    assert names & PERIODIC
+
+
+def test_a_torus_is_quasi_periodic(chapter, observation):
+    """Just below the Neimark-Sacker point of the asymmetric pair, from its own surroundings."""
+    pair = [o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1]
+    near = pair[0].state + 1e-3 * np.eye(8)[4]
+    assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [QUASI_PERIODIC]
+    assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [ASYMMETRIC]
+
+
+def test_names_last_fifty_times_as_long(chapter, observation):
+    """A coarse map; `snakemake confusion` makes the whole table (docs/regimes.md)."""
+    counts = Counter()
+    for f10, f20 in tile((0.0, 1.6), (0.0, 1.6), 4, 0, 1):
+        counts += confusion(chapter(f10, f20), starts(4, seed=4), observation, times=50)
+    assert counts.total() == 64
+    settled = {(name, later): n for (name, later), n in counts.items() if name != UNSETTLED}
+    assert {later for (name, later) in settled if name in PERIODIC | {IDLE, NO_IMPACTS}} <= PERIODIC | {
+        IDLE,
+        NO_IMPACTS,
+    }
+    assert all(name == later for name, later in settled if name not in CHAOS)
+    chaotic = sum(n for (name, _), n in settled.items() if name in CHAOS)
+    kept = sum(n for (name, later), n in settled.items() if name in CHAOS and later in CHAOS)
+    assert kept >= 0.95 * chaotic > 20
+    assert counts[STRONGLY_MODULATED, STRONGLY_MODULATED] > 15
+
+
+def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, observation):
+    """Chaos of 1600 cycles or so at (1, 0.97): a short look takes it for lasting, a longer one finds it out."""
+    system, states = chapter(1.0, 0.97), starts(12, seed=1)
+    short = [r.name for r in settle(system, states, replace(observation, rounds=1, retest=1))]
+    long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
+    assert set(short) & set(CHAOS)
+    assert set(long) <= {ASYMMETRIC, UNSETTLED}

@@ -1,0 +1,52 @@
+"""The onset of a torus by its size against the Neimark-Sacker point by exact multipliers."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.regimes.branches import Path
+from vibroimpact.regimes.torus import onset, size, sweep
+
+
+def test_sizes_like_a_square_root_are_traced_back_to_their_onset():
+    p = np.array([0.6, 0.7, 0.8])
+    found, error = onset(p, np.sqrt(3.0 * (0.9 - p)))
+    assert found == pytest.approx(0.9, abs=1e-12)
+    assert error < 1e-12
+
+
+def test_a_periodic_motion_has_no_size(chapter):
+    system = chapter()
+    orbit = next(o for o in vi.orbits(system) if o.admissible and abs(o.multipliers[0]) < 1)
+    assert size(system, orbit.state, 50, 10)[0] < 1e-12
+
+
+def crossing(path, low, high):
+    """Where a complex pair of the asymmetric orbit crosses the unit circle: linear between two values next to it."""
+    modulus = []
+    for p in (low, high):
+        pairs = [o for o in vi.orbits(path(p)) if o.admissible and not o.symmetric]
+        orbit = min(pairs, key=lambda o: abs(o.multipliers[0]))
+        modulus.append(max(abs(mu) for mu in orbit.multipliers if abs(mu.imag) > 1e-6))
+    assert modulus[0] > 1 > modulus[1]
+    return low + (high - low) * (modulus[0] - 1) / (modulus[0] - modulus[1])
+
+
+def test_the_torus_begins_at_the_neimark_sacker_point_and_without_hysteresis(chapter):
+    """Supercritical: the squared size is linear, vanishes at the point, and is the same on the way down and up."""
+    path = Path(chapter(), ("f20_hat",))
+    rows = sweep(path, [0.8177, 0.8172, 0.8171, 0.8170, 0.8169], cycles=2000, discarded=12000)
+    down, up = ({p: found for name, p, found in rows if name == which} for which in ("down", "up"))
+    assert down[0.8177] < 1e-6
+    assert up[0.8177] < 1e-6
+    values = [p for p in down if p < 0.8173 and down[p] > 1e-3]
+    assert len(values) >= 3
+    for p in values:
+        assert down[p] == pytest.approx(up[p], rel=0.02)
+    found, error = onset(values, [down[p] for p in values])
+    assert abs(found - crossing(path, 0.8168, 0.8177)) < max(5 * error, 2e-5)
+
+
+def test_a_sweep_needs_an_orbit_to_begin_with(chapter):
+    with pytest.raises(ValueError, match="values"):
+        sweep(Path(chapter(0.5, 0.5), ("f20_hat",)), [0.5, 0.4], 10, 10)

@@ -1,0 +1,19 @@
+"""Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
+
+from adapter import logging_to, write_csv
+from vibroimpact.figures.coexistence import compute_lifetimes, compute_tori
+from vibroimpact.system import System
+
+
+def main(parameters: dict, lifetimes: dict, tori: dict, observation: dict, outputs: dict) -> None:
+    """Compute and write the tables, each to the output of its name."""
+    system = System(**parameters)
+    tables = {"lifetimes": compute_lifetimes(system, observation=observation, **lifetimes)}
+    for name, table in (tables | compute_tori(system, **tori)).items():
+        write_csv(table, outputs[name])
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        params = snakemake.params
+        main(params.system, params.lifetimes, params.tori, params.observation, dict(snakemake.output.items()))

@@ -1,0 +1,29 @@
+"""Names of regimes against longer runs -> CSV: name, name later, number of starts."""
+
+from collections import Counter
+
+import pandas as pd
+
+from adapter import logging_to, write_csv
+from vibroimpact.regimes.classification import REGIMES, starts
+from vibroimpact.regimes.confusion import confusion
+from vibroimpact.regimes.regime_map import tile
+from vibroimpact.regimes.settling import Observation
+from vibroimpact.system import System
+
+
+def main(parameters: dict, settings: dict, observation: dict, output) -> None:
+    """Gather over the cells of a coarse map of forcing amplitudes."""
+    system, states = System(**parameters), starts(settings["starts"], settings["seed"])
+    counts = Counter()
+    for f10, f20 in tile(settings["f10_range"], settings["f20_range"], settings["points"], 0, 1):
+        cell = system.with_(f10_hat=f10, f20_hat=f20)
+        counts += confusion(cell, states, Observation(**observation), settings["times"])
+    rows = [(name, later, counts[name, later]) for name in REGIMES for later in REGIMES if counts[name, later]]
+    write_csv(pd.DataFrame(rows, columns=["name", "later", "starts"]), output)
+
+
+if "snakemake" in globals():
+    with logging_to(snakemake.log[0]):
+        params = snakemake.params
+        main(params.system, params.settings, params.observation, snakemake.output[0])
