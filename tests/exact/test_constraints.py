@@ -2,13 +2,16 @@
 
 import math
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.exact.constraints import push, remainder
+import vibroimpact as vi
+from vibroimpact.exact.constraints import LOOKAHEAD, gap, gap_rounding, push, remainder
 from vibroimpact.exact.flow import CONTACT_STATES, flow_of, jet
+from vibroimpact.system.matrices import rate_matrix
 
 unit = st.floats(-1, 1)
 
@@ -38,3 +41,47 @@ def test_derivatives_stay_below_their_bounds(chapter, auditor, damping, state, t
         for order, bound in bounds.items():
             derivative = np.linalg.matrix_power(rate, order) @ lifted
             assert np.abs(derivative[:2]).max() <= bound * (1 + 1e-9) + 1e-9
+
+
+@pytest.mark.parametrize("alpha12_hat", [1.0, 1e6, 1e10])
+@pytest.mark.parametrize("apart", [0.0, 1e-12, 1e-6])
+def test_the_bound_keeps_its_digits_under_strong_coupling(chapter, alpha12_hat, apart):
+    """Boxes that move almost as one: the energy in 40 digits, from the stiffness of each spring."""
+    system = chapter(alpha12_hat=alpha12_hat)
+    jets = (1.0,) * 8, (1.0,) * 6 + (1.0 + 7.0 * apart, 1.0)
+    with mp.workdps(40):
+        y1, y2 = mp.mpf(1) / 7, mp.mpf(jets[1][6]) / 7
+        springs = y1**2 + mp.mpf(system.stiffness2) * y2**2 + mp.mpf(system.alpha12) * (y1 - y2) ** 2
+        exact = mp.sqrt(2 + springs)
+        bound = remainder(flow_of(system).coefficients, 0, jets, 0.0)
+        assert 1 <= bound / exact < 1 + 2e-12
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_gap_is_above_its_polynomial_in_spite_of_rounding(seed):
+    """Stiff, strongly forced systems and boxes that move almost as one, in 40 digits."""
+    rng = np.random.default_rng(seed)
+
+    def size(low, high):
+        return float(10.0 ** rng.uniform(low, high))
+
+    system = vi.System(
+        epsilon=size(-3, 0), kappa=0.5, alpha12_hat=size(-2, 8), gamma1_hat=size(-2, 1), gamma2_hat=size(-2, 1),
+        gamma12_hat=size(-2, 3), sigma20_hat=size(-2, 3), sigma_e_hat=size(-2, 3),
+        f10_hat=size(-1, 5), f20_hat=-size(-1, 5),
+    )  # fmt: skip
+    flow, mode, phase = flow_of(system), seed % 4, rng.uniform(0, 6)
+    q, boxes = flow.coefficients, rng.normal(size=4) * size(-1, 2)
+    if seed % 3:
+        boxes[1], boxes[3] = boxes[0] * (1 + size(-12, -1)), boxes[2]
+    boxes, sine, cosine = tuple(boxes.tolist()), math.sin(phase), math.cos(phase)
+    ball, speed = boxes[0] - rng.uniform(-1, 1), boxes[2] + rng.normal()
+    jets, horizon = jet(q, mode, boxes, sine, cosine), LOOKAHEAD * flow.unit * size(-2.5, 0)
+    polynomial = [*gap(jets[0], ball, speed, 1.0)[:7], -remainder(q, mode, jets, horizon * q.growth)]
+    margin = gap_rounding(q, boxes, (ball, 0.0, speed, 0.0), 0)
+    with mp.workdps(40):
+        rate = mp.matrix(rate_matrix(system, CONTACT_STATES[mode]).tolist())
+        for t in np.linspace(horizon / 6, horizon, 6):
+            x = (mp.expm(rate * mp.mpf(t)) * mp.matrix([*boxes, sine, cosine]))[0]
+            exact = 1 - (x - mp.mpf(ball) - mp.mpf(t) * mp.mpf(speed))
+            assert mp.polyval([mp.mpf(c) for c in polynomial[::-1]], mp.mpf(t)) - margin / 4 <= exact

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.accuracy.reference import reference_run
 from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
 
 QUIET = dict(alpha12_hat=0.0, gamma12_hat=0.0)
@@ -61,6 +62,23 @@ def test_chatter_against_high_precision(chapter, kappa):
     shift = stick["tau"] - float(end)
     expected = np.array(expected) + shift * np.array([expected[4], expected[4], 0, 0, 1.5, 1.5, 0, 0])
     np.testing.assert_allclose(stick["state"], expected, atol=1e-13)
+
+
+def test_the_impacts_of_a_chatter_are_listed_under_strong_forces(chapter):
+    """Under a push of 1e3 the reference lists 75 impacts with rebounds above 1e-4."""
+    system, start = chapter(1e6, 0.0, epsilon=1e-3), [0, -0.999999, 0.2, 0, 0, 0, 0, -0.2]
+    events = vi.simulate(system, start, 1, tau0=1.5).events
+    truth = reference_run(system, start, 1, 60, tau0=1.5).events
+    listed, expected = (np.array([speed for speed in rebounds(run) if speed > 1e-4]) for run in (events, truth))
+    assert len(expected) == 75
+    np.testing.assert_allclose(listed, expected, rtol=1e-6)
+
+
+def rebounds(events):
+    """Relative speeds just after the impacts."""
+    for event in events[events["kind"] == IMPACT]:
+        box, ball = event["state"][[2 + 2 * event["module"], 3 + 2 * event["module"]]]
+        yield abs(box - ball)
 
 
 def test_chatter_follows_its_asymptotic_law(chapter):

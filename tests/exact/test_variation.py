@@ -53,6 +53,15 @@ def test_jacobian_against_high_precision_differences(chapter, changes, force, st
     np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("kappa", [1e-8, 1e-12])
+def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter, kappa):
+    system, start = chapter(kappa=kappa), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
+    run = vi.simulate(system, start, 3)
+    assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
+    expected = jacobian_in_high_precision(system, start, 3, digits=80)
+    np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-14 * np.abs(expected).max())
+
+
 def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
     """A miss late in a chaotic motion may be open although a nearer one at its beginning is clear."""
     system, start, cycles = chapter(0.5, 0.5), np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]), 30

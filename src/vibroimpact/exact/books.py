@@ -9,11 +9,14 @@ neglect."""
 
 
 @inlined
-def record(events, count, time, i, wall, kind, boxes, balls):
-    """Write an event to its row of the table (m, 12); returns the number of events."""
+def record(events, count, time, i, wall, kind, boxes, balls, approach=0.0):
+    """Write an event to its row of the table (m, 13), approach being the relative velocity before an impact; returns
+    the number of events.
+    """
     row = events[count]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
     pack(boxes, balls, row[4:])
+    row[12] = approach
     return count + 1
 
 

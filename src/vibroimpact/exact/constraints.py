@@ -23,7 +23,7 @@ def remainder(q, mode, jets, growth):
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
     y1, y2, z1, z2 = one[6] * (1 / 7), two[6] * (1 / 7), one[7], two[7]
-    energy = m1 * z1 * z1 + m2 * z2 * z2 + q.k11 * y1 * y1 + 2.0 * q.k12 * y1 * y2 + q.k22 * y2 * y2
+    energy = m1 * z1 * z1 + m2 * z2 * z2 + y1 * y1 + q.ground * y2 * y2 - q.k12 * (y1 - y2) ** 2
     return (math.sqrt(energy) + growth * (1 / 5040)) * (1.0 + 1e-12)
 
 
@@ -35,10 +35,10 @@ def acceleration_rounding(q, boxes):
 
 
 @inlined
-def gap_rounding(boxes, balls, i):
-    """Size below which a gap of module i is rounding."""
-    speeds = abs(boxes[2 + i]) + abs(balls[2 + i])  # over a unit of time they enter like positions
-    return RESOLUTION * (1.0 + abs(boxes[i]) + abs(balls[i]) + speeds)
+def gap_rounding(q, boxes, balls, i):
+    """Size below which a gap of module i is rounding: of all that a flight makes it of."""
+    x1, x2, v1, v2 = boxes  # velocities enter like positions over a unit of time
+    return RESOLUTION * (1.0 + abs(x1) + abs(x2) + abs(v1) + abs(v2) + abs(balls[i]) + abs(balls[2 + i]) + q.shift)
 
 
 @inlined
@@ -117,7 +117,7 @@ def module_time(q, mode, i, boxes, balls, jets, wall, touching, bound, sine, cos
     velocity = boxes[2 + i] - balls[2 + i]
     if velocity != 0.0:  # as long as it keeps its sign only the wall ahead matters
         c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], 1.0 if velocity > 0.0 else -1.0)
-        certain, t, width = crossing(c, bound, gap_rounding(boxes, balls, i), horizon, short)
+        certain, t, width = crossing(c, bound, gap_rounding(q, boxes, balls, i), horizon, short)
         if certain:
             return t, width, False
     return _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short)
@@ -139,7 +139,7 @@ def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
 @compiled
 def _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short):
     """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
-    margin = gap_rounding(boxes, balls, i)
+    margin = gap_rounding(q, boxes, balls, i)
     time, width, undecided = horizon, math.inf, False
     for w in (1, -1):
         c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], w)

@@ -24,7 +24,8 @@ from vibroimpact.exact.flow import acceleration, inverse_masses, jet
 from vibroimpact.exact.motion import glide, mode_of, pair, with_position, with_velocity
 from vibroimpact.system.restitution import after_impact
 
-NEGLIGIBLE = 1e-18
+NEGLIGIBLE = 1e-18  # change of the state by what completing a chatter neglects
+LOW = 1e-12  # height of a hop, the wall being at 1, below which its impacts are not listed one by one
 
 impact = compiled(after_impact)
 
@@ -88,8 +89,9 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
     if 8.0 * window * spread(p, bound, window) > a:
         return False, 0.0
     neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
-    unresolved = u * u <= 2.0 * a * gap_rounding(boxes, balls, i)
-    if neglected > NEGLIGIBLE and not unresolved:
+    height = u * u / (2.0 * a)
+    unresolved = height <= gap_rounding(q, boxes, balls, i)
+    if (neglected > NEGLIGIBLE or height > LOW) and not unresolved:
         return False, 0.0
     other = 1 - i
     t, width, _ = module_time(
@@ -133,7 +135,7 @@ def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rema
             continue
         relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
         wall = 1 if relative > 0.0 else -1
-        if i != due and 1.0 - wall * relative > gap_rounding(boxes, balls, i):
+        if i != due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
             continue
         touching = pair(touching, i, wall)
         balls = with_position(balls, i, boxes[i] - wall)
@@ -144,7 +146,7 @@ def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rema
                 _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger)
             box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = with_velocity(boxes, i, box), with_velocity(balls, i, ball)
-            count = record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
+            count = record(events, count, elapsed, i, wall, IMPACT, boxes, balls, velocity)
             if _ends_soon(flow, boxes, balls, walls, sine, remaining, i, wall):
                 boxes, balls, walls, touching, count = _complete(
                     flow, boxes, balls, walls, touching, sine, cosine, i, elapsed, events, count, ledger
@@ -177,4 +179,4 @@ def _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledg
     """The residual of an impact, and whether the depth that it cuts off is within rounding, to the ledger."""
     ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
     brake = -wall * box_accelerations(q, walls, boxes, sine)[i]
-    ledger[UNDECIDED] += velocity * velocity <= 2.0 * brake * gap_rounding(boxes, balls, i)
+    ledger[UNDECIDED] += velocity * velocity <= 2.0 * brake * gap_rounding(q, boxes, balls, i)

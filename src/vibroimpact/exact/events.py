@@ -35,11 +35,12 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
 
     start_phase in [0, 2 pi); sample_times (n,) ascending, on a clock that shows start when the run starts; samples
     (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns the boxes and balls at the
-    end, the events (m, 12) as rows [time since the start, module, wall, kind, state after], the status and the ledger
-    of the run, and, if watch is set, its turns before a wall as rows (n, 2) [time since the start, gap].
+    end, the events (m, 13) as rows [time since the start, module, wall, kind, state after, relative velocity before],
+    the status and the ledger of the run, and, if watch is set, its turns before a wall as rows (n, 2) [time since the
+    start, gap].
     """
     q = flow.coefficients
-    events, count = np.empty((64, 12)), 0
+    events, count = np.empty((64, 13)), 0
     ledger, turns = np.zeros(NEGLECTED + 1), [(0.0, 0.0)][:0]
     walls, touching, due = (0, 0), (0, 0), -1
     phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
@@ -60,7 +61,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         )
         for i in range(2):
             beyond = abs(later[i] - there[i]) - 1.0
-            if beyond > 0.0 and beyond > 16.0 * gap_rounding(later, there, i):
+            if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, later, there, i):
                 return later, there, events[:count], PENETRATED, ledger, _table(turns)
         stalled = 0 if t > 0.0 else stalled + 1
         if stalled > PATIENCE or due == STUCK_IN_TIME:

@@ -12,6 +12,8 @@ import math
 from vibroimpact.exact.compiled import compiled, inlined
 from vibroimpact.exact.flow import slope, value
 
+MOMENT = 1e-300  # times do not go on shrinking below it
+
 
 @inlined
 def least(c, t):
@@ -31,15 +33,16 @@ def least(c, t):
     low = c[0]
     for _ in range(7):  # the k-th coefficient is the sum of the first with Pascal's k-th row as weights
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
-        low = min(low, b[0])
+        low = low if low < b[0] else b[0]  # no number if the polynomial is none
     return low
 
 
 @compiled
 def safe_time(c, horizon):
-    """A time in [0, horizon] up to which the polynomial c (8,) is positive, close to its first zero if that is simple.
+    """A time in [0, horizon] up to which the polynomial c (8,) is positive: close to its first zero if that is simple,
+    and at least half as far as its Bernstein coefficients tell, or 0 if not c[0] > 0.
 
-    0 if c[0] is not positive.
+    They tell it at least as far as no zero, real or complex, lies in the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0
@@ -51,7 +54,11 @@ def safe_time(c, horizon):
         t = min(max(t - value(c, t) / rate, 0.1 * t), horizon) if rate < 0.0 else 0.5 * t
     t *= 1.0 - 1e-9
     while not least(c, t) > 0.0:
+        if not t > MOMENT:
+            return 0.0
         t *= 0.7
+    while 2.0 * t < horizon and least(c, 2.0 * t) > 0.0:
+        t *= 2.0
     return t
 
 

@@ -149,5 +149,5 @@ def _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, late, no
             if wall * (x[i] - y[i]) > 0.0:
                 miss = 1.0 - wall * (x[i] - y[i])
                 turns.append((elapsed + t, miss))
-                ledger[UNDECIDED] += miss <= gap_rounding(x, y, i)
+                ledger[UNDECIDED] += miss <= gap_rounding(flow.coefficients, x, y, i)
     return after

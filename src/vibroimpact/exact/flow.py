@@ -24,12 +24,15 @@ LONGEST_TABLE = 8192
 class Coefficients(NamedTuple):
     """The scalars of (10.2) as the compiled loops read them.
 
-    drive: |(f1, f2)|; growth: that of the sixth derivative of the force; mass: that of box and ball together.
+    ground: stiffness of box 2 to ground (that of box 1 is 1); drive: |(f1, f2)|; growth: that of the sixth derivative
+    of the force; shift: the farthest that the force moves a box from rest within the tables; mass: that of box and
+    ball together.
     """
 
     k11: float
     k12: float
     k22: float
+    ground: float
     c11: float
     c12: float
     c22: float
@@ -40,6 +43,7 @@ class Coefficients(NamedTuple):
     kappa: float
     drive: float
     growth: float
+    shift: float
     mass: float
     inverse_mass: float
 
@@ -64,8 +68,13 @@ class Flow(NamedTuple):
 def flow_of(system) -> Flow:
     """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
     stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
+    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
+    propagators = np.array([_powers(rate_matrix(system, stuck), spacing, count) for stuck in CONTACT_STATES])
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
+        system.stiffness2,
         *(float(v) for v in (damping[0, 0], damping[0, 1], damping[1, 1])),
         float(force[0]),
         float(force[1]),
@@ -74,13 +83,10 @@ def flow_of(system) -> Flow:
         system.kappa,
         float(np.hypot(*force)),
         float(np.hypot(*force)) * system.Omega**6,
+        float(np.abs(propagators[:, :, :2, 4:]).max()),
         1.0 + system.epsilon,
         1.0 / (1.0 + system.epsilon),
     )
-    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
-    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
-    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    propagators = np.array([_powers(rate_matrix(system, stuck), spacing, count) for stuck in CONTACT_STATES])
     angles = system.Omega * spacing * np.arange(count)
     rotations = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     return Flow(

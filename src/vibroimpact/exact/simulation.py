@@ -162,12 +162,12 @@ def _phase(system, tau):
 
 
 def _table(rows, tau0):
-    """Rows [time, module, wall, kind, state] as a structured array."""
+    """Rows [time, module, wall, kind, state, ...] as a structured array."""
     table = np.empty(len(rows), EVENT)
     table["tau"] = tau0 + rows[:, 0]
     for column, name in enumerate(("module", "wall", "kind"), start=1):
         table[name] = rows[:, column]
-    table["state"] = rows[:, 4:]
+    table["state"] = rows[:, 4:12]
     return table
 
 

@@ -49,28 +49,34 @@ def _field(q, walls, state, phase, field):
 
 
 @compiled
-def _before_impact(q, i, after):
-    """The state (8,) just before an impact in module i (0, 1), from the one after it."""
+def _before_impact(q, i, after, approach):
+    """The state (8,) just before an impact in module i (0, 1), from the one after it and the relative velocity before.
+
+    The velocities after it alone tell less of that the smaller kappa is.
+    """
     box, ball = 2 + i, 6 + i
     before = after.copy()
-    before[box], before[ball] = impact(q.epsilon, 1.0 / q.kappa, after[box], after[ball])
+    lost, gained = impact(q.epsilon, q.kappa, approach, 0.0)
+    before[box] += approach - lost
+    before[ball] -= gained
     return before
 
 
 @compiled
-def _depth(q, i, wall, after, walls, phase):
+def _depth(q, i, wall, after, approach, walls, phase):
     """How deep a ball would have gone beyond its wall, had there been none: u^2 / (2 b), u its speed and b the braking
     just before the impact; inf where nothing brakes it.
     """
-    before, field = _before_impact(q, i, after), np.empty(8)
+    before, field = _before_impact(q, i, after, approach), np.empty(8)
     _field(q, walls, before, phase, field)
     brake = -wall * field[2 + i]
-    return (before[2 + i] - before[6 + i]) ** 2 / (2.0 * brake) if brake > 0.0 else math.inf
+    return approach**2 / (2.0 * brake) if brake > 0.0 else math.inf
 
 
 @compiled
-def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
-    """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the state (8,) after it.
+def _impact_matrix(q, i, after, approach, walls, walls_after, phase, matrix):
+    """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the state (8,) after it and the relative
+    velocity before it.
 
     S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), R the impact law, n the
     normal of the wall, f- and f+ the fields around it; walls_after differs from walls where the impact releases a ball.
@@ -79,8 +85,7 @@ def _impact_matrix(q, i, after, walls, walls_after, phase, matrix):
     r = np.eye(8)
     r[box, box], r[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
     r[box, ball], r[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
-    before = _before_impact(q, i, after)
-    approach = before[box] - before[ball]
+    before = _before_impact(q, i, after, approach)
     incoming, outgoing = np.empty(8), np.empty(8)
     _field(q, walls, before, phase, incoming)
     _field(q, walls_after, after, phase, outgoing)
@@ -127,7 +132,7 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 @compiled
 def propagate(flow, start, events, final, start_phase, duration, limit, turns):
-    """Carry perturbations along a run, given by its start and final (8,) in public order and the events (m, 12)
+    """Carry perturbations along a run, given by its start and final (8,) in public order and the events (m, 13)
     of the kernel.
 
     turns: (n, 2) rows of the time at which a ball turned before a wall, flight after flight, and of its gap there.
@@ -166,7 +171,7 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
         after = _internal(row)
         phase = start_phase + q.omega * now
         if kind == IMPACT:
-            depth = _depth(q, i, wall, after, walls, phase)
+            depth = _depth(q, i, wall, after, row[12], walls, phase)
             shallowest, clearance = min(shallowest, depth), min(clearance, _ratio(depth, spread))
             walls_after = walls
             for later in events[n + 1 :]:
@@ -174,7 +179,7 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
                     break
                 if later[3] == RELEASE:
                     walls_after = (0, walls_after[1]) if later[1] == 1 else (walls_after[0], 0)
-            _impact_matrix(q, i, after, walls, walls_after, phase, matrix)
+            _impact_matrix(q, i, after, row[12], walls, walls_after, phase, matrix)
         elif kind == STICK:
             inward, push = 0.0, 0.0
             if completed:
@@ -191,7 +196,7 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
         if horizon < math.inf:
             continue
         covariance = matrix @ covariance @ matrix.T
-        _add_rounding(covariance, row[4:])
+        _add_rounding(covariance, row[4:12])
         if not np.trace(covariance) <= limit * limit:  # also where it is no number: an impact without velocity
             horizon = now
             covariance[:] = math.inf
