@@ -50,3 +50,11 @@ def test_the_torus_begins_at_the_neimark_sacker_point_and_without_hysteresis(cha
 def test_a_sweep_needs_an_orbit_to_begin_with(chapter):
     with pytest.raises(ValueError, match="values"):
         sweep(Path(chapter(0.5, 0.5), ("f20_hat",)), [0.5, 0.4], 10, 10)
+
+
+def test_the_torus_is_gone_a_little_further_on(chapter):
+    """From the orbit's own surroundings a motion leaves for the strongly modulated response, many times as large."""
+    orbit = next(o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1)
+    near = orbit.state + 1e-3 * np.eye(8)[4]
+    assert size(chapter(1.0, 0.8165), near, 1000, 6000)[0] < 0.04
+    assert size(chapter(1.0, 0.8130), near, 1000, 6000)[0] > 0.3
