@@ -10,8 +10,8 @@ from vibroimpact.theory.penetration import stays_within_walls
 CRITERIA = (*verdicts.CRITERIA, "floquet")
 NO_ORBIT = "no orbit"
 REACH = 1.0
-"""An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the next
-are above 2.5, where both orbits next to two fixed points have merged."""
+"""An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
+next are above 2.5, where the orbits next to two fixed points have merged."""
 _SIDES = [(module, wall) for module in (1, 2) for wall in ("plus", "minus")]
 _PHASES = [f"phase{module}_{wall}" for module, wall in _SIDES]
 _SPEEDS = [f"speed{module}_{wall}" for module, wall in _SIDES]
