@@ -9,6 +9,9 @@ from vibroimpact.theory.penetration import stays_within_walls
 
 CRITERIA = (*verdicts.CRITERIA, "floquet")
 NO_ORBIT = "no orbit"
+REACH = 1.0
+"""An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
+next are above 2.5, where the orbits next to two fixed points have merged."""
 _SIDES = [(module, wall) for module in (1, 2) for wall in ("plus", "minus")]
 _PHASES = [f"phase{module}_{wall}" for module, wall in _SIDES]
 _SPEEDS = [f"speed{module}_{wall}" for module, wall in _SIDES]
@@ -76,10 +79,11 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
 def partners(points, orbits) -> list[int | None]:
     """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
 
-    None where another fixed point is nearer to that orbit, or there is none.
+    None where another fixed point is nearer to that orbit, or there is none within REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):
         return [None] * len(points)
     gaps = np.linalg.norm(points[:, None] - orbits[None], axis=2)
-    return [int(k) if gaps[:, k].argmin() == n else None for n, k in enumerate(gaps.argmin(axis=1))]
+    nearest = enumerate(gaps.argmin(axis=1))
+    return [int(k) if gaps[:, k].argmin() == n and gaps[n, k] < REACH else None for n, k in nearest]
