@@ -10,8 +10,10 @@ neglect."""
 
 @inlined
 def record(events, count, time, i, wall, kind, boxes, balls, approach=0.0):
-    """Write an event to its row of the table (m, 13), approach being the relative velocity before an impact; returns
-    the number of events.
+    """Write an event to its row of the table (m, 13); returns the number of events.
+
+    approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
+    starts, at its stick.
     """
     row = events[count]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind

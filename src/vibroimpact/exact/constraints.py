@@ -28,10 +28,26 @@ def remainder(q, mode, jets, growth):
 
 
 @compiled
-def acceleration_rounding(q, boxes):
-    """Size below which a box acceleration is rounding."""
-    positions, velocities = abs(boxes[0]) + abs(boxes[1]), abs(boxes[2]) + abs(boxes[3])
-    return RESOLUTION * (q.drive + (q.k11 + q.k22) * positions + (q.c11 + q.c22) * velocities)
+def own_remainder(q, mode, jets, both, i, force, horizon):
+    """`remainder` of box i alone, whose force has a seventh derivative of size force; both: that of both boxes.
+
+    The energy of a box is raised by its own force, and by what the coupling passes on: next to a box that the other one
+    cannot reach, or hardly, the energy of the other one does not count.
+    """
+    m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
+    passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
+    own = math.sqrt(m * p[7] * p[7] + k * (p[6] * (1 / 7)) ** 2) + horizon * (force * (1 / 5040) + passed)
+    return min(both, own * (1.0 + 1e-12))
+
+
+@compiled
+def acceleration_rounding(q, boxes, i):
+    """Size below which the acceleration of box i is rounding."""
+    x1, x2, v1, v2 = abs(boxes[0]), abs(boxes[1]), abs(boxes[2]), abs(boxes[3])
+    coupling = abs(q.k12) * (x2 if i == 0 else x1) + abs(q.c12) * (v2 if i == 0 else v1)
+    if i == 0:
+        return RESOLUTION * (abs(q.f1) + q.k11 * x1 + q.c11 * v1 + coupling)
+    return RESOLUTION * (abs(q.f2) + q.k22 * x2 + q.c22 * v2 + coupling)
 
 
 @inlined
@@ -58,7 +74,8 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
     fall = -q.omega * q.omega
     start = (2.0 * one[2], 2.0 * two[2], 6.0 * one[3], 6.0 * two[3])
     bent = jet(q, mode, start, fall * sine, fall * cosine)
-    bound = remainder(q, mode, bent, horizon * q.growth * q.omega**2)
+    both = remainder(q, mode, bent, horizon * q.growth * q.omega**2)
+    bound = own_remainder(q, mode, bent, both, i, abs(q.f1 if i == 0 else q.f2) * q.omega**8, horizon)
     p = bent[0] if i == 0 else bent[1]
     return (
         wall * p[0],
@@ -78,29 +95,42 @@ def _safe_time(c, bound, margin, horizon):
 
     Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
     """
-    if c[0] <= 2.0 * margin:
-        if c[1] < 0.0:
-            return 0.0, True
-        if c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin):
-            return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon), False
-        return safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
-    return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
+    if c[0] > 2.0 * margin:
+        return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
+    if c[1] < 0.0:
+        return 0.0, True
+    rises = c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin)
+    return max(_rising_time(c, bound, horizon) if rises else 0.0, _sagging_time(c, bound, margin, horizon)), False
+
+
+@inlined
+def _rising_time(c, bound, horizon):
+    """How long a constraint that starts at zero certainly stays above, its zero at the start divided out."""
+    return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon)
+
+
+@inlined
+def _sagging_time(c, bound, margin, horizon):
+    """How long a constraint that starts at zero certainly stays above minus its margin: so long it holds, within
+    rounding, however little its derivatives tell.
+    """
+    return safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon)
 
 
 @compiled
 def _hop_time(c, bound, margin, horizon, short):
     """(time, whether it is the end of the hop) for the wall that the ball touches; c[1] >= 0 is its velocity away.
 
-    A hop no longer than short is timed to its end; else the zero at the start is divided out of the constraint.
+    A hop no longer than short is timed to its end.
     """
     if c[1] == 0.0:
-        if c[2] > 0.0:
-            return safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon), False
-        return safe_time((margin, 0.0, 0.0, c[3], c[4], c[5], c[6], -bound), horizon), False
-    t = return_time(c, bound, horizon)
-    if t <= short:
-        return t, True
-    return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon), False
+        rises = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
+    else:
+        t = return_time(c, bound, horizon)
+        if t <= short:
+            return t, True
+        rises = _rising_time(c, bound, horizon)
+    return max(rises, _sagging_time(c, bound, margin, horizon)), False
 
 
 @inlined
@@ -120,14 +150,14 @@ def module_time(q, mode, i, boxes, balls, jets, wall, touching, bound, sine, cos
         certain, t, width = crossing(c, bound, gap_rounding(q, boxes, balls, i), horizon, short)
         if certain:
             return t, width, False
-    return _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short)
+    return _turning_time(q, mode, i, boxes, balls, jets, touching, bound, horizon, short)
 
 
 @compiled
 def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
     """module_time of a ball that sticks: its constraint is that the wall pushes it."""
     c, bound = push(q, mode, jets, i, wall, sine, cosine, horizon)
-    margin = acceleration_rounding(q, boxes)
+    margin = acceleration_rounding(q, boxes, i)
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
         if certain:
@@ -137,9 +167,10 @@ def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
 
 
 @compiled
-def _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short):
+def _turning_time(q, mode, i, boxes, balls, jets, touching, bound, horizon, short):
     """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
     margin = gap_rounding(q, boxes, balls, i)
+    bound = own_remainder(q, mode, jets, bound, i, abs(q.f1 if i == 0 else q.f2) * q.omega**6, horizon)
     time, width, undecided = horizon, math.inf, False
     for w in (1, -1):
         c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], w)
@@ -147,7 +178,7 @@ def _turning_time(q, i, boxes, balls, jets, touching, bound, horizon, short):
             t, met = _safe_time(c, bound, margin, time)
             doubt = met
         else:
-            if c[1] == 0.0 and abs(2.0 * c[2]) <= acceleration_rounding(q, boxes):
+            if c[1] == 0.0 and abs(2.0 * c[2]) <= acceleration_rounding(q, boxes, i):
                 c = (c[0], c[1], 0.0, c[3], c[4], c[5], c[6], c[7])
             t, met = _hop_time(c, bound, margin, time, short)
             doubt = False

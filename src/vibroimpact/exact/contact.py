@@ -45,7 +45,7 @@ def _hold(q, jets, boxes, i, wall, sticking):
     where the pull is too brief to lift the ball by more than rounding: it would lift it by 2 |force|^3 / (3 change^2).
     """
     p = jets[0] if i == 0 else jets[1]
-    tiny = acceleration_rounding(q, boxes)
+    tiny = acceleration_rounding(q, boxes, i)
     force, change = 2.0 * wall * p[2], 6.0 * wall * p[3]
     if abs(force) <= tiny:
         for k in (3, 4, 5):
@@ -79,7 +79,7 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
     wall = touching[i]
     a = wall * box_accelerations(q, walls, boxes, sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
-    if a <= acceleration_rounding(q, boxes):
+    if a <= acceleration_rounding(q, boxes, i):
         return False, 0.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
@@ -107,29 +107,33 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
 
 
 @compiled
-def _complete(flow, boxes, balls, walls, touching, sine, cosine, i, elapsed, events, count, ledger):
-    """Complete the chatter of ball i, if that may be: what `settle` returns."""
+def _complete(flow, boxes, balls, walls, touching, sine, cosine, i, ledger):
+    """Complete the chatter of ball i, if that may be: (boxes, balls, walls, touching, time to its end or -1)."""
     done, end = _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger)
-    if done:
-        q, wall = flow.coefficients, touching[i]
-        common = (boxes[2 + i] + q.epsilon * balls[2 + i]) / (1.0 + q.epsilon)
-        boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)
-        walls, touching = pair(walls, i, wall), pair(touching, i, 0)
-        ledger[CHATTERS] += 1
-        later, there = glide(flow, boxes, balls, walls, sine, cosine, end)
-        count = record(events, count, elapsed + end, i, wall, STICK, later, there)
-    return boxes, balls, walls, touching, count
+    if not done:
+        return boxes, balls, walls, touching, -1.0
+    ledger[CHATTERS] += 1
+    boxes, balls = _joined(flow.coefficients, boxes, balls, i)
+    return boxes, balls, pair(walls, i, touching[i]), pair(touching, i, 0), end
+
+
+@inlined
+def _joined(q, boxes, balls, i):
+    """Boxes and balls with ball i moving as its box, their momentum kept."""
+    common = (boxes[2 + i] + q.epsilon * balls[2 + i]) * q.inverse_mass
+    return with_velocity(boxes, i, common), with_velocity(balls, i, common)
 
 
 @inlined
 def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger, watch):
     """Everything that happens now: (boxes, balls, walls, touching, number of events).
 
-    due: the module whose constraint is just met, or -1. The forces on sticking balls are looked at last, since an
-    impact in one module can release the ball of the other.
+    due: the module whose constraint is just met, or -1. The forces on balls at rest are looked at after all impacts,
+    since an impact in one module can release the ball of the other, and the ends of chatters, which are later, last.
     """
     q = flow.coefficients
     pulled = due if due >= 0 and walls[due] != 0 else -1
+    chatters = (False, False)
     for i in range(2):
         if walls[i] != 0:
             continue
@@ -146,16 +150,20 @@ def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rema
                 _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger)
             box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = with_velocity(boxes, i, box), with_velocity(balls, i, ball)
+            if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
+                boxes, balls = _joined(q, boxes, balls, i)
             count = record(events, count, elapsed, i, wall, IMPACT, boxes, balls, velocity)
             if _ends_soon(flow, boxes, balls, walls, sine, remaining, i, wall):
-                boxes, balls, walls, touching, count = _complete(
-                    flow, boxes, balls, walls, touching, sine, cosine, i, elapsed, events, count, ledger
-                )
+                chatters = pair(chatters, i, True)
     for i in range(2):
         if walls[i] != 0 or (touching[i] != 0 and boxes[2 + i] == balls[2 + i]):
             walls, touching, count = _rest(
                 q, boxes, balls, walls, touching, i, i == pulled, sine, cosine, elapsed, events, count
             )
+    if chatters[0] or chatters[1]:
+        boxes, balls, walls, touching, count = _complete_both(
+            flow, boxes, balls, walls, touching, sine, cosine, chatters, elapsed, events, count, ledger
+        )
     return boxes, balls, walls, touching, count
 
 
@@ -172,6 +180,30 @@ def _rest(q, boxes, balls, walls, touching, i, pulled, sine, cosine, elapsed, ev
         walls, touching = pair(walls, i, touching[i]), pair(touching, i, 0)
         count = record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
     return walls, touching, count
+
+
+@compiled
+def _complete_both(flow, boxes, balls, walls, touching, sine, cosine, chatters, elapsed, events, count, ledger):
+    """Complete what may be completed of the chatters of the two balls, where they have one: what `settle` returns.
+
+    Their ends are noted last, in the order of their times and with the states at these times.
+    """
+    ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
+    for i in range(2):
+        if chatters[i] and touching[i] != 0:
+            boxes, balls, walls, touching, end = _complete(flow, boxes, balls, walls, touching, sine, cosine, i, ledger)
+            ends = pair(ends, i, end)
+    for i in range(2):  # the other ball may be pulled off by it
+        if walls[i] != 0 and ends[i] < 0.0:
+            walls, touching, count = _rest(
+                flow.coefficients, boxes, balls, walls, touching, i, False, sine, cosine, elapsed, events, count
+            )
+    sooner = 0 if ends[0] <= ends[1] else 1
+    for i in (sooner, 1 - sooner):
+        if ends[i] >= 0.0:
+            later, there = glide(flow, boxes, balls, walls, sine, cosine, ends[i])
+            count = record(events, count, elapsed + ends[i], i, walls[i], STICK, later, there, inward[i])
+    return boxes, balls, walls, touching, count
 
 
 @compiled

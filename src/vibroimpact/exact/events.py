@@ -19,14 +19,16 @@ from vibroimpact.exact.books import NEGLECTED, pack
 from vibroimpact.exact.compiled import compiled
 from vibroimpact.exact.constraints import gap_rounding
 from vibroimpact.exact.contact import settle
-from vibroimpact.exact.flight import STUCK_IN_TIME, fly
+from vibroimpact.exact.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.motion import glide
 
-FINISHED, PENETRATED, STALLED, CROWDED = 0, 1, 2, 3
+FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
-MOST_AT_ONCE = 6  # events of one instant: an impact, the end of its chatter and a release in each module
+MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
+MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
+"""A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
 
 
 @compiled
@@ -35,7 +37,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
 
     start_phase in [0, 2 pi); sample_times (n,) ascending, on a clock that shows start when the run starts; samples
     (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns the boxes and balls at the
-    end, the events (m, 13) as rows [time since the start, module, wall, kind, state after, relative velocity before],
+    end, the events (m, 13) as rows [time since the start, module, wall, kind, state after, approach (books.record)],
     the status and the ledger of the run, and, if watch is set, its turns before a wall as rows (n, 2) [time since the
     start, gap].
     """
@@ -45,6 +47,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     walls, touching, due = (0, 0), (0, 0), -1
     phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
     sampled, stalled = 0, 0
+    most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
     while True:
         sine, cosine = math.sin(phase), math.cos(phase)
         sine, cosine = sine + cosine * tail, cosine - sine * tail
@@ -57,8 +60,9 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         if remaining == 0.0:
             break
         t, due, later, there = fly(
-            flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, ledger, turns, watch
-        )
+            flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining,
+            most_proofs + MOST_PROOFS_PER_EVENT * count, ledger, turns, watch,
+        )  # fmt: skip
         for i in range(2):
             beyond = abs(later[i] - there[i]) - 1.0
             if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, later, there, i):
@@ -66,6 +70,8 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         stalled = 0 if t > 0.0 else stalled + 1
         if stalled > PATIENCE or due == STUCK_IN_TIME:
             return boxes, balls, events[:count], STALLED, ledger, _table(turns)
+        if due == TIRED:
+            return boxes, balls, events[:count], EXHAUSTED, ledger, _table(turns)
         if count > most_events:
             return boxes, balls, events[:count], CROWDED, ledger, _table(turns)
         if due < 0 and t >= remaining:

@@ -5,6 +5,9 @@ polynomial of degree 6 and a bound on its seventh derivative it stays above a po
 that is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are (conservative advancement: repeated
 from the safe side, the times T converge to the first zero of g and never pass it). Where the rate of g certainly keeps
 its sign there is one zero at most, and it may be sought from either side.
+
+The tests are carried out in floating point. Callers lower c0 by a margin, the rounding of all that g is made of, and
+"certain" means: by these tests, with that margin.
 """
 
 import math

@@ -17,14 +17,15 @@ from vibroimpact.exact.motion import carry, glide, mode_of
 
 TRIES = 3
 TURN_STEPS = 4  # the gap is stationary at a turn: half the digits of its time give all of the gap
-STUCK_IN_TIME = -2
+STUCK_IN_TIME, TIRED = -2, -3
 
 
 @inlined
-def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, ledger, turns, watch):
+def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, most_proofs, ledger, turns, watch):
     """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls).
 
-    If watch is set, turns before a wall are added to turns, a list of pairs: time, and gap.
+    Gives up where time stands still, or when the ledger counts more than most_proofs. If watch is set, turns before a
+    wall are added to turns, a list of pairs: time, and gap.
     """
     q = flow.coefficients
     mode = mode_of(walls)
@@ -61,6 +62,8 @@ def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, l
             return end, due, later, there
         if not t + safe > t:
             return t, STUCK_IN_TIME, now, there
+        if ledger[EVALUATIONS] > most_proofs:
+            return t, TIRED, now, there
         before, t = t, min(t + safe, reach)
         now, s, c = advance(flow, mode, boxes, sine, cosine, t)
         there = carry(balls, walls, now, t)

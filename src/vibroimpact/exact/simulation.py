@@ -27,6 +27,7 @@ FAILURES = {
     kernel.PENETRATED: "a ball went through a wall",
     kernel.STALLED: "time stands still",
     kernel.CROWDED: "there are too many events",
+    kernel.EXHAUSTED: "there are too many exclusions",
 }
 NO_TIMES = np.empty(0)
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}

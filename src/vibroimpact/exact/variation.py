@@ -149,7 +149,7 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
     turned, shallowest, clearance = 0, math.inf, math.inf
     for n in range(len(events) + 1):
         stop = events[n, 0] if n < len(events) else duration
-        completed = n < len(events) and events[n, 3] == STICK and n > 0 and _same_chatter(events[n - 1], events[n])
+        completed = n < len(events) and events[n, 3] == STICK and events[n, 12] > 0.0
         if not completed:  # a completed chatter is carried out at its last impact, ahead of the time it ends
             while now < stop:
                 step = min(stop - now, flow.longest)
@@ -183,10 +183,9 @@ def propagate(flow, start, events, final, start_phase, duration, limit, turns):
         elif kind == STICK:
             inward, push = 0.0, 0.0
             if completed:
-                last = _internal(events[n - 1])
                 field = np.empty(8)
-                _field(q, walls, last, phase, field)
-                inward, push = -wall * (last[2 + i] - last[6 + i]), wall * field[2 + i]
+                _field(q, walls, _internal(_last_impact(events, n)), phase, field)
+                inward, push = row[12], wall * field[2 + i]
             _stick_matrix(q, i, wall, inward, push, walls[1 - i] != 0, matrix)
             walls = (wall, walls[1]) if i == 0 else (walls[0], wall)
         else:
@@ -217,9 +216,12 @@ def _add_rounding(covariance, state):
 
 
 @compiled
-def _same_chatter(impact, stick):
-    """Whether a stick completes the chatter that the row before it belongs to."""
-    return impact[3] == IMPACT and impact[1] == stick[1] and impact[2] == stick[2]
+def _last_impact(events, n):
+    """The row of the last impact in the module of row n before it."""
+    last = n - 1
+    while events[last, 1] != events[n, 1]:
+        last -= 1
+    return events[last]
 
 
 @compiled

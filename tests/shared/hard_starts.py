@@ -1,0 +1,114 @@
+"""Random systems and starts that are hard to begin with: on walls or next to them, almost at rest, uncoupled or hardly
+coupled, unforced, undamped, without any rebound to speak of, stiff, driven fast or hard.
+
+    .venv/bin/python tests/shared/hard_starts.py 20000 --first 0
+
+runs so many of them and prints what went wrong, by the number of the example.
+"""
+
+import argparse
+from collections import Counter
+
+import numpy as np
+from scipy.linalg import expm
+
+import vibroimpact as vi
+from vibroimpact.exact.simulation import IMPACT, STICK
+from vibroimpact.system.matrices import rate_matrix
+
+TINY = [0.0, 1e-300, 1e-60, 1e-50, 1e-40, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3]
+BOXES, BALLS = [0, 2, 4, 6], [1, 3, 5, 7]
+KNOWN = 1e-9  # how well the state of a row must be the one that the row before flows into, per unit of its size
+
+
+def example(number):
+    """(system, start, tau0) of an example."""
+    rng = np.random.default_rng(number)
+
+    def size(low, high, *others):
+        return float(rng.choice([*others, *[10.0 ** rng.uniform(low, high)] * 4]))
+
+    def small():
+        return float(rng.choice([-1, 1]) * rng.choice([rng.choice(TINY), rng.normal()], p=[0.8, 0.2]))
+
+    system = vi.System(
+        epsilon=size(-3, 0), kappa=float(rng.choice([10.0 ** rng.uniform(-300, -8), rng.uniform(0.01, 0.95)])),
+        alpha12_hat=size(-25, 6, 0.0, 0.0, 1.0, 1.0, 1.0), gamma12_hat=size(-25, 2, 0.0, 0.0, 0.2, 0.2, 0.2),
+        gamma1_hat=size(-3, 1, 0.0), gamma2_hat=size(-3, 1, 0.0), sigma20_hat=size(-2, 3, 0.0, 0.5),
+        sigma_e_hat=size(-2, 2, 0.2, 0.2), f10_hat=size(-2, 4, 0.0, 1.0, 1.0), f20_hat=-size(-2, 4, 0.0, 0.0, 1.0),
+    )  # fmt: skip
+    start = np.empty(8)
+    for i in range(2):
+        box, velocity, wall = small(), small(), rng.choice([-1, 1])
+        near = rng.choice([rng.choice(TINY), rng.uniform(0, 2)], p=[0.8, 0.2])
+        start[[2 * i, 2 * i + 1]] = box, box - wall * (1.0 - near)
+        start[[4 + 2 * i, 5 + 2 * i]] = velocity, velocity + small()
+    return system, start, float(rng.choice([0.0, rng.uniform(0, 7), system.period / 4]))
+
+
+def faults(number, cycles=1):
+    """Names of what is wrong with the run of an example; (none) if all is well."""
+    system, start, tau0 = example(number)
+    try:
+        run = vi.simulate(system, start, cycles, tau0)
+    except ArithmeticError as error:
+        yield str(error).split(" after ")[0]
+        return
+    if (np.diff(run.events["tau"]) < 0).any():
+        yield "events out of order"
+    worst = max(departures(run), default=0.0)
+    if not worst <= KNOWN:
+        yield "the state in a row is not the state at its time"
+
+
+def departures(run):
+    """How far the state in each row is from the one that the row before flows into by a matrix exponential.
+
+    Left out is what changes by itself: at an impact the velocities of its module; from the last impact of a chatter to
+    its end, where rows show the ball at rest on its wall, those and the ball.
+    """
+    walls, state, tau = [0, 0], run.start, run.tau0
+    size = 1.0 + np.abs(run.start).max() + np.abs(run.system.forcing).max()
+    for k, event in enumerate(run.events):
+        i = int(event["module"]) - 1
+        later = flowed(run.system, walls, state, tau, event["tau"])
+        kept = np.ones(8, bool)
+        kept[[4 + 2 * i, 5 + 2 * i]] = event["kind"] != IMPACT
+        for j in range(2):
+            own = run.events["kind"][k:][run.events["module"][k:] == j + 1]
+            if len(own) and own[0] == STICK:
+                kept[[1 + 2 * j, 4 + 2 * j, 5 + 2 * j]] = False
+        size = max(size, np.abs(event["state"]).max())
+        yield np.abs(later - event["state"])[kept].max() / size
+        walls[i] = {IMPACT: 0, STICK: int(event["wall"])}.get(event["kind"], 0)
+        state, tau = event["state"], event["tau"]
+    yield (
+        np.abs(flowed(run.system, walls, state, tau, run.tau0 + run.cycles * run.system.period) - run.final).max()
+        / size
+    )
+
+
+def flowed(system, walls, state, tau, until):
+    """A state at another time, without events; walls: the wall each ball sticks to, or 0."""
+    phase, t = system.Omega * tau, until - tau
+    lifted = [*state[BOXES], np.sin(phase), np.cos(phase)]
+    later, boxes = state.copy(), (expm(rate_matrix(system, [wall != 0 for wall in walls]) * t) @ lifted)[:4]
+    later[BOXES] = boxes
+    later[BALLS[:2]] += t * state[BALLS[2:]]
+    for i, wall in enumerate(walls):
+        if wall:
+            later[2 * i + 1], later[2 * i + 5] = boxes[i] - wall, boxes[2 + i]
+    return later
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("number", type=int)
+    parser.add_argument("--first", type=int, default=0)
+    arguments = parser.parse_args()
+    counts = Counter()
+    for number in range(arguments.first, arguments.first + arguments.number):
+        for fault in faults(number):
+            counts[fault] += 1
+            print(number, fault, flush=True)
+    print(f"{arguments.number} starts:", dict(counts) or "no fault")
