@@ -16,7 +16,7 @@ from vibroimpact.exact.flow import advance, along, jet, node
 from vibroimpact.exact.motion import carry, glide, mode_of
 
 TRIES = 3
-TURN_STEPS = 4  # the gap is stationary at a turn: half the digits of its time give all of the gap
+TURN_STEPS = 8  # the gap is stationary at a turn: half the digits of its time give all of the gap
 STUCK_IN_TIME, TIRED = -2, -3
 
 
