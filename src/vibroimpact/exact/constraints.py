@@ -29,7 +29,7 @@ def remainder(q, mode, jets, growth):
 
 @compiled
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """`remainder` of box i alone, whose force has a seventh derivative of size force; both: that of both boxes.
+    """`remainder` of box i alone, the sixth derivative of whose force is at most force; both: that of both boxes.
 
     The energy of a box is raised by its own force, and by what the coupling passes on: next to a box that the other one
     cannot reach, or hardly, the energy of the other one does not count.
@@ -100,21 +100,22 @@ def _safe_time(c, bound, margin, horizon):
     if c[1] < 0.0:
         return 0.0, True
     rises = c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin)
-    return max(_rising_time(c, bound, horizon) if rises else 0.0, _sagging_time(c, bound, margin, horizon)), False
+    return _leaving_time(c, bound, margin, horizon, rises), False
 
 
-@inlined
-def _rising_time(c, bound, horizon):
-    """How long a constraint that starts at zero certainly stays above, its zero at the start divided out."""
-    return safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon)
+@compiled
+def _leaving_time(c, bound, margin, horizon, rises):
+    """How long a constraint that starts within rounding of zero certainly holds.
 
-
-@inlined
-def _sagging_time(c, bound, margin, horizon):
-    """How long a constraint that starts at zero certainly stays above minus its margin: so long it holds, within
-    rounding, however little its derivatives tell.
+    If it rises, its zero at the start is divided out. If it does not, or where it is the bound alone that makes that
+    time short, it holds, within rounding, as long as it stays above minus its margin.
     """
-    return safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon)
+    time = 0.0
+    if rises:
+        time = safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon)
+        if time == horizon or safe_time((c[1], c[2], c[3], c[4], c[5], c[6], 0.0, 0.0), horizon) <= 2.0 * time:
+            return time
+    return max(time, safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon))
 
 
 @compiled
@@ -124,13 +125,12 @@ def _hop_time(c, bound, margin, horizon, short):
     A hop no longer than short is timed to its end.
     """
     if c[1] == 0.0:
-        rises = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
-    else:
-        t = return_time(c, bound, horizon)
-        if t <= short:
-            return t, True
-        rises = _rising_time(c, bound, horizon)
-    return max(rises, _sagging_time(c, bound, margin, horizon)), False
+        rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
+        return max(rise, _leaving_time(c, bound, margin, horizon, False)), False
+    t = return_time(c, bound, horizon)
+    if t <= short:
+        return t, True
+    return _leaving_time(c, bound, margin, horizon, True), False
 
 
 @inlined

@@ -16,7 +16,7 @@ from vibroimpact.exact.flow import advance, along, jet, node
 from vibroimpact.exact.motion import carry, glide, mode_of
 
 TRIES = 3
-TURN_STEPS = 4  # the gap is stationary at a turn: half the digits of its time give all of the gap
+TURN_STEPS = 8  # the gap is stationary at a turn: half the digits of its time give all of the gap
 STUCK_IN_TIME, TIRED = -2, -3
 
 
@@ -46,7 +46,7 @@ def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, m
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _next(q, mode, now, there, jets, walls, touching, bound, s, c, horizon, short)
-        step = max(step, -t)  # an event that was just passed is not before the flight
+        step = step if step >= -t else 0.0  # an event that was just passed is not before the flight
         met, later, end = due >= 0 and abs(step) <= short, now, t + step
         if met:
             ledger[UNDECIDED] += doubt

@@ -87,7 +87,7 @@ def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times
     Raises:
         ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
         ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
-            were more than a million events and ten thousand for every cycle.
+            were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
     state = _checked_state(state)
     _check_window(cycles, tau0)
