@@ -1,4 +1,8 @@
-"""What a run writes down: its events, one row each, and a ledger of what its certificate needs besides."""
+"""What a run writes down: its events, one row each, and a ledger of what its certificate needs besides.
+
+A row is [time since the start, module, wall, kind, state after, forcing phase when it was noted]; the stick that
+completes a chatter is noted at the chatter's last simulated impact.
+"""
 
 from vibroimpact.exact.compiled import inlined
 
@@ -8,12 +12,15 @@ FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = range(6)
 neglect."""
 
 
+PHASE, ROW = 12, 13  # place of the phase in a row, and length of a row
+
+
 @inlined
 def record(events, count, time, i, wall, kind, boxes, balls):
-    """Write an event to its row of the table (m, 12); returns the number of events."""
+    """Write an event to its row of the table (m, ROW), all but its phase; returns the number of events."""
     row = events[count]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
-    pack(boxes, balls, row[4:])
+    pack(boxes, balls, row[4:PHASE])
     return count + 1
 
 

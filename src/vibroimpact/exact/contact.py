@@ -7,7 +7,6 @@ from vibroimpact.exact.books import (
     RELEASE,
     RESIDUAL,
     STICK,
-    UNDECIDED,
     record,
 )
 from vibroimpact.exact.compiled import compiled, inlined
@@ -120,7 +119,7 @@ def _complete(flow, boxes, balls, walls, touching, sine, cosine, i, elapsed, eve
 
 
 @inlined
-def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger, watch):
+def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
     """Everything that happens now: (boxes, balls, walls, touching, number of events).
 
     due: the module whose constraint is just met, or -1. The forces on sticking balls are looked at last, since an
@@ -140,8 +139,7 @@ def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rema
         if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
             balls = with_velocity(balls, i, boxes[2 + i])
         elif wall * velocity > 0.0:
-            if watch:
-                _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger)
+            ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
             box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = with_velocity(boxes, i, box), with_velocity(balls, i, ball)
             count = record(events, count, elapsed, i, wall, IMPACT, boxes, balls)
@@ -170,11 +168,3 @@ def _rest(q, boxes, balls, walls, touching, i, pulled, sine, cosine, elapsed, ev
         walls, touching = pair(walls, i, touching[i]), pair(touching, i, 0)
         count = record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
     return walls, touching, count
-
-
-@compiled
-def _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger):
-    """The residual of an impact, and whether the depth that it cuts off is within rounding, to the ledger."""
-    ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
-    brake = -wall * box_accelerations(q, walls, boxes, sine)[i]
-    ledger[UNDECIDED] += velocity * velocity <= 2.0 * brake * gap_rounding(boxes, balls, i)
