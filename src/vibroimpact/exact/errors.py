@@ -50,13 +50,15 @@ def _carry(matrix, covariance, product):
 
 @inlined
 def _multiply(a, b, product):
-    """The product of two matrices (8, 8), row by row, so that the processor can take several numbers at a time."""
+    """The product of two matrices (8, 8), of which the first is mostly zeros."""
     for i in range(8):
         for j in range(8):
-            product[i, j] = a[i, 0] * b[0, j]
-        for k in range(1, 8):
-            for j in range(8):
-                product[i, j] += a[i, k] * b[k, j]
+            product[i, j] = 0.0
+        for k in range(8):
+            weight = a[i, k]
+            if weight != 0.0:
+                for j in range(8):
+                    product[i, j] += weight * b[k, j]
 
 
 @inlined

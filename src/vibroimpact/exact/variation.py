@@ -13,7 +13,7 @@ from vibroimpact.exact.books import IMPACT, PHASE, STICK
 from vibroimpact.exact.compiled import compiled
 from vibroimpact.exact.contact import impact
 from vibroimpact.exact.course import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
-from vibroimpact.exact.flow import acceleration, advance, inverse_masses
+from vibroimpact.exact.flow import acceleration, along, inverse_masses, jet
 from vibroimpact.exact.motion import mode_of
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
@@ -53,10 +53,12 @@ def fill_flight(flow, flight, matrix):
 @compiled
 def _fill_free(flow, walls, t, matrix):
     """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
+    q, mode = flow.coefficients, mode_of(walls)
+    j = int(t * flow.density + 0.5)
+    p, rest = flow.propagators[mode, j], t - j * flow.spacing
     matrix[:] = 0.0
-    for k in range(4):
-        unit = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0, 1.0 if k == 3 else 0.0)
-        later, _, _ = advance(flow, mode_of(walls), unit, 0.0, 0.0, t)
+    for k in range(4):  # without the force a box's motion is linear in the state
+        later = along(jet(q, mode, (p[0, k], p[1, k], p[2, k], p[3, k]), 0.0, 0.0), rest)
         matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = later
     for i in range(2):
         if walls[i] != 0:  # the ball goes where its box goes
@@ -84,7 +86,7 @@ def fill_event(q, flights, events, n, matrix):
             inward, push = -wall * (before[2 + i] - before[6 + i]), wall * field[2 + i]
         _stick_matrix(q, i, wall, inward, push, walls[1 - i] != 0, matrix)
     else:
-        matrix[:] = np.eye(8)
+        _fill_identity(matrix)
 
 
 @compiled
@@ -107,17 +109,25 @@ def _impact_matrix(q, i, before, after, walls, walls_after, phase, matrix):
     normal of the wall, f- and f+ the fields around it; walls_after differs from walls where the impact releases a ball.
     """
     box, ball = 2 + i, 6 + i
-    r = np.eye(8)
-    r[box, box], r[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
-    r[box, ball], r[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
-    approach = before[box] - before[ball]
-    incoming, outgoing = np.empty(8), np.empty(8)
-    _field(q, walls, before, phase, incoming)
+    through, outgoing = np.empty(8), np.empty(8)
+    _field(q, walls, before, phase, through)
     _field(q, walls_after, after, phase, outgoing)
-    jump = (outgoing - r @ incoming) / approach
-    matrix[:] = r
-    matrix[:, i] += jump
-    matrix[:, 4 + i] -= jump
+    through[box], through[ball] = impact(q.epsilon, q.kappa, through[box], through[ball])
+    approach = before[box] - before[ball]
+    _fill_identity(matrix)
+    matrix[box, box], matrix[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
+    matrix[box, ball], matrix[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
+    for k in range(8):
+        jump = (outgoing[k] - through[k]) / approach
+        matrix[k, i] += jump
+        matrix[k, 4 + i] -= jump
+
+
+@compiled
+def _fill_identity(matrix):
+    matrix[:] = 0.0
+    for k in range(8):
+        matrix[k, k] = 1.0
 
 
 @compiled
@@ -130,7 +140,7 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     """
     e = q.epsilon
     share = e / (1.0 + e)
-    matrix[:] = np.eye(8)
+    _fill_identity(matrix)
     for row in (i, 4 + i):
         matrix[row, :] = 0.0
         matrix[row, i], matrix[row, 4 + i] = 1.0 / (1.0 + e), share
