@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from vibroimpact.exact.books import IMPACT
 from vibroimpact.exact.compiled import compiled, inlined
 from vibroimpact.exact.course import AFTER, BEFORE, LENGTH
 from vibroimpact.exact.variation import fill_event, fill_flight
@@ -30,6 +31,7 @@ def errors_of(flow, flights, events, limit):
             _carry(matrix, covariance, product)
             errors[n, 1] = UNIT * _root(covariance)
         if n < len(events):
+            _add_miss(covariance, flights[n], events[n])
             fill_event(q, flights, events, n, matrix)
             _carry(matrix, covariance, product)
         _add_rounding(q, covariance, flights[n + 1, BEFORE:AFTER] if n < len(events) else flights[n, AFTER:])
@@ -68,6 +70,15 @@ def _root(covariance):
     for k in range(8):
         trace += covariance[k, k]
     return math.sqrt(trace)
+
+
+@inlined
+def _add_miss(covariance, flight, event):
+    """Add to a covariance before an impact that the ball was put on its wall from where it was found."""
+    if event[3] == IMPACT:
+        i = int(event[1]) - 1
+        miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
+        covariance[4 + i, 4 + i] += (miss / UNIT) ** 2
 
 
 @inlined
