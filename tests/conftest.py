@@ -25,6 +25,10 @@ settings.load_profile("same")
 providers._get_local_constants = providers.Constants
 
 
+def pytest_addoption(parser):
+    parser.addoption("--attack", type=int, default=80, help="runs of each attack on the certificate")
+
+
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
     """The project after a build. Read it, do not change it."""

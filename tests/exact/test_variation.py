@@ -7,9 +7,10 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.flow import flow_of
+from vibroimpact.exact.errors import errors_of
+from vibroimpact.exact.margins import margins_of
 from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
-from vibroimpact.exact.variation import propagate
+from vibroimpact.exact.turns import GAP
 
 STEP = Fraction(1, 10**25)
 
@@ -66,16 +67,21 @@ def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
     """A miss late in a chaotic motion may be open although a nearer one at its beginning is clear."""
     system, start, cycles = chapter(0.5, 0.5), np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]), 30
     run = vi.simulate(system, start, cycles)
-    duration = cycles * system.period
+    flow, flights, rows = run.course
+    errors, error = errors_of(flow, flights, rows, np.inf)
+    hits = np.full((len(rows), 2), np.inf)
 
-    def clearance(*turns):
-        table = np.array(turns).reshape(-1, 2)
-        return propagate(flow_of(system), start, run._rows, run.final, 0.0, duration, np.inf, table)[-1]
+    def clearance(**gaps):
+        turns = np.full((len(flights), 3), np.inf)
+        for place, gap in gaps.items():
+            turns[{"first": 0, "last": -1}[place], GAP] = gap
+        margins = margins_of(flow.coefficients, flights, turns, hits, rows, 0.0, np.inf)
+        return (margins / errors).min()
 
-    near, far = (run._rows[0, 0], 1e-9), (duration, 1e-8)
-    assert clearance(far) < clearance(near)
-    assert clearance(near, far) == clearance(far)
-    assert far[1] / clearance(far) == pytest.approx(run.certificate.error / np.finfo(float).eps, rel=1e-3)
+    assert clearance(last=1e-8) < clearance(first=1e-9)
+    assert clearance(first=1e-9, last=1e-8) == clearance(last=1e-8)
+    assert 1e-8 / clearance(last=1e-8) == pytest.approx(error, rel=0.5)
+    assert error == run.certificate.error
 
 
 def test_the_shallowest_hit_is_that_of_all_parabolas(chapter, auditor):

@@ -9,3 +9,5 @@ from numba import njit
 
 compiled = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"})
 inlined = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"}, forceinline=True)
+literal = njit(cache=True, error_model="numpy", nogil=True, forceinline=True)
+"""Inlined, every operation rounded as it is written: for sums that catch their own rounding."""

@@ -7,7 +7,6 @@ from vibroimpact.exact.books import (
     RELEASE,
     RESIDUAL,
     STICK,
-    UNDECIDED,
     record,
 )
 from vibroimpact.exact.compiled import compiled, inlined
@@ -125,7 +124,7 @@ def _joined(q, boxes, balls, i):
 
 
 @inlined
-def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger, watch):
+def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
     """Everything that happens now: (boxes, balls, walls, touching, number of events).
 
     due: the module whose constraint is just met, or -1. The forces on balls at rest are looked at after all impacts,
@@ -146,8 +145,7 @@ def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, rema
         if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
             balls = with_velocity(balls, i, boxes[2 + i])
         elif wall * velocity > 0.0:
-            if watch:
-                _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger)
+            ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
             box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
             boxes, balls = with_velocity(boxes, i, box), with_velocity(balls, i, ball)
             if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
@@ -204,11 +202,3 @@ def _complete_both(flow, boxes, balls, walls, touching, sine, cosine, chatters, 
             later, there = glide(flow, boxes, balls, walls, sine, cosine, ends[i])
             count = record(events, count, elapsed + ends[i], i, walls[i], STICK, later, there, inward[i])
     return boxes, balls, walls, touching, count
-
-
-@compiled
-def _note_impact(q, boxes, balls, walls, i, wall, relative, velocity, sine, ledger):
-    """The residual of an impact, and whether the depth that it cuts off is within rounding, to the ledger."""
-    ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
-    brake = -wall * box_accelerations(q, walls, boxes, sine)[i]
-    ledger[UNDECIDED] += velocity * velocity <= 2.0 * brake * gap_rounding(q, boxes, balls, i)

@@ -8,23 +8,22 @@ stick     the end of a chatter: infinitely many impacts in a finite time, comple
           below rounding; from then on box and ball move as one of mass 1 + epsilon;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it jump below zero.
 
-Time is the forcing phase, kept modulo one period with a compensation term, so it does not lose digits in long runs.
+Time is the forcing phase, kept modulo one period without loss (phase.ahead), so it does not lose digits in long runs.
 """
 
 import math
 
 import numpy as np
 
-from vibroimpact.exact.books import NEGLECTED, pack
+from vibroimpact.exact.books import NEGLECTED, PHASE, ROW, pack
 from vibroimpact.exact.compiled import compiled
 from vibroimpact.exact.constraints import gap_rounding
 from vibroimpact.exact.contact import settle
 from vibroimpact.exact.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.motion import glide
+from vibroimpact.exact.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
 
 FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
-TWO_PI = 2.0 * math.pi
-TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
@@ -32,20 +31,19 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, most_events, watch):
+def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, most_events):
     """Run a state over a number of forcing cycles.
 
-    start_phase in [0, 2 pi); sample_times (n,) ascending, on a clock that shows start when the run starts; samples
-    (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns the boxes and balls at the
-    end, the events (m, 13) as rows [time since the start, module, wall, kind, state after, approach (books.record)],
-    the status and the ledger of the run, and, if watch is set, its turns before a wall as rows (n, 2) [time since the
-    start, gap].
+    start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
+    when the run starts; samples (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns
+    the boxes and balls at the end, the events (m, ROW) as rows (books), the status and the ledger of the run.
     """
     q = flow.coefficients
-    events, count = np.empty((64, 13)), 0
-    ledger, turns = np.zeros(NEGLECTED + 1), [(0.0, 0.0)][:0]
+    events, count = np.empty((64, ROW)), 0
+    ledger = np.zeros(NEGLECTED + 1)
     walls, touching, due = (0, 0), (0, 0), -1
-    phase, tail, revolutions, elapsed = start_phase, 0.0, 0, 0.0
+    (first, first_tail), revolutions, elapsed = start_phase, 0, 0.0
+    phase, tail = first, first_tail
     sampled, stalled = 0, 0
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
     while True:
@@ -53,38 +51,37 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         sine, cosine = sine + cosine * tail, cosine - sine * tail
         if count + MOST_AT_ONCE > len(events):
             events = np.concatenate((events, np.empty_like(events)))
-        remaining = max(((cycles - revolutions) * TWO_PI - (phase - start_phase) - tail) / q.omega, 0.0)
+        ahead_of_start = (phase - first) + (tail - first_tail)
+        whole = cycles - revolutions
+        remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
+        noted = count
         boxes, balls, walls, touching, count = settle(
-            flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger, watch
+            flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
         )
+        for k in range(noted, count):
+            events[k, PHASE] = phase
         if remaining == 0.0:
             break
-        t, due, later, there = fly(
-            flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining,
-            most_proofs + MOST_PROOFS_PER_EVENT * count, ledger, turns, watch,
-        )  # fmt: skip
+        most = most_proofs + MOST_PROOFS_PER_EVENT * count
+        t, due, later, there = fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, most, ledger)
         for i in range(2):
             beyond = abs(later[i] - there[i]) - 1.0
             if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, later, there, i):
-                return later, there, events[:count], PENETRATED, ledger, _table(turns)
+                return later, there, events[:count], PENETRATED, ledger
         stalled = 0 if t > 0.0 else stalled + 1
         if stalled > PATIENCE or due == STUCK_IN_TIME:
-            return boxes, balls, events[:count], STALLED, ledger, _table(turns)
+            return boxes, balls, events[:count], STALLED, ledger
         if due == TIRED:
-            return boxes, balls, events[:count], EXHAUSTED, ledger, _table(turns)
+            return boxes, balls, events[:count], EXHAUSTED, ledger
         if count > most_events:
-            return boxes, balls, events[:count], CROWDED, ledger, _table(turns)
+            return boxes, balls, events[:count], CROWDED, ledger
         if due < 0 and t >= remaining:
-            revolutions, phase, tail = cycles, start_phase, 0.0
-        else:  # the rounding of every addition goes to the tail
-            step = q.omega * t
-            total = phase + step
-            part = total - phase
-            tail += (phase - (total - part)) + (step - part)
-            phase = total
+            revolutions, phase, tail = cycles, first, first_tail
+        else:
+            phase, tail = ahead(phase, tail, q.omega, t)
             if phase >= TWO_PI:
-                phase, tail, revolutions = phase - TWO_PI, tail - TWO_PI_TAIL, revolutions + 1
-        before, elapsed = elapsed, (revolutions * TWO_PI + (phase - start_phase) + tail) / q.omega
+                (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
+        before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
         while sampled < len(sample_times) and sample_times[sampled] < start + elapsed:
             lag = max(sample_times[sampled] - start - before, 0.0)
             snapshot, flying = glide(flow, boxes, balls, walls, sine, cosine, lag)
@@ -94,13 +91,4 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     while sampled < len(sample_times):
         pack(boxes, balls, samples[sampled])
         sampled += 1
-    return boxes, balls, events[:count], FINISHED, ledger, _table(turns)
-
-
-@compiled
-def _table(turns):
-    """A list of pairs as an array (n, 2)."""
-    table = np.empty((len(turns), 2))
-    for k, turn in enumerate(turns):
-        table[k, 0], table[k, 1] = turn
-    return table
+    return boxes, balls, events[:count], FINISHED, ledger

@@ -8,37 +8,29 @@ time of the flow table next to it; else the flight goes on to the end of what is
 import math
 
 from vibroimpact.exact.books import EVALUATIONS, FLIGHTS, UNDECIDED
-from vibroimpact.exact.compiled import compiled, inlined
-from vibroimpact.exact.constraints import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, remainder
-from vibroimpact.exact.contact import box_accelerations
+from vibroimpact.exact.compiled import inlined
+from vibroimpact.exact.constraints import LOOKAHEAD, SHORT, gap, module_time, remainder
 from vibroimpact.exact.exclusion import nearby_zero
 from vibroimpact.exact.flow import advance, along, jet, node
-from vibroimpact.exact.motion import carry, glide, mode_of
+from vibroimpact.exact.motion import carry, mode_of
 
 TRIES = 3
-TURN_STEPS = 8  # the gap is stationary at a turn: half the digits of its time give all of the gap
 STUCK_IN_TIME, TIRED = -2, -3
 
 
 @inlined
-def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, most_proofs, ledger, turns, watch):
+def fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, most_proofs, ledger):
     """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls).
 
-    Gives up where time stands still, or when the ledger counts more than most_proofs. If watch is set, turns before a
-    wall are added to turns, a list of pairs: time, and gap.
+    Gives up where time stands still, or when the ledger counts more than most_proofs.
     """
     q = flow.coefficients
     mode = mode_of(walls)
     reach = min(remaining, flow.longest)
     short = SHORT * flow.unit
-    now, there, s, c, t, before = boxes, balls, sine, cosine, 0.0, 0.0
+    now, there, s, c, t = boxes, balls, sine, cosine, 0.0
     ledger[FLIGHTS] += 1
-    speeds = (now[2] - there[2], now[3] - there[3])
     while True:
-        if watch:
-            speeds = _note_turns(
-                flow, speeds, boxes, balls, walls, sine, cosine, before, t, now, there, elapsed, ledger, turns
-            )
         if t >= reach:
             return t, -1, now, there
         ledger[EVALUATIONS] += 1
@@ -54,17 +46,12 @@ def fly(flow, boxes, balls, walls, touching, sine, cosine, elapsed, remaining, m
         elif due >= 0 and walls[due] == 0 and end + width + short < reach:
             met, end, later = _aim(flow, mode, boxes, balls, walls, sine, cosine, due, end, end - width, end + width)
         if met:
-            there = carry(balls, walls, later, end)
-            if watch and end > t:
-                _note_turns(
-                    flow, speeds, boxes, balls, walls, sine, cosine, t, end, later, there, elapsed, ledger, turns
-                )
-            return end, due, later, there
+            return end, due, later, carry(balls, walls, later, end)
         if not t + safe > t:
             return t, STUCK_IN_TIME, now, there
         if ledger[EVALUATIONS] > most_proofs:
             return t, TIRED, now, there
-        before, t = t, min(t + safe, reach)
+        t = min(t + safe, reach)
         now, s, c = advance(flow, mode, boxes, sine, cosine, t)
         there = carry(balls, walls, now, t)
         touching = (0, 0)
@@ -127,30 +114,3 @@ def _aim(flow, mode, boxes, balls, walls, sine, cosine, i, t, low, high):
         if abs(step) <= SHORT * flow.unit:
             return True, t, along(jets, step)
     return False, t, boxes
-
-
-@compiled
-def _note_turns(flow, speeds, boxes, balls, walls, sine, cosine, early, late, now, there, elapsed, ledger, turns):
-    """Relative speeds at time late of a flight; a change of sign since early is a turn, to be noted."""
-    after = (now[2] - there[2], now[3] - there[3])
-    for i in range(2):
-        if walls[i] == 0 and after[i] * speeds[i] < 0.0:
-            low, high = early, late
-            t = early + (late - early) * abs(speeds[i]) / (abs(speeds[i]) + abs(after[i]))
-            for _ in range(TURN_STEPS):  # Newton on the relative speed, kept between the ends
-                x, force, _ = advance(flow, mode_of(walls), boxes, sine, cosine, t)
-                speed = x[2 + i] - balls[2 + i]
-                if speed * speeds[i] > 0.0:
-                    low = t
-                else:
-                    high = t
-                rate = box_accelerations(flow.coefficients, walls, x, force)[i]
-                newton = t - speed / rate if rate != 0.0 else low
-                t = newton if low < newton < high else 0.5 * (low + high)
-            x, y = glide(flow, boxes, balls, walls, sine, cosine, t)
-            wall = 1.0 if speeds[i] > 0.0 else -1.0
-            if wall * (x[i] - y[i]) > 0.0:
-                miss = 1.0 - wall * (x[i] - y[i])
-                turns.append((elapsed + t, miss))
-                ledger[UNDECIDED] += miss <= gap_rounding(flow.coefficients, x, y, i)
-    return after

@@ -6,15 +6,18 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from vibroimpact.exact import books
 from vibroimpact.exact import events as kernel
-from vibroimpact.exact.certificate import KNOWN, Certificate
+from vibroimpact.exact.certificate import Certificate
+from vibroimpact.exact.course import course_of
 from vibroimpact.exact.flow import flow_of
-from vibroimpact.exact.variation import PUBLIC_ORDER, propagate
+from vibroimpact.exact.phase import Instant, phase_at
+from vibroimpact.exact.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
 
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
@@ -30,6 +33,11 @@ FAILURES = {
     kernel.EXHAUSTED: "there are too many exclusions",
 }
 NO_TIMES = np.empty(0)
+LATEST = 2.0**43
+"""From here on floats are further apart than 1e-3, and times of a run cannot be told."""
+MOST_CYCLES = 2**53
+ROUNDED = 1e-12
+"""So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 
 
@@ -37,51 +45,58 @@ KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 class Run:
     """A simulated motion.
 
-    events: (m,) structured array (EVENT) in the order of time; samples: (n, 8) states at the sample times, at an event
-    the state after it; final: (8,) state at the end. States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+    begin: time of the start, exactly; events: (m,) structured array (EVENT) in the order of time; samples: (n, 8)
+    states at the sample times, at an event the state after it; final: (8,) state at the end. States are
+    [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. ledger: the kernel's (books).
     """
 
     system: System
     start: np.ndarray
-    tau0: float
+    begin: Instant
     cycles: int
     events: np.ndarray
     samples: np.ndarray
     final: np.ndarray
     _rows: np.ndarray = field(repr=False)
-
-    @cached_property
-    def _books(self):
-        """Ledger and turns, kept in a second run that is the same step by step, so that the first need not pay."""
-        return _integrate(self.system, self.start, self.cycles, self.tau0, NO_TIMES, np.empty((0, 8)), watch=True)[-2:]
-
-    @cached_property
-    def _variation(self):
-        flow, limit = flow_of(self.system), KNOWN / np.finfo(float).eps
-        duration = self.cycles * self.system.period
-        _, turns = self._books
-        phase = _phase(self.system, self.tau0)
-        return propagate(flow, self.start, self._rows, self.final, phase, duration, limit, turns)
+    ledger: np.ndarray = field(repr=False)
 
     @property
+    def tau0(self) -> float:
+        """Time of the start, rounded."""
+        return float(self.begin)
+
+    @property
+    def end(self) -> Instant:
+        """Time of the final state, exactly; a run from there, tau0=run.end, goes on in the same forcing phase."""
+        return self.begin.later(self.cycles, self.system.Omega)
+
+    @cached_property
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
-        return self._variation[0][np.ix_(PUBLIC_ORDER, PUBLIC_ORDER)]
+        return jacobian(*self.course)[np.ix_(PUBLIC_ORDER, PUBLIC_ORDER)]
 
     @cached_property
     def certificate(self) -> Certificate:
         """What the run can vouch for."""
-        return Certificate.of(*self._books, self._variation, self.tau0)
+        return Certificate.of(self)
+
+    @cached_property
+    def course(self) -> tuple:
+        """The flow, the flights between the events and the events as `course_of` and `books` tell them."""
+        flow, duration = flow_of(self.system), self.cycles * self.system.period
+        phase = phase_at(self.begin, self.system.Omega)[0]
+        return flow, course_of(flow, self.start, self._rows, phase, duration), self._rows
 
 
-def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times=None) -> Run:
+def simulate(system: System, state, cycles: int, tau0: float | Instant = 0.0, sample_times=None) -> Run:
     """Integrate the exact system over a number of forcing cycles, impacts, chatter, sticking and release included.
 
     Args:
         system: parameters.
         state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
         cycles: forcing periods to run, a whole number >= 0.
-        tau0: dimensionless time of the start (sets the forcing phase).
+        tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
+            the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
     Raises:
@@ -90,12 +105,14 @@ def simulate(system: System, state, cycles: int, tau0: float = 0.0, sample_times
             were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
     state = _checked_state(state)
-    _check_window(cycles, tau0)
-    times = _checked_times(sample_times, tau0, tau0 + cycles * system.period)
-    return _run(system, state, int(cycles), tau0, times)
+    begin, cycles = _checked_window(system, cycles, tau0)
+    times = _checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
+    return _run(system, state, cycles, begin, times)
 
 
-def simulate_many(system: System, states, cycles: int, tau0: float = 0.0, progress: bool = False) -> list[Run]:
+def simulate_many(
+    system: System, states, cycles: int, tau0: float | Instant = 0.0, progress: bool = False
+) -> list[Run]:
     """Simulate from many starts on all cores; every run equals its `simulate` bit by bit.
 
     Args:
@@ -108,7 +125,7 @@ def simulate_many(system: System, states, cycles: int, tau0: float = 0.0, progre
         ValueError: an argument is malformed or a start inadmissible (its row is named).
         ArithmeticError: an invariant broke in one of the runs.
     """
-    states = np.array(states, dtype=float)
+    states = _real_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
@@ -116,10 +133,10 @@ def simulate_many(system: System, states, cycles: int, tau0: float = 0.0, progre
             _checked_state(state)
         except ValueError as error:
             raise ValueError(f"states[{row}]: {error}") from None
-    _check_window(cycles, tau0)
+    begin, cycles = _checked_window(system, cycles, tau0)
     flow_of(system)  # built once, before the threads share it
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:  # the kernel releases the interpreter's lock
-        runs = [pool.submit(_run, system, state, int(cycles), tau0, NO_TIMES) for state in states]
+        runs = [pool.submit(_run, system, state, cycles, begin, NO_TIMES) for state in states]
         if progress:
             _report(runs)
         return [run.result() for run in runs]
@@ -135,69 +152,90 @@ def _report(runs):
         )
 
 
-def _run(system, state, cycles, tau0, times):
+def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
-    samples = np.empty((len(times), 8))
-    boxes, balls, rows, status, *_ = _integrate(system, state, cycles, tau0, times, samples, watch=False)
+    samples, tau0 = np.empty((len(times), 8)), float(begin)
+    most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * min(cycles, MOST_CYCLES // MOST_EVENTS_PER_CYCLE)
+    values = state.tolist()
+    boxes, balls, phase = tuple(values[0::2]), tuple(values[1::2]), phase_at(begin, system.Omega)
+    boxes, balls, rows, status, ledger = kernel.integrate(
+        flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events
+    )
     if status != kernel.FINISHED:
         what = FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
-    return Run(system, state, tau0, cycles, _table(rows, tau0), samples, final, rows)
-
-
-def _integrate(system, state, cycles, tau0, times, samples, watch):
-    """The kernel's run: boxes, balls, events as rows, status, ledger, turns."""
-    most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles
-    values = state.tolist()
-    boxes, balls = tuple(values[0::2]), tuple(values[1::2])
-    phase = _phase(system, tau0)
-    return kernel.integrate(flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events, watch)
-
-
-def _phase(system, tau):
-    """Forcing phase Omega tau in [0, 2 pi)."""
-    phase = math.fmod(system.Omega * tau, kernel.TWO_PI)
-    return phase + kernel.TWO_PI if phase < 0.0 else phase
+    return Run(system, state, begin, cycles, _table(rows, tau0), samples, final, rows, ledger)
 
 
 def _table(rows, tau0):
-    """Rows [time, module, wall, kind, state, ...] as a structured array."""
+    """Rows of the kernel (books) as a structured array."""
     table = np.empty(len(rows), EVENT)
     table["tau"] = tau0 + rows[:, 0]
     for column, name in enumerate(("module", "wall", "kind"), start=1):
         table[name] = rows[:, column]
-    table["state"] = rows[:, 4:12]
+    table["state"] = rows[:, 4 : books.PHASE]
     return table
 
 
+def _real_array(name, values):
+    """A float array, nothing lost in the conversion."""
+    try:
+        array = np.array(values)
+        if array.dtype.kind == "c":
+            raise TypeError
+        return array.astype(float)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name}: {values!r} is not an array of real numbers") from None
+
+
 def _checked_state(state):
-    state = np.array(state, dtype=float)
+    state = _real_array("state", state)
     if state.shape != (8,) or not np.isfinite(state).all():
         raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {state.tolist()}")
-    x1, y1, x2, y2 = state[:4].tolist()
-    for module, box, relative in ((1, x1, x1 - y1), (2, x2, x2 - y2)):
-        if abs(relative) > 1.0 + 1e-12 * (1.0 + abs(box)):
-            raise ValueError(f"state: |X{module} - Y{module}| = {abs(relative)} is above 1, the ball is beyond a wall")
+    for module, box, ball in zip((1, 2), state[0:4:2].tolist(), state[1:4:2].tolist(), strict=True):
+        rounding = 2.0 * math.ulp(max(abs(box), abs(ball)))
+        if abs(box - ball) > 1.0 + ROUNDED + rounding:
+            raise ValueError(
+                f"state: |X{module} - Y{module}| = {abs(box - ball)} is above 1, the ball is beyond a wall"
+            )
     return state
 
 
-def _check_window(cycles, tau0):
-    whole = isinstance(cycles, numbers.Real) and not isinstance(cycles, bool) and math.isfinite(cycles)
-    if not whole or int(cycles) != cycles or cycles < 0:
-        raise ValueError(f"cycles: {cycles!r} is not a whole number of at least 0")
-    if not math.isfinite(tau0):
-        raise ValueError(f"tau0: {tau0!r} is not finite")
+def _checked_window(system, cycles, tau0):
+    """The start of a run, exactly, and its number of cycles."""
+    if not _is_finite(cycles) or int(cycles) != cycles or not 0 <= cycles <= MOST_CYCLES:
+        raise ValueError(f"cycles: {cycles!r} is not a whole number from 0 to {MOST_CYCLES}")
+    if not isinstance(tau0, Instant):
+        if not _is_finite(tau0):
+            raise ValueError(f"tau0: {tau0!r} is neither a finite real number nor the end of a run")
+        tau0 = Instant(Fraction(tau0))
+    start = float(tau0)
+    for name, instant in (("tau0", start), ("cycles", start + cycles * system.period)):
+        if not abs(instant) < LATEST:
+            raise ValueError(
+                f"{name}: takes the run to tau = {instant}; from 2**43 on floats are more than 1e-3 apart and cannot "
+                "tell its times (the forcing is the same whole periods earlier)"
+            )
+    return tau0, int(cycles)
+
+
+def _is_finite(value):
+    """Whether a value is a real number that a float can stand for."""
+    try:
+        return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def _checked_times(sample_times, start, end):
     if sample_times is None:
         return NO_TIMES
-    times = np.array(sample_times, dtype=float)
+    times = _real_array("sample_times", sample_times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
         raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
-    slack = 1e-9 * (1.0 + abs(end))
+    slack = 4.0 * math.ulp(max(abs(start), abs(end)))
     if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
         raise ValueError(f"sample_times: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
     return times

@@ -136,17 +136,20 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta):
-    """N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D."""
+    """N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D.
+
+    Up to a factor, chosen so that no force is too weak or too strong to be squared.
+    """
     matrices, constant = conditions.linear_system(delta)
-    size = np.linalg.norm(matrices, axis=1).mean(axis=0)  # one scale per unknown: keeps the determinants of order one
-    matrices = matrices / size
+    size = np.abs(matrices).max(axis=1).mean(axis=0)  # one scale per unknown: keeps the determinants of order one
+    matrices, force = matrices / size, size[2]
 
     def cramer(column):
         replaced = matrices.copy()
         replaced[:, :, column] = constant
-        return np.linalg.det(replaced) / size[column]
+        return np.linalg.det(replaced) / max(force, 1.0)
 
-    return cramer(2) ** 2 + cramer(3) ** 2 - np.linalg.det(matrices) ** 2
+    return cramer(2) ** 2 + cramer(3) ** 2 - (np.linalg.det(matrices) * min(force, 1.0)) ** 2
 
 
 def _circle_points(matrix, constant):

@@ -7,7 +7,9 @@ zeros that rounding cannot separate come back as one, marked multiple.
 """
 
 import numpy as np
+from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 # Coefficients t of t0 + t1 x + t2 x^2 to its Bernstein coefficients on [-1, 1].
 _TO_BERNSTEIN = np.array([[1.0, -1.0, 1.0], [1.0, 0.0, -1.0], [1.0, 1.0, 1.0]])
@@ -162,9 +164,19 @@ def _clusters(boxes):
         return []
     centres = np.array([centre for centre, _ in boxes])
     halves = np.array([half for _, half in boxes])
-    gap = np.abs(centres[:, None] - centres[None]).max(axis=2)
-    count, label = connected_components(gap <= 4 * np.maximum(halves[:, None], halves[None]))
+    pairs = np.concatenate([_touching(centres, halves, half) for half in np.unique(halves)])
+    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(boxes), len(boxes)))
+    count, label = connected_components(graph, directed=False)
     return [centres[label == k].mean(axis=0) for k in range(count)]
+
+
+def _touching(centres, halves, half):
+    """Pairs (n, 2) of a box of this half-width and a box no larger that touches it."""
+    wide, others = np.flatnonzero(halves == half), np.flatnonzero(halves <= half)
+    found = cKDTree(centres[wide]).sparse_distance_matrix(
+        cKDTree(centres[others]), 4 * half, p=np.inf, output_type="ndarray"
+    )
+    return np.stack([wide[found["i"]], others[found["j"]]], axis=1)
 
 
 def _polish(pair, zero):

@@ -1,0 +1,50 @@
+"""Attacks on the certificate: `make attack` runs 20 000 of each, the suite a few (`--attack=N`)."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from attacks import Observer, attacks, random_start, random_system, same_events, truth
+from vibroimpact.accuracy.reference_roots import Undecidable
+
+PER_SYSTEM = 10
+
+
+@pytest.fixture
+def seeds(request):
+    """One seed for each system attacked."""
+    return range(-(-request.config.getoption("--attack") // PER_SYSTEM))
+
+
+def test_no_told_miss_exceeds_the_true_one(seeds):
+    """Nor is one told that was none: where it is less than the observer's, its grid skipped a turn."""
+    finer = 0
+    for seed in seeds:
+        rng = np.random.default_rng([seed, 1])
+        system = random_system(rng)
+        observer = Observer(system)
+        for _ in range(PER_SYSTEM):
+            run = vi.simulate(system, random_start(rng), 5)
+            told, seen = run.certificate.nearest_miss, observer.nearest_miss(run)
+            assert told <= seen + 1e-10, (seed, run.start.tolist(), told, seen)
+            finer += told < seen - 1e-7
+    assert finer <= 1e-3 * PER_SYSTEM * len(seeds)
+
+
+def test_no_decided_run_has_other_events_than_the_reference(seeds):
+    """Runs that end, start or turn within 1e-7 of an event, or start nearly at rest on a wall."""
+    decided, worst = 0, 0.0
+    for seed in seeds:
+        for attack in attacks(np.random.default_rng([seed, 2]), PER_SYSTEM):
+            run = vi.simulate(attack.system, attack.start, 1, attack.tau0)
+            if not run.certificate.decided:
+                continue
+            try:
+                reference = truth(attack)
+            except Undecidable:
+                reference = truth(attack, 120)
+            decided += 1
+            assert same_events(run.events, reference.events), (seed, attack)
+            worst = max(worst, np.abs(run.final - reference.final).max() / run.certificate.error)
+    assert decided > 5 * len(seeds)
+    assert worst < 10

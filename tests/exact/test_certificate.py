@@ -1,0 +1,108 @@
+"""What the certificate promises, promise by promise; test_attack.py attacks the same at random."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from attacks import Observer, fast_attack, truth
+from vibroimpact.exact.certificate import KNOWN
+
+
+def test_a_ball_that_turns_twice_between_two_proofs_is_seen(chapter):
+    system = chapter(0.3664, 0.3071, kappa=0.4582, sigma_e_hat=-0.2001)
+    start = [0.1712, -0.3204, -0.6147, -1.1425, -0.7531, -0.2159, -0.7851, 0.2308]
+    run = vi.simulate(system, start, 10)
+    assert run.certificate.nearest_miss == pytest.approx(Observer(system).nearest_miss(run), abs=1e-12)
+    assert run.certificate.nearest_miss == pytest.approx(3.0e-4, rel=0.01)
+
+
+@pytest.mark.parametrize("units", range(20, 45))
+def test_an_impact_in_the_last_instant_is_not_decided(chapter, units):
+    """An unforced ball, due at the wall at the end of the run but for so many units of rounding."""
+    system = chapter(0.0, 0.0)
+    run = vi.simulate(system, [0, 0.5, 0, 0, 0, 0.5 / system.period * (1 - units * 1.1e-16), 0, 0], 1)
+    assert not run.certificate.decided
+
+
+@pytest.mark.parametrize("ratio", [1 - 1e-9, 1 + 1e-9])
+def test_an_impact_clear_of_the_end_is_decided(chapter, ratio):
+    system = chapter(0.0, 0.0)
+    run = vi.simulate(system, [0, 0.5, 0, 0, 0, 0.5 / system.period * ratio, 0, 0], 1)
+    assert run.certificate.decided
+    assert len(run.events) == (ratio > 1)
+
+
+@pytest.mark.parametrize(("slip", "decided"), [(0.0, True), (1e-16, False), (-1e-16, False), (1e-9, True)])
+def test_a_start_nearly_at_rest_on_a_wall_is_not_decided(chapter, slip, decided):
+    run = vi.simulate(chapter(0.0, 0.0), [-0.5, -1.5, 0, 0, 0, -slip, 0, 0], 1)
+    assert run.certificate.decided is decided
+
+
+def test_the_horizon_is_tested_at_the_end_too(chapter):
+    system = chapter(0.3739, 0.337, kappa=0.8258, sigma_e_hat=-0.1085)
+    start = [0.1673, 1.0926, -0.8364, -1.4416, -0.1314, -0.7658, 0.3382, 0.613]
+    for cycles in range(33, 45):
+        certificate = vi.simulate(system, start, cycles).certificate
+        assert certificate.error <= KNOWN or (np.isinf(certificate.error) and certificate.horizon < np.inf)
+
+
+def test_the_error_under_fast_strong_forcing():
+    """Omega from 2 to 100, forces up to 25 000."""
+    ratios = []
+    for seed in range(24):
+        attack = fast_attack(np.random.default_rng([seed, 3]))
+        run = vi.simulate(attack.system, attack.start, 1)
+        if run.certificate.decided and len(run.events) < 30:
+            ratios.append(np.abs(run.final - truth(attack).final).max() / run.certificate.error)
+    assert len(ratios) > 10
+    assert max(ratios) < 5
+
+
+def test_the_contact_force_of_a_sticking_ball_counts(chapter):
+    """A push that dips to 1e-13 of a unit from the release of its ball, and one that clears it, in closed form."""
+    system = chapter(
+        30.0, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=50.0
+    )
+    nu, omega = 1.0 / np.sqrt(1.0 + system.epsilon), system.Omega
+    amplitude = system.forcing[0] / (1.0 - (omega / nu) ** 2)
+    t = np.linspace(0.5, 1.0, 200_001)
+    swing = amplitude * omega * (nu * np.sin(nu * t) - omega * np.sin(omega * t))
+    grazing = (swing / (nu**2 * np.cos(nu * t))).min()  # the start from which the push just falls to zero
+    clearances = []
+    for more in (1e-3, 1e-6, 1e-9):
+        x = grazing - more
+        clearances.append(vi.simulate(system, [x, x - 1.0, 0, 0, 0, 0, 0, 0], 1).certificate.clearance)
+    assert clearances[0] / clearances[1] == pytest.approx(1e3, rel=0.1)
+    assert clearances[1] > 100 * clearances[2]
+
+
+WRONG = {
+    "tau0 is nothing": ({"tau0": None}, "tau0"),
+    "tau0 is a word": ({"tau0": "now"}, "tau0"),
+    "tau0 is complex": ({"tau0": 1j}, "tau0"),
+    "tau0 is nan": ({"tau0": float("nan")}, "tau0"),
+    "cycles beyond whole floats": ({"cycles": 1e17}, "cycles"),
+    "cycles beyond all floats": ({"cycles": 10**400}, "cycles"),
+    "cycles that end too late": ({"cycles": 10**13}, "cycles"),
+    "a complex state": ({"state": [1j, 0, 0, 0, 0, 0, 0, 0]}, "state"),
+    "a complex array": ({"state": np.zeros(8, complex)}, "state"),
+    "a ragged state": ({"state": [[0, 0], 0, 0, 0, 0, 0, 0]}, "state"),
+    "words": ({"state": ["a"] * 8}, "state"),
+    "a ball 9 beyond the wall": ({"state": [1e13, 1e13 - 10, 0, 0, 0, 0, 0, 0]}, "state"),
+    "a ball just beyond": ({"state": [100.0, 99.0 - 1e-11, 0, 0, 0, 0, 0, 0]}, "state"),
+    "samples 900 outside": ({"tau0": 1e12, "sample_times": [1e12 - 900]}, "sample_times"),
+    "samples that are none": ({"sample_times": ["x"]}, "sample_times"),
+}
+
+
+@pytest.mark.parametrize(("change", "name"), WRONG.values(), ids=WRONG)
+def test_bad_input_is_refused_by_name(chapter, change, name):
+    arguments = {"state": np.zeros(8), "cycles": 1, **change}
+    with pytest.raises(ValueError, match=f"^{name}: "):
+        vi.simulate(chapter(), **arguments)
+
+
+def test_samples_far_from_time_zero(chapter):
+    system, tau0 = chapter(), 1e12
+    run = vi.simulate(system, np.zeros(8), 2, tau0, [tau0, tau0 + system.period, tau0 + 2 * system.period])
+    np.testing.assert_array_equal(run.samples[[0, 2]], [np.zeros(8), run.final])

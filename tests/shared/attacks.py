@@ -1,0 +1,249 @@
+"""Random systems and starts made to break what a run says of itself, and an observer that shares no code with it."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+import vibroimpact as vi
+from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.exact.simulation import IMPACT, STICK
+
+SLOW = (1e-4, 3e-5)
+"""Impacts that leave a ball slower than this belong to the end of a chatter, which either side may complete."""
+
+
+def random_system(rng):
+    """An ordinary system, its parameters decimals, the same for float64 and for exact rationals."""
+
+    def within(low, high):
+        return round(rng.uniform(low, high), 4)
+
+    return vi.System(
+        epsilon=within(0.02, 0.6), kappa=within(0.1, 0.95), alpha12_hat=within(0, 3), gamma1_hat=within(0.01, 1),
+        gamma2_hat=within(0.01, 1), gamma12_hat=within(0, 2), sigma20_hat=within(-0.5, 1.5),
+        sigma_e_hat=within(-0.5, 1.5), f10_hat=within(-2, 2), f20_hat=within(-2, 2),
+    )  # fmt: skip
+
+
+def random_start(rng):
+    """Boxes and balls somewhere between the walls."""
+    x, gap, v, u = rng.uniform(-1, 1, (4, 2)) * np.array([[1.5], [0.99], [1], [1.2]])
+    return np.array([x[0], x[0] - gap[0], x[1], x[1] - gap[1], v[0], u[0], v[1], u[1]])
+
+
+# -- turns ------------------------------------------------------------------------------------------------------------
+
+
+class Observer:
+    """Sees the gaps of a system's motions on a grid, denser where a flight starts, by matrix exponentials of the
+    equations written out.
+    """
+
+    def __init__(self, system):
+        e, a = system.epsilon, system.epsilon * system.alpha12_hat
+        c1, c2, c12 = (e * g for g in (system.gamma1_hat, system.gamma2_hat, system.gamma12_hat))
+        self.stiffness = np.array([[1 + a, -a], [-a, 1 + e * system.sigma20_hat + a]])
+        self.damping = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
+        self.force = e * np.array([system.f10_hat, system.f20_hat])
+        self.omega, self.epsilon = 1 + e * system.sigma_e_hat, e
+        self.step = 0.03 / max(self.omega, np.sqrt(np.linalg.norm(self.stiffness, 2)))
+        even = self.step * np.arange(int(7 / self.omega / self.step) + 2)
+        self.times = np.concatenate([[0.0], self.step * 2.0 ** np.arange(-20, 0), even[1:]])
+        self._powers = {}
+
+    def _rate(self, stuck):
+        mass = 1 + self.epsilon * np.array(stuck)
+        rate = np.zeros((6, 6))
+        rate[:2, 2:4] = np.eye(2)
+        rate[2:4, :2] = -self.stiffness / mass[:, None]
+        rate[2:4, 2:4] = -self.damping / mass[:, None]
+        rate[2:4, 4] = self.force / mass
+        rate[4, 5], rate[5, 4] = self.omega, -self.omega
+        return rate
+
+    def _flow(self, stuck, count):
+        """The boxes' rows (count, 4, 6) of the exponentials over the first times of the grid."""
+        if stuck not in self._powers:
+            fine, rate = int((self.times < self.step).sum()), self._rate(stuck)
+            power = np.eye(6)[None]
+            while len(power) < len(self.times):
+                power = np.concatenate([power, power @ expm(rate * self.step * len(power))])
+            power = np.concatenate([expm(rate * self.times[:fine, None, None]), power[1 : len(self.times) - fine + 1]])
+            self._powers[stuck] = np.ascontiguousarray(power[:, :4])
+        return self._powers[stuck][:count]
+
+    def nearest_miss(self, run):
+        """Least gap at a turn of a flying ball in its half of the box, over a whole run; inf if there is none.
+
+        The nearest turn of the grid is followed up to where the ball is as fast as its box.
+        """
+        turns, walls, state, tau = [], [0, 0], run.start, 0.0
+        for stop, event in [*zip(run.events["tau"], run.events, strict=True), (run.cycles * run.system.period, None)]:
+            stuck = tuple(wall != 0 for wall in walls)
+            while stop > tau:
+                length = min(stop - tau, self.times[-2])
+                turns += [(*turn, state, tau, stuck) for turn in self._turns(state, tau, length, stuck)]
+                if tau + length < stop:
+                    state = self._at(state, tau, stuck, length, walls)
+                tau += length
+            if event is not None:
+                state = event["state"]
+                if event["kind"] != IMPACT:
+                    walls[event["module"] - 1] = int(event["wall"]) if event["kind"] == STICK else 0
+        return self._gap(*min(turns, key=lambda turn: turn[0])[1:]) if turns else np.inf
+
+    def _turns(self, state, tau, length, stuck):
+        """(gap, module, times around), by cubic interpolation on the grid, of the turns of one flight."""
+        count = int(np.searchsorted(self.times, length)) + 1
+        boxes = (self._flow(stuck, count).reshape(-1, 6) @ self._lifted(state, tau)).reshape(-1, 4)
+        times = self.times[:count]
+        for i in (i for i in range(2) if not stuck[i]):
+            W, V = boxes[:, i] - state[2 * i + 1] - times * state[2 * i + 5], boxes[:, 2 + i] - state[2 * i + 5]
+            k = np.flatnonzero(V[:-1] * V[1:] < 0)
+            s, h = V[k] / (V[k] - V[k + 1]), times[k + 1] - times[k]
+            value = W[k] + (W[k + 1] - W[k]) * s * s * (3 - 2 * s) + h * s * (1 - s) * (V[k] * (1 - s) - V[k + 1] * s)
+            before = (value * V[k] > 0) & (times[k] + s * h < length)
+            for w, place in zip(value[before], k[before], strict=True):
+                yield 1 - abs(w), i, times[place : place + 2]
+
+    def _gap(self, i, around, state, tau, stuck):
+        """The gap of the turn of module i between two times of a flight."""
+        rate, z = self._rate(stuck), self._lifted(state, tau)
+        t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
+        return 1 - abs((expm(rate * t) @ z)[i] - state[2 * i + 1] - t * state[2 * i + 5])
+
+    def _at(self, state, tau, stuck, t, walls):
+        """The state a time t later."""
+        boxes, later = expm(self._rate(stuck) * t)[:4] @ self._lifted(state, tau), state.copy()
+        later[[0, 2, 4, 6]] = boxes
+        for i in range(2):
+            later[2 * i + 1] = boxes[i] - walls[i] if walls[i] else state[2 * i + 1] + t * state[2 * i + 5]
+            later[2 * i + 5] = boxes[2 + i] if walls[i] else state[2 * i + 5]
+        return later
+
+    def _lifted(self, state, tau):
+        return np.array([*state[[0, 2, 4, 6]], np.sin(self.omega * tau), np.cos(self.omega * tau)])
+
+
+# -- events -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Attack:
+    """A start (8,) at tau0 whose run, one forcing cycle long, ends, starts or turns next to an event."""
+
+    kind: str
+    system: vi.System
+    start: np.ndarray
+    tau0: float
+
+
+def attacks(rng, count):
+    """Attacks on one random system, at distances from an event of 1e-17 to 1e-7, on either side."""
+    system = random_system(rng)
+    base = vi.simulate(system, random_start(rng), 6)
+    kinds = {"end": _end, "start": _start, "graze": _graze, "rest": _rest}
+    for _ in range(count):
+        name = rng.choice(list(kinds))
+        distance = rng.choice([-1, 1]) * 10 ** rng.uniform(-17, -7)
+        made = kinds[name](rng, base, distance)
+        if made is not None:
+            yield Attack(str(name), system, *made)
+
+
+def _later(base, tau0):
+    """The state of a run at a time."""
+    return vi.simulate(base.system, base.start, base.cycles, sample_times=[tau0]).samples[0]
+
+
+def _end(rng, base, distance):
+    """The run ends next to an event."""
+    late = base.events[base.events["tau"] > base.system.period + 1e-3]
+    if not len(late):
+        return None
+    tau0 = rng.choice(late["tau"]) + distance - base.system.period
+    return _later(base, tau0), tau0
+
+
+def _start(rng, base, distance):
+    """The run starts next to an impact, before it or after it."""
+    impacts = base.events[base.events["kind"] == IMPACT]
+    if not len(impacts):
+        return None
+    event = rng.choice(impacts)
+    state, i, e, kappa = event["state"].copy(), int(event["module"]) - 1, base.system.epsilon, base.system.kappa
+    x, y, v, u = 2 * i, 2 * i + 1, 4 + 2 * i, 5 + 2 * i
+    if distance < 0:
+        momentum, relative = state[v] + e * state[u], -(state[v] - state[u]) / kappa
+        state[v] = (momentum + e * relative) / (1 + e)
+        state[u] = state[v] - relative
+    state[[x, y]] += distance * state[[v, u]]
+    if abs(state[x] - state[y]) > 1:
+        state[y] = state[x] - event["wall"]
+    return state, float(event["tau"])
+
+
+def _graze(rng, base, distance):
+    """A ball turns next to a wall: it moves with its box at some time, at this distance from the wall."""
+    begin = rng.uniform(0, (base.cycles - 1) * base.system.period)
+    turn = begin + rng.uniform(0.05, 0.5) * base.system.period
+    start, later, after = vi.simulate(
+        base.system, base.start, base.cycles, sample_times=[begin, turn, turn + 1e-4]
+    ).samples
+    i = rng.integers(2)
+    wall = -np.sign(after[4 + 2 * i] - later[4 + 2 * i])
+    speed = later[4 + 2 * i]
+    start[2 * i + 1] = later[2 * i] - wall * (1 - distance) - speed * (turn - begin)
+    start[2 * i + 5] = speed
+    return (start, begin) if abs(start[2 * i] - start[2 * i + 1]) < 1 else None
+
+
+def _rest(rng, base, distance):
+    """The run starts with a ball nearly at rest next to a wall, or exactly so."""
+    state = _later(base, tau0 := rng.uniform(0, base.cycles * base.system.period))
+    i, wall = rng.integers(2), rng.choice([-1, 1])
+    gap, slip = rng.choice([0.0, abs(distance)]), rng.choice([0.0, distance, 1e3 * distance])
+    state[2 * i + 1] = state[2 * i] - wall * (1 - gap)
+    if abs(state[2 * i] - state[2 * i + 1]) > 1:
+        return None
+    state[2 * i + 5] = state[4 + 2 * i] - slip
+    return state, tau0
+
+
+def truth(attack, digits=40):
+    """The reference's run of an attack, from exactly its floats; where they are beyond a wall by rounding, from it."""
+    start = [Fraction(x) for x in attack.start.tolist()]
+    for i in (0, 2):
+        gap = start[i] - start[i + 1]
+        if abs(gap) > 1 or float(attack.start[i] - attack.start[i + 1]) in (1.0, -1.0):
+            start[i + 1] = start[i] - (1 if gap > 0 else -1)
+    return reference_run(attack.system, start, 1, digits, tau0=Fraction(attack.tau0))
+
+
+def same_events(one, other):
+    """Whether each module has the same events in the same order, but for the slowest impacts, whichever of two bounds on
+    their speed is taken, and for a stick at the start (the reference does not list one that was there from the start).
+    """
+    return any(_story(one, slow) == _story(other, slow) for slow in SLOW)
+
+
+def _story(events, slow):
+    stories = {1: [], 2: []}
+    for event in events:
+        story, box = stories[int(event["module"])], 2 + 2 * int(event["module"])
+        slowly = event["kind"] == IMPACT and abs(event["state"][box] - event["state"][box + 1]) <= slow
+        if not slowly and (event["kind"] != STICK or story):
+            story.append((int(event["kind"]), int(event["wall"])))
+    return stories
+
+
+def fast_attack(rng):
+    """A system driven fast and hard: Omega from 2 to 100, forces up to 25 000."""
+    system = random_system(rng)
+    omega, forces = 10 ** rng.uniform(0.3, 2), 10 ** rng.uniform(0, 4.4, 2) * rng.choice([-1, 1], 2)
+    f1, f2 = np.round(forces / system.epsilon, 4)
+    system = system.with_(sigma_e_hat=round((omega - 1) / system.epsilon, 4), f10_hat=f1, f20_hat=f2)
+    return Attack("fast", system, np.round(random_start(rng), 6), 0.0)
