@@ -224,8 +224,8 @@ def truth(attack, digits=40):
 
 
 def same_events(one, other):
-    """Whether each module has the same events in the same order, but for the slowest impacts, whichever of two bounds on
-    their speed is taken, and for a stick at the start (the reference does not list one that was there from the start).
+    """Whether each module has the same events in the same order, but for the slowest impacts, whichever of two bounds
+    on their speed is taken, and for a stick at the start (the reference does not list one that was there from the start).
     """
     return any(_story(one, slow) == _story(other, slow) for slow in SLOW)
 
