@@ -10,6 +10,7 @@ from vibroimpact.exact.flow import jet
 
 RESOLUTION = 4.0 * np.finfo(float).eps
 LOOKAHEAD = 2.5  # in units of the flow: the longest time that one proof is asked for
+NOTHING = 1e-300  # a margin of a force that stays zero
 SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
 
 
@@ -157,7 +158,8 @@ def module_time(q, mode, i, boxes, balls, jets, wall, touching, bound, sine, cos
 def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
     """module_time of a ball that sticks: its constraint is that the wall pushes it."""
     c, bound = push(q, mode, jets, i, wall, sine, cosine, horizon)
-    margin = acceleration_rounding(q, boxes, i)
+    # where the box is at rest as yet: the rounding of what its force may become meanwhile
+    margin = acceleration_rounding(q, boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
         if certain:
