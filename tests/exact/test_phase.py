@@ -41,7 +41,7 @@ def test_the_phase_loses_nothing_over_many_flights():
     assert (phase - exact[0]) + (tail - exact[1]) == pytest.approx(0.0, abs=1e-26)
 
 
-@pytest.mark.parametrize("tau0", [1e6, -1e9, 1e12, Fraction(1, 3), Fraction(10**15, 7)])
+@pytest.mark.parametrize("tau0", [1e6, -1e9, 1e12, Fraction(1, 3), Fraction(10**13, 7)])
 def test_a_start_at_any_time_follows_the_reference(chapter, tau0):
     system = chapter(0.5, 0.5, sigma_e_hat=1.25)  # Omega = 1.125, a float
     run, truth = vi.simulate(system, START, 3, tau0), reference_run(system, START, 3, 40, tau0=Fraction(tau0))
