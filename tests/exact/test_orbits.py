@@ -278,3 +278,8 @@ def test_almost_identical_modules_keep_their_solutions(chapter, mistuning):
     assert len(near) == len(limit) == 2
     order = np.argsort(near[:, 2])
     np.testing.assert_allclose(near[order], limit[np.argsort(limit[:, 2])], rtol=0, atol=20 * mistuning + 1e-12)
+
+
+@pytest.mark.parametrize("force", [1e-300, 1e-160, 1e-20])
+def test_the_weakest_force_moves_no_ball_from_wall_to_wall(chapter, force):
+    assert orbits(chapter(force, force)) == []

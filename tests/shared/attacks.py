@@ -11,6 +11,8 @@ import vibroimpact as vi
 from vibroimpact.accuracy.reference import reference_run
 from vibroimpact.exact.simulation import IMPACT, STICK
 
+ROUNDING = 1e-13
+"""A ball nearer to a wall than this when it turns was just released there."""
 SLOW = (1e-4, 3e-5)
 """Impacts that leave a ball slower than this belong to the end of a chatter, which either side may complete."""
 
@@ -81,11 +83,13 @@ class Observer:
         The nearest turn of the grid is followed up to where the ball is as fast as its box.
         """
         turns, walls, state, tau = [], [0, 0], run.start, 0.0
-        for stop, event in [*zip(run.events["tau"], run.events, strict=True), (run.cycles * run.system.period, None)]:
-            stuck = tuple(wall != 0 for wall in walls)
+        stops = [*zip(run.events["tau"], run.events, strict=True), (run.cycles * run.system.period, None)]
+        for n, (stop, event) in enumerate(stops):
+            stuck, chattering = tuple(wall != 0 for wall in walls), self._chattering(run.events[n:])
             while stop > tau:
                 length = min(stop - tau, self.times[-2])
-                turns += [(*turn, state, tau, stuck) for turn in self._turns(state, tau, length, stuck)]
+                found = self._turns(state, tau, length, stuck)
+                turns += [(*turn, length, state, tau, stuck) for turn in found if not chattering[turn[1]]]
                 if tau + length < stop:
                     state = self._at(state, tau, stuck, length, walls)
                 tau += length
@@ -93,7 +97,14 @@ class Observer:
                 state = event["state"]
                 if event["kind"] != IMPACT:
                     walls[event["module"] - 1] = int(event["wall"]) if event["kind"] == STICK else 0
-        return self._gap(*min(turns, key=lambda turn: turn[0])[1:]) if turns else np.inf
+        exact = (self._gap(*turn[1:]) for turn in sorted(turns, key=lambda turn: turn[0]))
+        return next((gap for gap in exact if gap is not None), np.inf)
+
+    @staticmethod
+    def _chattering(events):
+        """Of each module whether its next event is a stick: the last impacts before that are not listed."""
+        own = [events["kind"][events["module"] == module] for module in (1, 2)]
+        return [len(kinds) > 0 and kinds[0] == STICK for kinds in own]
 
     def _turns(self, state, tau, length, stuck):
         """(gap, module, times around), by cubic interpolation on the grid, of the turns of one flight."""
@@ -105,14 +116,16 @@ class Observer:
             k = np.flatnonzero(V[:-1] * V[1:] < 0)
             s, h = V[k] / (V[k] - V[k + 1]), times[k + 1] - times[k]
             value = W[k] + (W[k + 1] - W[k]) * s * s * (3 - 2 * s) + h * s * (1 - s) * (V[k] * (1 - s) - V[k + 1] * s)
-            before = (value * V[k] > 0) & (times[k] + s * h < length)
+            before = (value * V[k] > 0) & (times[k] < length) & (abs(value) < 1 - ROUNDING)
             for w, place in zip(value[before], k[before], strict=True):
                 yield 1 - abs(w), i, times[place : place + 2]
 
-    def _gap(self, i, around, state, tau, stuck):
-        """The gap of the turn of module i between two times of a flight."""
+    def _gap(self, i, around, length, state, tau, stuck):
+        """The gap of the turn of module i between two times of a flight; None if it would be after its end."""
         rate, z = self._rate(stuck), self._lifted(state, tau)
         t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
+        if t >= length:
+            return None
         return 1 - abs((expm(rate * t) @ z)[i] - state[2 * i + 1] - t * state[2 * i + 5])
 
     def _at(self, state, tau, stuck, t, walls):
@@ -225,7 +238,7 @@ def truth(attack, digits=40):
 
 def same_events(one, other):
     """Whether each module has the same events in the same order, but for the slowest impacts, whichever of two bounds
-    on their speed is taken, and for a stick at the start (the reference does not list one that was there from the start).
+    on their speed is taken, and for a stick at the start (the reference does not list one there from the start).
     """
     return any(_story(one, slow) == _story(other, slow) for slow in SLOW)
 

@@ -1,9 +1,11 @@
 """The complete search for common zeros against systems whose zeros are known by construction."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
-from vibroimpact.theory.real_zeros import real_zeros
+from vibroimpact.theory.real_zeros import _clusters, real_zeros
 
 
 def product(in_x, in_y):
@@ -100,3 +102,21 @@ def test_no_isolated_zeros():
 def test_a_square_without_width():
     zeros, _ = solve(CIRCLE, line(1.0, 0.5), radius=0.0)
     assert zeros.shape == (0, 2)
+
+
+def test_many_boxes_that_nothing_settles_are_gathered_in_little_memory():
+    """A line of 15 000 boxes, another one apart from it and a wide box that joins neither: three groups."""
+    places = np.arange(15_000)
+    lines = [(np.array([1e-6 * n, height]), 5e-7) for height in (0.0, 1.0) for n in places]
+    tracemalloc.start()
+    found = sorted(map(tuple, _clusters([*lines, (np.array([0.0, 0.5]), 0.1)])))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    middle = 1e-6 * places.mean()
+    assert np.array(found) == pytest.approx(np.array([(0.0, 0.5), (middle, 0.0), (middle, 1.0)]))
+    assert most < 50e6
+
+
+def test_boxes_of_different_widths_touch_within_four_times_the_wider():
+    boxes = [(np.array([0.0, 0.0]), 0.01), (np.array([0.39, 0.0]), 0.1), (np.array([0.9, 0.0]), 0.01)]
+    assert sorted(map(tuple, _clusters(boxes))) == [(pytest.approx(0.195), 0.0), (0.9, 0.0)]

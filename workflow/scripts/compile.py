@@ -15,7 +15,8 @@ from vibroimpact.system import System  # noqa: E402
 config = parse(Path("config/config.yaml").read_text(encoding="utf-8"))
 case = next(iter(config["cases"]))
 system, start = System(**case_parameters(config, case)), config["cases"][case]["simulation"]["initial_state"]
-simulate(system, start, cycles=1, sample_times=[0.0]).certificate  # noqa: B018
+run = simulate(system, start, cycles=1, sample_times=[0.0])
+_ = run.certificate, run.jacobian
 for method in METHODS:
     if not method.available():
         method.run(system, start, 1, 0.0, method.ladder[0])

@@ -33,9 +33,15 @@ class Instant:
         return float(self.offset + (self.turns and self.turns * _two_pi(_digits(self.turns))))
 
 
+def exactly(tau: float | Instant) -> Instant:
+    """The time that a float, or another rational number, stands for."""
+    return tau if isinstance(tau, Instant) else Instant(Fraction(tau))
+
+
 @lru_cache(maxsize=1024)
-def phase_at(instant: Instant, omega: float) -> tuple[float, float]:
+def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
     """The phase omega tau modulo 2 pi, as a float in [0, 2 pi) and what it leaves out."""
+    instant = exactly(tau)
     part, turns = Fraction(omega) * instant.offset, Fraction(omega) * instant.turns % 1
     two_pi = _two_pi(_digits(part))
     exact = (part + turns * two_pi) % two_pi

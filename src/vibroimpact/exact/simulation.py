@@ -6,7 +6,6 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +15,7 @@ from vibroimpact.exact import events as kernel
 from vibroimpact.exact.certificate import Certificate
 from vibroimpact.exact.course import course_of
 from vibroimpact.exact.flow import flow_of
-from vibroimpact.exact.phase import Instant, phase_at
+from vibroimpact.exact.phase import Instant, exactly, phase_at
 from vibroimpact.exact.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
 
@@ -52,7 +51,7 @@ class Run:
 
     system: System
     start: np.ndarray
-    begin: Instant
+    begin: float | Instant
     cycles: int
     events: np.ndarray
     samples: np.ndarray
@@ -68,7 +67,7 @@ class Run:
     @property
     def end(self) -> Instant:
         """Time of the final state, exactly; a run from there, tau0=run.end, goes on in the same forcing phase."""
-        return self.begin.later(self.cycles, self.system.Omega)
+        return exactly(self.begin).later(self.cycles, self.system.Omega)
 
     @cached_property
     def jacobian(self) -> np.ndarray:
@@ -155,7 +154,7 @@ def _report(runs):
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
     samples, tau0 = np.empty((len(times), 8)), float(begin)
-    most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * min(cycles, MOST_CYCLES // MOST_EVENTS_PER_CYCLE)
+    most_events = min(MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles, MOST_CYCLES)
     values = state.tolist()
     boxes, balls, phase = tuple(values[0::2]), tuple(values[1::2]), phase_at(begin, system.Omega)
     boxes, balls, rows, status, ledger = kernel.integrate(
@@ -185,7 +184,7 @@ def _real_array(name, values):
         array = np.array(values)
         if array.dtype.kind == "c":
             raise TypeError
-        return array.astype(float)
+        return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name}: {values!r} is not an array of real numbers") from None
 
@@ -194,12 +193,11 @@ def _checked_state(state):
     state = _real_array("state", state)
     if state.shape != (8,) or not np.isfinite(state).all():
         raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {state.tolist()}")
-    for module, box, ball in zip((1, 2), state[0:4:2].tolist(), state[1:4:2].tolist(), strict=True):
-        rounding = 2.0 * math.ulp(max(abs(box), abs(ball)))
-        if abs(box - ball) > 1.0 + ROUNDED + rounding:
-            raise ValueError(
-                f"state: |X{module} - Y{module}| = {abs(box - ball)} is above 1, the ball is beyond a wall"
-            )
+    x1, y1, x2, y2 = state[:4].tolist()
+    for module, box, ball in ((1, x1, y1), (2, x2, y2)):
+        relative = abs(box - ball)
+        if relative > 1.0 and relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
+            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
     return state
 
 
@@ -207,18 +205,17 @@ def _checked_window(system, cycles, tau0):
     """The start of a run, exactly, and its number of cycles."""
     if not _is_finite(cycles) or int(cycles) != cycles or not 0 <= cycles <= MOST_CYCLES:
         raise ValueError(f"cycles: {cycles!r} is not a whole number from 0 to {MOST_CYCLES}")
-    if not isinstance(tau0, Instant):
-        if not _is_finite(tau0):
-            raise ValueError(f"tau0: {tau0!r} is neither a finite real number nor the end of a run")
-        tau0 = Instant(Fraction(tau0))
-    start = float(tau0)
-    for name, instant in (("tau0", start), ("cycles", start + cycles * system.period)):
-        if not abs(instant) < LATEST:
+    if not isinstance(tau0, Instant) and not _is_finite(tau0):
+        raise ValueError(f"tau0: {tau0!r} is neither a finite real number nor the end of a run")
+    begin = tau0 if isinstance(tau0, float) else exactly(tau0)
+    start = float(begin)
+    for name, tau in (("tau0", start), ("cycles", start + cycles * system.period)):
+        if not abs(tau) < LATEST:
             raise ValueError(
-                f"{name}: takes the run to tau = {instant}; from 2**43 on floats are more than 1e-3 apart and cannot "
-                "tell its times (the forcing is the same whole periods earlier)"
+                f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
+                "its times (the forcing is the same whole periods earlier)"
             )
-    return tau0, int(cycles)
+    return begin, int(cycles)
 
 
 def _is_finite(value):

@@ -13,12 +13,13 @@ from vibroimpact.exact.compiled import compiled, inlined
 from vibroimpact.exact.constraints import LOOKAHEAD, acceleration_rounding, gap_rounding, remainder
 from vibroimpact.exact.course import FORCING, LENGTH, start_of
 from vibroimpact.exact.exclusion import least
-from vibroimpact.exact.flow import advance, jet
+from vibroimpact.exact.flow import advance, jet, value
 from vibroimpact.exact.motion import carry, mode_of, pair
 from vibroimpact.exact.phase import ahead
 
 SHORTEST = 1e-9  # in units of the flow: over so short a piece nothing moves by more than rounding
 SHARP = 1e-10  # in units of the flow: a gap is stationary at its turn, so half the digits of the time give all of it
+UNSEEN = 1e-17  # a constraint that is known so well is known to rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
@@ -51,9 +52,9 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
     while t < length:
         jets = jet(q, mode, now, s, c)
         step = min(length - t, LOOKAHEAD * flow.unit)
-        bound = remainder(q, mode, jets, step * q.growth)
-        rate1, doubt1 = _rate(q, jets, now, there, walls, 0, bound)
-        rate2, doubt2 = _rate(q, jets, now, there, walls, 1, bound)
+        both = remainder(q, mode, jets, step * q.growth)
+        rate1, doubt1 = _rate(q, jets, now, there, walls, 0, _own_bound(q, walls, jets, 0, both, step))
+        rate2, doubt2 = _rate(q, jets, now, there, walls, 1, _own_bound(q, walls, jets, 1, both, step))
         while not (_turns_once(rate1, doubt1, step) and _turns_once(rate2, doubt2, step)):
             step *= 0.5
             if step < SHORTEST * flow.unit:
@@ -70,6 +71,17 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
                 sides = pair(sides, i, rate)
         t = end
     return now, there
+
+
+@inlined
+def _own_bound(q, walls, jets, i, both, t):
+    """The bound `remainder` for box i alone: where nothing couples the boxes, the other one does not count."""
+    if q.k12 != 0.0 or q.c12 != 0.0:
+        return both
+    p, mass = jets[0] if i == 0 else jets[1], q.mass if walls[i] != 0 else 1.0
+    stiffness, force = (q.k11, abs(q.f1)) if i == 0 else (q.k22, abs(q.f2))
+    energy = mass * p[7] * p[7] + stiffness * p[6] * p[6] * (1 / 49)
+    return min(both, (math.sqrt(energy) + t * force * q.omega**6 * (1 / 5040)) * (1.0 + 1e-12))
 
 
 @inlined
@@ -93,6 +105,8 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 @inlined
 def _turns_once(rate, doubt, t):
     """Whether a rate, known but for the doubt, changes its sign at most once on [0, t], certainly."""
+    if value(doubt, t) * t < UNSEEN:
+        doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
         return True
     return _one_sign(_derivative(rate), _derivative(doubt), t)
