@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.compiled import compiled, inlined
-from vibroimpact.exact.constraints import LOOKAHEAD, acceleration_rounding, gap_rounding, remainder
+from vibroimpact.exact.constraints import LOOKAHEAD, acceleration_rounding, gap_rounding, own_remainder, remainder
 from vibroimpact.exact.course import FORCING, LENGTH, start_of
 from vibroimpact.exact.exclusion import least
 from vibroimpact.exact.flow import advance, jet, value
@@ -48,13 +48,17 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
     q = flow.coefficients
     mode = mode_of(walls)
     now, there, s, c, t = boxes, balls, sine, cosine, 0.0
-    sides = (0.0, 0.0)
+    sides, fastest = (0.0, 0.0), q.omega**6
     while t < length:
         jets = jet(q, mode, now, s, c)
         step = min(length - t, LOOKAHEAD * flow.unit)
         both = remainder(q, mode, jets, step * q.growth)
-        rate1, doubt1 = _rate(q, jets, now, there, walls, 0, _own_bound(q, walls, jets, 0, both, step))
-        rate2, doubt2 = _rate(q, jets, now, there, walls, 1, _own_bound(q, walls, jets, 1, both, step))
+        rate1, doubt1 = _rate(
+            q, jets, now, there, walls, 0, own(0, ...)
+        )
+        rate2, doubt2 = _rate(
+            q, jets, now, there, walls, 1, own_remainder(q, mode, jets, both, 1, abs(q.f2) * fastest, step)
+        )
         while not (_turns_once(rate1, doubt1, step) and _turns_once(rate2, doubt2, step)):
             step *= 0.5
             if step < SHORTEST * flow.unit:
@@ -71,17 +75,6 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
                 sides = pair(sides, i, rate)
         t = end
     return now, there
-
-
-@inlined
-def _own_bound(q, walls, jets, i, both, t):
-    """The bound `remainder` for box i alone: where nothing couples the boxes, the other one does not count."""
-    if q.k12 != 0.0 or q.c12 != 0.0:
-        return both
-    p, mass = jets[0] if i == 0 else jets[1], q.mass if walls[i] != 0 else 1.0
-    stiffness, force = (q.k11, abs(q.f1)) if i == 0 else (q.k22, abs(q.f2))
-    energy = mass * p[7] * p[7] + stiffness * p[6] * p[6] * (1 / 49)
-    return min(both, (math.sqrt(energy) + t * force * q.omega**6 * (1 / 5040)) * (1.0 + 1e-12))
 
 
 @inlined
