@@ -53,12 +53,10 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
         jets = jet(q, mode, now, s, c)
         step = min(length - t, LOOKAHEAD * flow.unit)
         both = remainder(q, mode, jets, step * q.growth)
-        rate1, doubt1 = _rate(
-            q, jets, now, there, walls, 0, own(0, ...)
-        )
-        rate2, doubt2 = _rate(
-            q, jets, now, there, walls, 1, own_remainder(q, mode, jets, both, 1, abs(q.f2) * fastest, step)
-        )
+        own1 = own_remainder(q, mode, jets, both, 0, abs(q.f1) * fastest, step)
+        own2 = own_remainder(q, mode, jets, both, 1, abs(q.f2) * fastest, step)
+        rate1, doubt1 = _rate(q, jets, now, there, walls, 0, own1)
+        rate2, doubt2 = _rate(q, jets, now, there, walls, 1, own2)
         while not (_turns_once(rate1, doubt1, step) and _turns_once(rate2, doubt2, step)):
             step *= 0.5
             if step < SHORTEST * flow.unit:
