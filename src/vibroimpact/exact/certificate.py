@@ -14,6 +14,9 @@ from vibroimpact.exact.turns import DOUBTS, GAP, turns_of
 KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
 
+CLEAR = 4.0
+"""What is this many times the estimated error away is decided: true errors reach 2.6 times the estimate."""
+
 
 @dataclass(frozen=True)
 class Certificate:
@@ -70,7 +73,7 @@ class Certificate:
     @property
     def decided(self) -> bool:
         """Whether all that happened is clear beyond the error when it did, within the horizon."""
-        return not self.undecided and self.clearance > 1.0 and bool(np.isfinite(self.error))
+        return not self.undecided and self.clearance > CLEAR and bool(np.isfinite(self.error))
 
 
 def _least_ratio(margins, errors):
