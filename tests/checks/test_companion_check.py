@@ -66,7 +66,7 @@ def all_systems(change):
 
 
 def regime_cells(system):
-    return regime_map.compute_tile(system, 0, 1, 10, (0.2, 1.4), (0.2, 1.4), 5, 1, OBSERVATION)
+    return regime_map.compute_tile(system, 0, 1, 14, (0.0, 1.6), (0.0, 1.6), 5, 1, OBSERVATION)
 
 
 COMPUTE = {
@@ -78,7 +78,7 @@ COMPUTE = {
     "companion_horizon": lambda change: companion_horizon.compute(change(SYSTEMS["weak"]), START, truth(), 40),
     "companion_branches": lambda change: branches.compute(change(SYSTEMS["unequal"]), **BRANCHES),
     "companion_regime_map": lambda change: regime_map.compute(
-        [regime_cells(change(SYSTEMS["equal"]))], 10, all_systems(change)
+        [regime_cells(change(SYSTEMS["equal"]))], 14, all_systems(change)
     ),
     "companion_modulation": lambda change: modulation.compute(
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION

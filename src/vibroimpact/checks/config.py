@@ -10,9 +10,7 @@ import reprlib
 import yaml
 from jsonschema import Draft202012Validator
 
-from vibroimpact.exact.impulse_response import ImpulseResponse
 from vibroimpact.system import System
-from vibroimpact.theory.fixed_points import refuse_free_motion
 
 KINDS = {"number": "a number", "integer": "a whole number", "string": "text", "object": "a mapping", "array": "a list"}
 
@@ -100,6 +98,12 @@ def _across_fields(config):
 
 def _refuse_resonance(system):
     """Refuse an undamped system whose periodic responses are not isolated, or not bounded."""
+    if system.gamma1 > 0 and system.gamma2 > 0:
+        return
+    # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
+    from vibroimpact.exact.impulse_response import ImpulseResponse
+    from vibroimpact.theory.fixed_points import refuse_free_motion
+
     refuse_free_motion(system)
     if not system.has_undriven_module:
         for sign in (1, -1):

@@ -164,7 +164,9 @@ def _exponents(axes, exponents, cases):
         rest = rows["label"].str.startswith("rest")
         x = place + np.linspace(-0.25, 0.25, len(rows))
         for mine, at, name in ((~rest, x[~rest], "spread starts"), (rest, place - 0.33, "from rest")):
-            axes.errorbar(at, rows["exponent"][mine], yerr=rows["error"][mine], **BARS, **DOTS[name])
+            bars = axes.errorbar(at, rows["exponent"][mine], yerr=rows["error"][mine], **BARS, **DOTS[name])
+            for part in bars.get_children():
+                part.set_label(name)
     axes.axhline(0, color=BLACK, linewidth=0.6)
     low, high = ((exponents["exponent"] + sign * exponents["error"]) for sign in (-1, 1))
     low, high = low.min(), high.max()

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from vibroimpact.exact.simulation import simulate, simulate_many
 from vibroimpact.regimes.character import character
-from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, UNSETTLED, Regime, observe
+from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,9 @@ def settle(system, states, observation: Observation) -> list[Regime]:
     """The regime that each start ends in, one per start, in their order.
 
     A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
-    `retest` cycles. If it stays with a name of this kind, all bear the name of its longer run. If it ends elsewhere, so
-    may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
+    `retest` cycles; all of them do where another start has become periodic, so that chaos may be a transient. If all
+    witnesses stay with a name of this kind, all starts bear the name of a longer run. If one ends elsewhere, so may the
+    others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
 
     Args:
         states: (n, 8) starts at tau = 0.
@@ -81,17 +82,23 @@ def _later(system, regime, observation):
 
 
 def _try(system, regimes, members, observation):
-    """Rename, in place, the members of one name by what comes of the last of them, the witness."""
-    *others, witness = members
-    before, after = regimes[witness].name, _later(system, regimes[witness], observation)
-    regimes[witness] = after
-    if _same_kind(before, after.name):
-        for k in others:
-            regimes[k] = replace(regimes[k], name=after.name)
+    """Rename, in place, the members of one name by what comes of the witnesses."""
+    before = regimes[members[-1]].name
+    witnesses = members if any(regime.name in PERIODIC for regime in regimes) else members[-1:]
+    _run_on(system, regimes, witnesses, observation)
+    if all(_same_kind(before, regimes[k].name) for k in witnesses):
+        for k in set(members) - set(witnesses):
+            regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
-    for k in others:
-        later = _later(system, regimes[k], observation)
-        regimes[k] = replace(later, name=UNSETTLED) if _same_kind(before, later.name) else later
+    _run_on(system, regimes, set(members) - set(witnesses), observation)
+    for k in members:
+        if _same_kind(before, regimes[k].name):
+            regimes[k] = replace(regimes[k], name=UNSETTLED)
+
+
+def _run_on(system, regimes, places, observation):
+    for k in places:
+        regimes[k] = _later(system, regimes[k], observation)
 
 
 def _same_kind(before, after):
