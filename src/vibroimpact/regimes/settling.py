@@ -7,6 +7,9 @@ from vibroimpact.regimes.character import character
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 
 
+MOST_WITNESSES = 5
+
+
 @dataclass(frozen=True)
 class Observation:
     """How long motions are looked at.
@@ -29,9 +32,9 @@ def settle(system, states, observation: Observation) -> list[Regime]:
     """The regime that each start ends in, one per start, in their order.
 
     A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
-    `retest` cycles; all of them do where another start has become periodic, so that chaos may be a transient. If all
-    witnesses stay with a name of this kind, all starts bear the name of a longer run. If one ends elsewhere, so may the
-    others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
+    `retest` cycles; up to MOST_WITNESSES do where another start has become periodic, so that chaos may be a transient.
+    If all witnesses stay with a name of this kind, all starts bear the name of a longer run. If one ends elsewhere, so
+    may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
 
     Args:
         states: (n, 8) starts at tau = 0.
@@ -84,7 +87,8 @@ def _later(system, regime, observation):
 def _try(system, regimes, members, observation):
     """Rename, in place, the members of one name by what comes of the witnesses."""
     before = regimes[members[-1]].name
-    witnesses = members if any(regime.name in PERIODIC for regime in regimes) else members[-1:]
+    coexist = any(regime.name in PERIODIC for regime in regimes)
+    witnesses = members[-MOST_WITNESSES if coexist else -1 :]
     _run_on(system, regimes, witnesses, observation)
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
