@@ -6,7 +6,6 @@ from vibroimpact.exact.simulation import simulate, simulate_many
 from vibroimpact.regimes.character import character
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 
-
 MOST_WITNESSES = 5
 
 
