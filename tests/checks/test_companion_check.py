@@ -12,6 +12,7 @@ import pytest
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from checking import assert_caught, build
+from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference import proven_run
 from vibroimpact.checks import figure_check
@@ -30,19 +31,6 @@ from vibroimpact.figures import (
 LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 2000}
-LIFETIMES = pd.DataFrame(
-    {
-        "path": "f20_hat",
-        "p": [0.90, 0.95, 0.96, 0.98],
-        "starts": 48,
-        "escapes": [0, 0, 9, 40],
-        "cycles": [200000, 200000, 180000, 20000],
-        "life": [np.nan, np.nan, 20000.0, 500.0],
-        "uncertainty": [np.nan, np.nan, 6666.0, 80.0],
-        "least": [66761.6, 66761.6, np.nan, np.nan],
-    }
-)
-"""Mean lives along the path, made up."""
 START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60
 BRANCHES = {
     "paths": [{"along": ["f20_hat"], "range": [0.7, 1.2]}],

@@ -8,23 +8,11 @@ from matplotlib.lines import Line2D
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from lifetimes import LIFETIMES
 from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
-LIFETIMES = pd.DataFrame(
-    {
-        "path": "f20_hat",
-        "p": [0.90, 0.95, 0.96, 0.98],
-        "starts": 48,
-        "escapes": [0, 0, 9, 40],
-        "cycles": [200000, 200000, 180000, 20000],
-        "life": [np.nan, np.nan, 20000.0, 500.0],
-        "uncertainty": [np.nan, np.nan, 6666.0, 80.0],
-        "least": [66761.6, 66761.6, np.nan, np.nan],
-    }
-)
-"""Mean lives along the path, made up."""
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
