@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from pipeline_trees import ROOT, Tree, copied, made_once
+from pipeline_trees import ROOT, Tree, made_once, with_results
 
 sys.path.append(str(ROOT / "workflow/scripts"))
 
@@ -32,4 +32,4 @@ def pytest_addoption(parser):
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
     """The project after a build. Read it, do not change it."""
-    return made_once(tmp_path_factory, "built", lambda path: copied(ROOT, path))
+    return made_once(tmp_path_factory, "built", lambda path: with_results(ROOT, path))

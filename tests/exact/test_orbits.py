@@ -1,9 +1,12 @@
 """Exact 1:1 responses: reproduced by simulation, complete against brute force, known limits, symmetries, bad input."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.exact import impulse_response
 from vibroimpact.exact.floquet import follow
 from vibroimpact.exact.newton import newton
 from vibroimpact.exact.orbits import orbits, search
@@ -283,3 +286,27 @@ def test_almost_identical_modules_keep_their_solutions(chapter, mistuning):
 @pytest.mark.parametrize("force", [1e-300, 1e-160, 1e-20])
 def test_the_weakest_force_moves_no_ball_from_wall_to_wall(chapter, force):
     assert orbits(chapter(force, force)) == []
+
+
+def test_memory_does_not_grow_with_the_period(chapter):
+    peaks = []
+    for Omega in (0.03, 0.01):
+        tracemalloc.start()
+        orbits(chapter(sigma_e_hat=(Omega - 1) / 0.1))
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.5 * peaks[0] < 50e6
+
+
+def test_orbits_do_not_depend_on_how_a_flight_is_cut(chapter, monkeypatch):
+    """The sizes below which memory is not saved, made so small that the chapter's period exceeds them."""
+    whole = orbits(chapter())
+    impulse_response._kept.cache_clear()
+    monkeypatch.setattr(impulse_response, "_FINE_NODES", 7)
+    monkeypatch.setattr("vibroimpact.exact.symmetric._PIECES_AT_ONCE", 2)
+    monkeypatch.setattr("vibroimpact.exact.orbits._SAMPLES", 7)
+    cut = orbits(chapter())
+    impulse_response._kept.cache_clear()
+    assert [a.admissible for a in cut] == [b.admissible for b in whole]
+    assert len(cut) == len(whole)
+    assert all(same(a, b, 1e-11) for a, b in zip(cut, whole, strict=True))

@@ -83,6 +83,16 @@ def copied(source: Path, path: Path) -> Tree:
     return Tree(path)
 
 
+def with_results(source: Path, path: Path) -> Tree:
+    """A copy that starts from what the source has built, unless a build is going on there: Snakemake makes the rest."""
+    tree = copied(source, path)
+    records = source / ".snakemake"
+    if (source / "results").exists() and not any((records / "locks").glob("*")):
+        for part in ("results", ".snakemake/metadata", ".snakemake/incomplete"):
+            shutil.copytree(source / part, path / part, symlinks=True)
+    return tree
+
+
 def run_module(tree: Path, module: str, *arguments: str) -> tuple[int, str]:
     """Exit status and output of `python -m module` in a tree, with the library of the tree."""
     with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:

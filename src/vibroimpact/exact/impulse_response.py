@@ -10,6 +10,7 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 _TAYLOR_ORDER = 5
 _NODES_PER_RADIAN = 128  # leaves a Taylor remainder of (1/256)^6 / 6! = 5e-18
+_FINE_NODES = 4096
 _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
@@ -40,7 +41,10 @@ class ImpulseResponse:
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
-        at_nodes = powers(expm(self._rate * self._spacing), nodes + 1) @ start
+        # A table of every node would grow as 1/Omega: Taylor series at the first ones, and the way from there.
+        self._fine = max(_FINE_NODES, math.isqrt(nodes))
+        at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
+        self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)
         taylor = [np.linalg.matrix_power(self._rate, k) / math.factorial(k) for k in range(_TAYLOR_ORDER + 1)]
         self._series = np.stack([term @ at_nodes for term in taylor], axis=1)
 
@@ -52,10 +56,13 @@ class ImpulseResponse:
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
         step = (within - node * self._spacing)[..., None, None]
+        onward, node = np.divmod(node, self._fine)
         terms = self._series[node]
         value = terms[..., _TAYLOR_ORDER, :, :]
         for k in reversed(range(_TAYLOR_ORDER)):
             value = value * step + terms[..., k, :, :]
+        if len(self._onward) > 1:
+            value = self._onward[onward] @ value
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None, None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):

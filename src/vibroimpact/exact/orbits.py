@@ -18,6 +18,7 @@ from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 _MODULES = np.array([1, 1, 2, 2])
 _WALLS = np.array([1, -1, 1, -1])
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
+_SAMPLES = 4096  # of one flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 
 
@@ -201,13 +202,23 @@ def extremes(system, state, start, end):
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil((end - start) * fastest / _STEP)
     spacing = (end - start) / count
+    step = rate_matrix(system) * spacing
+    grid = powers(expm(step), min(count, _SAMPLES) + 1)
     phase = system.Omega * start
-    boxes = powers(expm(rate_matrix(system) * spacing), count + 1) @ [*state[BOXES], math.sin(phase), math.cos(phase)]
-    elapsed = spacing * np.arange(count + 1)[:, None]
-    W = boxes[:, :2] - state[BALLS[:2]] - state[BALLS[2:]] * elapsed
-    V = (boxes[:, 2:4] - state[BALLS[2:]]) * spacing
+    boxes = np.array([*state[BOXES], math.sin(phase), math.cos(phase)])
+    found = []
+    for first in range(0, count, _SAMPLES):
+        elapsed = spacing * np.arange(first, min(first + _SAMPLES, count) + 1)[:, None]
+        samples = grid[: len(elapsed)] @ boxes
+        boxes = samples[-1]
+        W = samples[:, :2] - state[BALLS[:2]] - state[BALLS[2:]] * elapsed
+        found.append(_turning_values(W, (samples[:, 2:4] - state[BALLS[2:]]) * spacing))
+    return abs(np.concatenate(found))
+
+
+def _turning_values(W, V):
+    """Values of W where it turns, from samples (n, 2) of it and of its velocity times their spacing."""
     turns = V[:-1] * V[1:] < 0
     w0, w1, v0, v1 = W[:-1][turns], W[1:][turns], V[:-1][turns], V[1:][turns]
     s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there
-    hermite = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
-    return abs(hermite)
+    return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

@@ -24,6 +24,7 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
+_PIECES_AT_ONCE = 256  # so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
 _NEAR = 1e-3  # a double root may come out of the eigenvalue solver as a pair off the real axis
 _SAME = 1e-8
@@ -125,14 +126,16 @@ def _roots_of_condition(system, conditions):
     nodes = chebyshev.chebpts1(_DEGREE + 1)
     half = system.period / pieces / 2
     centres = half * (2 * np.arange(pieces) + 1)
-    values = _condition(conditions, (centres[:, None] + half * nodes).ravel()).reshape(pieces, -1)
     roots = []
-    for centre, samples in zip(centres, values, strict=True):
-        series = chebyshev.chebfit(nodes, samples, _DEGREE)
-        near = chebyshev.chebroots(series)
-        near = near[(abs(near.imag) < _NEAR) & (abs(near.real) < 1 + _NEAR)]
-        roots.append(centre + half * near.real)
-    return np.concatenate(roots)
+    for some in np.array_split(centres, math.ceil(pieces / _PIECES_AT_ONCE)):
+        values = _condition(conditions, (some[:, None] + half * nodes).ravel()).reshape(len(some), -1)
+        series = chebyshev.chebfit(nodes, values.T, _DEGREE).T
+        rootless = abs(series[:, 0]) > (1 + _NEAR) * abs(series[:, 1:]).sum(axis=1)
+        for centre, one in zip(some[~rootless], series[~rootless], strict=True):
+            near = chebyshev.chebroots(one)
+            near = near[(abs(near.imag) < _NEAR) & (abs(near.real) < 1 + _NEAR)]
+            roots.append(centre + half * near.real)
+    return np.concatenate([*roots, []])
 
 
 def _condition(conditions, delta):
