@@ -15,7 +15,7 @@ from environment import settle
 from vibroimpact.checks.sources import Sources
 
 settle(ROOT, Sources())
-os.environ.pop("PYTHONPATH", None)
+os.environ["PYTHONPATH"] = str(ROOT / "src")
 
 UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("same", derandomize=True, **UNTIMED)

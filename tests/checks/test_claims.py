@@ -5,101 +5,35 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import yaml
 
+from claims import evidence as evidence_of
 from vibroimpact.checks import claims_equations, claims_manifold, claims_points
 from vibroimpact.checks.claims import CHECKS, judge, problems, to_markdown
-from vibroimpact.checks.claims_evidence import Evidence, Simulation
 from vibroimpact.checks.claims_finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, misprint
-from vibroimpact.exact.orbits import orbits
-from vibroimpact.exact.simulation import KINDS, simulate
 from vibroimpact.exact.symmetric import symmetric_solutions
-from vibroimpact.figures import epsilon_limit, modulation, verdict_grid
-from vibroimpact.figures.companion_verdicts import fixed_point_rows, orbit_rows
-from vibroimpact.system import System
-from vibroimpact.theory.certify_fixed_points import certify
-from vibroimpact.theory.fixed_points import fixed_points
-from vibroimpact.theory.labels import labels
 
 ROOT = Path(__file__).parents[2]
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
-STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
-OBSERVATION = {"cycles": 250, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
-
-
-def points_of(case, system, exact):
-    listed = fixed_points(system)
-    named = list(zip(labels(system, listed), listed, strict=True))
-    rows = fixed_point_rows(case, system, named, exact)
-    place = {label: [*point.B, *point.psi] for label, point in named}
-    rows[["B1", "B2", "psi1", "psi2"]] = [place[label] for label in rows["label"]]
-    return rows
-
-
-def simulation(system, state, cycles, per_cycle=50):
-    """A window of a simulation as the pipeline writes it."""
-    times = np.arange(cycles * per_cycle + 1) * system.period / per_cycle
-    run = simulate(system, state, cycles, sample_times=times)
-    events = pd.DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
-    events["kind"] = [KINDS[kind] for kind in run.events["kind"]]
-    events[STATE] = run.events["state"]
-    impacts = events[events["kind"] == "impact"]["module"].value_counts()
-    summary = {
-        "settings": {"window_cycles": cycles},
-        "events": {"impact": {str(i): int(impacts.get(i, 0)) for i in (1, 2)}},
-        "largest_change_after_cycles": {"1": float(np.abs(run.samples[per_cycle:] - run.samples[:-per_cycle]).max())},
-    }
-    return Simulation(pd.DataFrame(np.column_stack([times, run.samples]), columns=["tau", *STATE]), events, summary)
+TABLES = ("fixed_points", "orbits", "verdict_grid")
+REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 
 @pytest.fixture(scope="module")
-def evidence():
-    """What the pipeline would hand over, from shorter runs."""
-    shared = DOCUMENT["parameters"]["system"]
-    systems = {case: System(**shared, **forces) for case, forces in DOCUMENT["parameters"]["cases"].items()}
-    exact = {case: orbits(system) for case, system in systems.items()}
-    rows = {case: orbit_rows(case, found) for case, found in exact.items()}
-    attracting = next(orbit for orbit in exact["equal"] if np.abs(orbit.multipliers).max() < 1)
-    proofs = {case: certify(system) for case, system in systems.items()}
-    return Evidence(
-        systems=systems,
-        fixed_points=pd.concat([points_of(case, systems[case], rows[case]) for case in systems], ignore_index=True),
-        orbits=pd.concat(rows.values(), ignore_index=True),
-        certificates={
-            case: {"fixed_points": {"proved": len(proof.isolated), "complete": proof.complete}}
-            for case, proof in proofs.items()
-        },
-        verdict_grid=verdict_grid.compute(systems["equal"], (0.9, 1.5), (0.83, 1.43), points=3, epsilon=[0.1]),
-        modulation=modulation.compute(
-            {case: systems[case] for case in ("equal", "weak")},
-            starts=4,
-            seed=2,
-            cycles=300,
-            blocks=20,
-            block=10,
-            windows=[100],
-            observation=OBSERVATION,
-        )["measures"],
-        # The fold as docs/derivation.md has it, section 8, and that of the exact orbits as findings have it.
-        special_points=pd.DataFrame(
-            [
-                ["f20_hat", "fixed point", "fold", 0.69778, 0.62661, 1.86850],
-                ["f20_hat", "symmetric orbit", "fold", 0.73225, 0.66163, 1.98988],
-            ],
-            columns=["path", "family", "kind", "p", "C1", "C2"],
-        ),
-        epsilon_orders=epsilon_limit.compute(
-            systems, (0.01, 0.0001), 5, fit_below=0.002, mixed={"case": "unequal", "label": "b"}
-        )["orders"],
-        simulations={
-            "equal": simulation(systems["equal"], attracting.state, 6),
-            "weak": simulation(systems["weak"], [0, 0, 0, 0, 0, 0.5, 0, 0.5], 100),
-        },
-    )
+def evidence(built):
+    """What the pipeline has found."""
+    shared, cases = DOCUMENT["parameters"]["system"], DOCUMENT["parameters"]["cases"]
+    results = built / "results"
+    inputs = {name: results / f"{name}.csv" for name in TABLES}
+    inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
+    inputs["certificates"] = results / "certificates.json"
+    for case in ("equal", "weak"):
+        files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
+        inputs |= {f"{case}_{file.stem}": file for file in files}
+    return evidence_of({case: {**shared, **forces} for case, forces in cases.items()}, inputs)
 
 
 @pytest.fixture(scope="module")
@@ -226,7 +160,7 @@ def test_a_grid_without_wrong_verdicts_would_leave_nothing_to_hold_against_the_t
 
 def test_confusion_matrices_count_every_point_with_an_orbit(evidence):
     (judged,) = judge([CLAIMS["assesses-stability"]], evidence)
-    grid = evidence.verdict_grid
+    grid = evidence.verdict_grid.query("epsilon == 0.1")
     for name in ("(10.26)", "fast and slow"):
         (calm, wrong), (missed, right) = judged["numbers"][f"{name}, epsilon = 0.1"]
         assert calm + wrong + missed + right == (grid["floquet"] != "no orbit").sum()

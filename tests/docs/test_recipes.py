@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from numba.core.caching import _CacheLocator
 
-from pipeline_trees import ROOT, copied
+from pipeline_trees import ROOT, Tree
 
 COMPILED = ".cache/numba"
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
@@ -29,9 +29,10 @@ STEPS = re.compile(
 
 
 @pytest.fixture
-def project(tmp_path):
-    """A copy of the project with its tests, which uses its own library."""
-    tree = copied(ROOT, tmp_path / "project")
+def project(built, tmp_path):
+    """A copy of the project after a build, with its tests, which uses its own library."""
+    tree = Tree(tmp_path / "project")
+    shutil.copytree(built.path, tree.path, symlinks=True)
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
     for source in (ROOT / "src/vibroimpact").glob("*/__init__.py"):
         compiled = compiled_code(os.environ["NUMBA_CACHE_DIR"], source)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import orbits
+from vibroimpact.exact.orbits import orbits, symmetric_orbit
+from vibroimpact.exact.symmetric import symmetric_solutions
 from vibroimpact.exact.verdict import floquet
 
 
@@ -24,8 +25,9 @@ def test_undecided_where_symmetry_breaks_and_only_there(chapter):
     """One module twice, without coupling: the forcing rises until the symmetric motion is unstable."""
 
     def symmetric(f):
-        listed = orbits(chapter(f, f, epsilon=0.01, alpha12_hat=0, gamma12_hat=0, sigma20_hat=0))
-        return max((o for o in listed if o.symmetric), key=lambda o: o.ball_speeds.min())
+        system = chapter(f, f, epsilon=0.01, alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
+        largest = max(symmetric_solutions(system), key=lambda root: root[2:].min())
+        return symmetric_orbit(system, largest)
 
     low, high = 1.6, 1.7
     while low < (middle := (low + high) / 2) < high:

@@ -15,6 +15,8 @@ ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "__pycache__", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
+NOT_BY_DEFAULT = shutil.ignore_patterns("report", "animations", "travel", "figure_check", "*_full*", "confusion*")
+"""Results of targets that a default build leaves alone."""
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -88,8 +90,9 @@ def with_results(source: Path, path: Path) -> Tree:
     tree = copied(source, path)
     records = source / ".snakemake"
     if (source / "results").exists() and not any((records / "locks").glob("*")):
-        for part in ("results", ".snakemake/metadata", ".snakemake/incomplete"):
-            shutil.copytree(source / part, path / part, symlinks=True)
+        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=NOT_BY_DEFAULT)
+        for part in ("metadata", "incomplete"):
+            shutil.copytree(records / part, path / ".snakemake" / part)
     return tree
 
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import half_period_multipliers, orbits
+from vibroimpact.exact.orbits import half_period_multipliers, orbits, symmetric_orbit
+from vibroimpact.exact.symmetric import symmetric_solutions
 from vibroimpact.theory import masri
 from vibroimpact.theory.stability import limit_with_squares, printed_limit
 
@@ -293,13 +294,12 @@ def test_symmetry_breaks_at_the_upper_limit_as_epsilon_tends_to_0():
     alone = CHAPTER | dict(alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
 
     def upper(epsilon, f):
-        listed = [o for o in orbits(vi.System(epsilon=epsilon, **alone, f10_hat=f, f20_hat=f)) if o.symmetric]
-        return max(listed, key=lambda o: o.C.min())
+        system = vi.System(epsilon=epsilon, **alone, f10_hat=f, f20_hat=f)
+        return symmetric_orbit(system, max(symmetric_solutions(system), key=lambda root: root[2:].min()))
 
     def above(f, epsilon):
-        return np.abs(half_period_multipliers(upper(epsilon, f)) + 1).min() * np.sign(
-            np.abs(half_period_multipliers(upper(epsilon, f))).max() - 1
-        )
+        found = half_period_multipliers(upper(epsilon, f))
+        return np.abs(found + 1).min() * np.sign(np.abs(found).max() - 1)
 
     breaking = [upper(epsilon, brentq(above, 1.67, 1.69, args=(epsilon,), xtol=1e-9)).C[0] for epsilon in (2e-3, 1e-3)]
     shift = BREAKING - np.array(breaking)

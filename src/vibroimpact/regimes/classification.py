@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.stats import qmc
 
 from vibroimpact.exact.simulation import IMPACT, Run, simulate
 from vibroimpact.regimes.periodicity import mirror_distance, repeats_after
@@ -147,6 +146,8 @@ def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
 
     Shape (count, 8): rest first, then scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach, |W_i| < 1.
     """
+    from scipy.stats import qmc  # takes a second to load, and few who classify draw starts
+
     unit = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
     states = reach * unit
     states[:, [1, 3]] = states[:, [0, 2]] - unit[:, [1, 3]]
