@@ -1,5 +1,6 @@
 """Exact 1:1 responses: reproduced by simulation, complete against brute force, known limits, symmetries, bad input."""
 
+import functools
 import tracemalloc
 
 import numpy as np
@@ -11,6 +12,9 @@ from vibroimpact.exact.floquet import follow
 from vibroimpact.exact.newton import newton
 from vibroimpact.exact.orbits import orbits, search
 from vibroimpact.exact.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
+
+
+known = functools.cache(orbits)
 
 
 @pytest.fixture(params=["equal", "unequal", "weak", "undamped", "heavy", "soft", "hard", "one_forced"])
@@ -41,7 +45,7 @@ def same(a, b, atol=1e-9):
 
 
 def test_the_engine_reproduces_every_admissible_orbit(scene):
-    found = [orbit for orbit in orbits(scene) if orbit.admissible]
+    found = [orbit for orbit in known(scene) if orbit.admissible]
     for orbit in found:
         run = vi.simulate(scene, orbit.state, 1)
         times, modules, walls = zip(*events_of(orbit), strict=True)
@@ -55,14 +59,14 @@ def test_the_engine_reproduces_every_admissible_orbit(scene):
 
 
 def test_residuals_are_rounding(scene):
-    for orbit in orbits(scene):
+    for orbit in known(scene):
         assert orbit.residual < 2e-12
 
 
 def test_admissible_means_within_the_walls(scene, auditor):
     """Against a plain dense walk with matrix exponentials."""
     flights = auditor(scene)
-    for orbit in orbits(scene):
+    for orbit in known(scene):
         if (orbit.ball_speeds <= 0).any():
             assert not orbit.admissible
             continue
@@ -99,7 +103,7 @@ def test_eight_times_the_starts_find_no_other_asymmetric_orbit(case):
 
 
 def test_symmetric_orbits_repeat_mirrored_after_half_a_period(scene):
-    for orbit in orbits(scene):
+    for orbit in known(scene):
         if orbit.symmetric and orbit.admissible:
             half = vi.simulate(scene, orbit.state, 1, sample_times=[scene.period / 2]).samples[0]
             np.testing.assert_allclose(half, -orbit.state, rtol=0, atol=1e-13 * abs(orbit.multipliers[0]))
@@ -107,7 +111,7 @@ def test_symmetric_orbits_repeat_mirrored_after_half_a_period(scene):
 
 
 def test_asymmetric_orbits_come_in_mirrored_neighbours(scene):
-    asymmetric = [orbit for orbit in orbits(scene) if not orbit.symmetric]
+    asymmetric = [orbit for orbit in known(scene) if not orbit.symmetric]
     assert len(asymmetric) % 2 == 0
     for one, other in zip(asymmetric[0::2], asymmetric[1::2], strict=True):
         np.testing.assert_allclose(one.ball_speeds, other.ball_speeds[:, ::-1], rtol=0, atol=1e-8)
@@ -119,7 +123,7 @@ def test_asymmetric_orbits_come_in_mirrored_neighbours(scene):
 
 def test_the_average_of_a_free_ball_is_its_flight(case):
     """Each flight covers what the box moved plus the two units between the walls."""
-    for orbit in orbits(case):
+    for orbit in known(case):
         durations = np.mod(orbit.impact_phases[:, ::-1] - orbit.impact_phases, 1) * case.period
         travelled = orbit.ball_speeds * durations
         np.testing.assert_allclose(travelled[:, 0], travelled[:, 1], rtol=1e-11)
@@ -128,7 +132,7 @@ def test_the_average_of_a_free_ball_is_its_flight(case):
 def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
     """Half of what Z = W - U covers, from samples; on flights of half a period (1 + epsilon) pi |Y'| / (2 Omega)."""
     instants = np.linspace(0, case.period, 4001)
-    for orbit in (o for o in orbits(case) if o.admissible):
+    for orbit in (o for o in known(case) if o.admissible):
         X, Y = (vi.simulate(case, orbit.state, 1, sample_times=instants).samples[:, k:4:2] for k in (0, 1))
         Z = X - Y - (X + case.epsilon * Y)
         np.testing.assert_allclose(np.ptp(Z, axis=0) / 2, orbit.C, rtol=2e-3)
@@ -139,7 +143,7 @@ def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
 
 def test_C_of_a_symmetric_orbit_is_one_minus_U_at_the_wall(case):
     """(10.12) holds at every epsilon."""
-    for orbit in (o for o in orbits(case) if o.symmetric and o.admissible):
+    for orbit in (o for o in known(case) if o.symmetric and o.admissible):
         for module, at in enumerate(orbit.impact_phases[:, 0] * case.period):
             state = vi.simulate(case, orbit.state, 1, sample_times=[at]).samples[0]
             X, Y = state[2 * module : 2 * module + 2]
@@ -218,7 +222,7 @@ def test_small_epsilon_leads_to_the_invariant_manifold(chapter):
 
 
 def test_format_and_order(scene):
-    found = orbits(scene)
+    found = known(scene)
     for orbit in found:
         assert orbit.impact_phases.shape == orbit.ball_speeds.shape == (2, 2)
         assert orbit.C.shape == (2,)
@@ -231,7 +235,7 @@ def test_format_and_order(scene):
     for kind in (True, False):
         speeds = [orbit.ball_speeds[0].sum() for orbit in found if orbit.symmetric is kind]
         assert (np.diff(speeds) > -1e-8).all()
-    again = orbits(scene)
+    again = known(scene)
     assert all(np.array_equal(a.state, b.state) for a, b in zip(found, again, strict=True))
 
 

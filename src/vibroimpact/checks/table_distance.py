@@ -81,12 +81,13 @@ def _differences(old, new, texts):
 def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[Distance]:
     """Distance of each column between tables of the same structure, by the measure of its kind."""
     new_parts, farthest = _by_series(new), {}
+    scales = {column: _scales(reference, column) for column in reference}
     for series, old in _by_series(reference).items():
         fresh, kinds = new_parts[series], rules.of(old, series[-1])
         unruled = [name for name in numeric_columns(old) if name not in kinds and old[name].notna().any()]
         for column, kind in [*kinds.items(), *((name, None) for name in unruled)]:
             measure = MEASURES[rules.measures.get(kind, "largest")]
-            far, row = measure(old[column], fresh[column], _scales(reference, column)[old.index])
+            far, row = measure(old[column], fresh[column], scales[column][old.index])
             found = Distance(column, kind, far, *_entry(old, fresh, column, row, series))
             if (column, kind) not in farthest or far > farthest[column, kind].distance:
                 farthest[column, kind] = found
@@ -97,7 +98,7 @@ def _entry(old, new, column, row, series):
     """Where the farthest entry is, and what it was and is."""
     if row is None:
         return ", ".join(series), float(old[column].median()), float(new[column].median())
-    name = _names(old, _texts(old))[row]
+    (name,) = _names(old.iloc[[row]], _texts(old))
     values = (table[column].iloc[row] for table in (old, new))
     return f"{name}, row {old.index[row] + 1}", *(v if isinstance(v, str) else float(v) for v in values)
 
@@ -165,7 +166,8 @@ def numeric_columns(table: pd.DataFrame) -> list[str]:
 
 
 def _texts(table):
-    return [name for name in table if name not in numeric_columns(table)]
+    numbers = set(numeric_columns(table))
+    return [name for name in table if name not in numbers]
 
 
 def _given(values):

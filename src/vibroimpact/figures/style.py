@@ -63,6 +63,7 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
         with replacing(outputs[kind]) as path:
             figure.savefig(path, format=kind, metadata=metadata)
+        figure.set_layout_engine("none")  # one layout for all files, and not computed again for each
     if "artists" in outputs:
         with replacing(outputs["artists"]) as path:
             content = {"drawn with": drawn_with(), **describe(figure)}
