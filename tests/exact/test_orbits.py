@@ -13,7 +13,6 @@ from vibroimpact.exact.newton import newton
 from vibroimpact.exact.orbits import orbits, search
 from vibroimpact.exact.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
 
-
 known = functools.cache(orbits)
 
 
