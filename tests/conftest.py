@@ -1,5 +1,6 @@
 """The same examples in every run; compiled code kept apart for each state of its sources; the project, built once."""
 
+import gc
 import os
 import sys
 
@@ -23,6 +24,9 @@ settings.register_profile("explore", print_blob=True, **UNTIMED)
 settings.load_profile("same")
 # Hypothesis mixes constants of the modules loaded so far into its examples, which then depend on the order of tests.
 providers._get_local_constants = providers.Constants
+
+
+gc.set_threshold(100_000, 50, 50)  # nothing here hangs on memory being freed at once
 
 
 def pytest_addoption(parser):

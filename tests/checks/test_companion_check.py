@@ -26,6 +26,7 @@ from vibroimpact.figures import (
     epsilon_limit,
     modulation,
     regime_map,
+    tables,
 )
 
 LIMITS = figure_check.tolerances()
@@ -140,16 +141,17 @@ def reference(tmp_path_factory):
 
 @pytest.fixture
 def verdict(reference, tmp_path):
-    """The verdict on a figure as computed anew; or as drawn from one computation, with the table of another.
+    """The verdict on a table, and on the figure that was drawn with it: without one, the numbers alone can tell."""
 
-    With the picture of the reference unless it is to be drawn, so that numbers and artists alone can tell.
-    """
-
-    def judge(name, made, table=None, picture=False):
-        build(tmp_path, name, plotted(made) if table is None else table, MODULES[name].draw(made), picture)
-        if not picture:
-            shutil.copy(reference(name) / f"{name}.png", tmp_path)
-        return figure_check.check(name, reference(name), tmp_path, LIMITS)
+    def judge(name, table, figure=None):
+        before = reference(name)
+        if figure:
+            build(tmp_path, name, table, figure)
+        else:
+            tables.write(table, tmp_path / f"{name}.csv")
+            for file in (f"{name}.png", f"{name}.artists.json"):
+                shutil.copy(before / file, tmp_path)
+        return figure_check.check(name, before, tmp_path, LIMITS)
 
     return judge
 
@@ -157,7 +159,8 @@ def verdict(reference, tmp_path):
 @pytest.mark.parametrize("name", MODULES)
 def test_the_rounding_of_another_machine_passes(verdict, name):
     """The whole figure is computed from parameters spoilt in their last digits: chaotic motions come out different."""
-    found = verdict(name, COMPUTE[name](other_rounding), picture=True)
+    made = COMPUTE[name](other_rounding)
+    found = verdict(name, plotted(made), MODULES[name].draw(made))
     assert (found["status"], found["reasons"]) == ("passed", [])
     moved = [column["column"] for column in found["tables"] if column["distance"] > 1e-6]
     assert bool(moved) == (name in CHAOTIC)
@@ -165,7 +168,7 @@ def test_the_rounding_of_another_machine_passes(verdict, name):
 
 @pytest.mark.parametrize("name", OF_SYSTEMS)
 def test_kappa_off_by_one_per_cent_is_caught(verdict, name):
-    assert_caught(verdict(name, COMPUTE[name](other_kappa)), f"{name}.csv: ")
+    assert_caught(verdict(name, plotted(COMPUTE[name](other_kappa))), f"{name}.csv: ")
 
 
 @pytest.mark.parametrize(
@@ -173,20 +176,19 @@ def test_kappa_off_by_one_per_cent_is_caught(verdict, name):
     ["companion_stability", "companion_horizon", "companion_regime_map", "companion_basins", "companion_epsilon"],
 )
 def test_f20_off_by_half_a_per_cent_is_caught(verdict, name):
-    assert_caught(verdict(name, COMPUTE[name](other_force)), f"{name}.csv: ")
+    assert_caught(verdict(name, plotted(COMPUTE[name](other_force))), f"{name}.csv: ")
 
 
 def edited(name, change):
-    """The figure drawn as before, with another table beside it."""
-    return computed(name), change(plotted(computed(name)).copy())
+    """The name of a figure, and its table after a change."""
+    return name, change(plotted(computed(name)).copy())
 
 
 def test_a_dropped_branch_is_caught(verdict):
-    made = computed("companion_branches")
-    table = made["csv"]
+    table = plotted(computed("companion_branches"))
     last = table.loc[table["series"] == "symmetric orbit", "branch"].max()
     left = table[(table["series"] != "symmetric orbit") | (table["branch"] != last)]
-    assert_caught(verdict("companion_branches", made | {"csv": left}), "a, symmetric orbit")
+    assert_caught(verdict("companion_branches", left), "a, symmetric orbit")
     assert 0 < len(left) < len(table)
 
 
@@ -194,17 +196,16 @@ def test_a_verdict_turned_round_is_caught(verdict):
     def turned(table):
         return table.replace({"floquet": {"stable": "unstable"}})
 
-    found = verdict("companion_stability", *edited("companion_stability", turned))
+    found = verdict(*edited("companion_stability", turned))
     assert_caught(found, "rows instead of")
 
 
 def test_mirrored_basins_are_caught(verdict):
     names = {"asymmetric": "asymmetric, mirrored", "asymmetric, mirrored": "asymmetric"}
-    made = computed("companion_basins")
-    table = made["csv"].copy()
+    table = plotted(computed("companion_basins")).copy()
     starts = table["series"] == "start"
     table.loc[starts, "label"] = table.loc[starts, "label"].replace(names)
-    assert_caught(verdict("companion_basins", made | {"csv": table}), "label is off by ")
+    assert_caught(verdict("companion_basins", table), "label is off by ")
 
 
 def test_lost_bursts_are_caught(verdict):
@@ -214,7 +215,7 @@ def test_lost_bursts_are_caught(verdict):
         mine = table.index[table["series"] == "weak, module 1"]
         return table.drop(mine[: len(mine) // 2])
 
-    found = verdict("companion_modulation", *edited("companion_modulation", fewer))
+    found = verdict(*edited("companion_modulation", fewer))
     assert_caught(found, "length is off by ")
 
 
@@ -222,7 +223,7 @@ def test_exponents_in_a_wrong_unit_are_caught(verdict):
     def per_radian(table):
         return table.assign(exponent=table["exponent"] / (2 * np.pi))
 
-    found = verdict("companion_modulation", *edited("companion_modulation", per_radian))
+    found = verdict(*edited("companion_modulation", per_radian))
     assert_caught(found, "exponent is off by ")
 
 
@@ -233,17 +234,21 @@ def test_lost_digits_are_caught(verdict):
         measured = table["series"] == "measured"
         return table.assign(error=table["error"].where(~measured, (table["error"] * 1e9).clip(upper=1.0)))
 
-    assert_caught(verdict("companion_horizon", *edited("companion_horizon", single)), "error is off by ")
+    assert_caught(verdict(*edited("companion_horizon", single)), "error is off by ")
 
 
 def test_another_style_of_simulated_artists_is_caught(verdict, reference, monkeypatch):
     """Their places are not compared, all else is."""
     reference("companion_branches")
+    made = computed("companion_branches")
     monkeypatch.setitem(branches.DOTS[branches.VARYING], "marker", "x")
-    assert_caught(verdict("companion_branches", computed("companion_branches")), "marker: x instead of .")
+    assert_caught(verdict("companion_branches", plotted(made), branches.draw(made)), "marker: x instead of .")
 
 
 def test_another_scale_of_grey_is_caught(verdict, reference, monkeypatch):
     reference("companion_basins")
+    made = computed("companion_basins")
     monkeypatch.setitem(basins.SHADES, "strongly modulated", "0.9")
-    assert_caught(verdict("companion_basins", computed("companion_basins")), "faces 1: #e6e6e6ff instead of #ffffffff")
+    assert_caught(
+        verdict("companion_basins", plotted(made), basins.draw(made)), "faces 1: #e6e6e6ff instead of #ffffffff"
+    )
