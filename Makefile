@@ -22,7 +22,7 @@ report: set-up  ## build the report, results/report/index.html and a PDF of the 
 accept: export REASON := $(REASON)
 accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...")
 	.venv/bin/snakemake --cores $(CORES) compare_figures
-	.venv/bin/python -m vibroimpact.checks.accept --reason "$$REASON" $(FIGURES)
+	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(FIGURES)
 
 benchmark: set-up  ## time per impact of every method, with its error (a minute or two, one core)
 	.venv/bin/python workflow/scripts/benchmark.py

@@ -12,8 +12,8 @@ from pipeline_trees import ROOT, Tree, made_once, with_results
 
 sys.path.append(str(ROOT / "workflow/scripts"))
 
-from environment import settle
-from vibroimpact.checks.sources import Sources
+from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.sources import Sources
 
 settle(ROOT, Sources())
 os.environ["PYTHONPATH"] = str(ROOT / "src")

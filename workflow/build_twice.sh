@@ -13,4 +13,4 @@ for build in first second; do
     echo "The $build build ..."
     (cd "$work/$build" && PYTHONPATH=$PWD/src "$root/.venv/bin/snakemake" --cores "${CORES:-2}" --quiet all)
 done
-PYTHONPATH=$work/first/src "$root/.venv/bin/python" -m vibroimpact.checks.same_bytes "$work/first/results" "$work/second/results"
+PYTHONPATH=$work/first/src "$root/.venv/bin/python" -m vibroimpact_pipeline.same_bytes "$work/first/results" "$work/second/results"

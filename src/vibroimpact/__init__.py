@@ -8,10 +8,10 @@ __version__ = version("vibroimpact")
 _PUBLIC = {
     "System": "vibroimpact.system",
     "PhysicalSystem": "vibroimpact.system",
-    "fixed_points": "vibroimpact.theory.fixed_points",
-    "orbits": "vibroimpact.exact.orbits",
-    "simulate": "vibroimpact.exact.simulation",
-    "simulate_many": "vibroimpact.exact.simulation",
+    "fixed_points": "vibroimpact.theory.fixed_points.search",
+    "orbits": "vibroimpact.exact.orbits.search",
+    "simulate": "vibroimpact.exact.engine.simulation",
+    "simulate_many": "vibroimpact.exact.engine.simulation",
 }
 __all__ = [*_PUBLIC, "__version__"]
 

@@ -5,7 +5,7 @@ import pytest
 
 from vibroimpact.accuracy import hazards as table
 from vibroimpact.accuracy.grazing import grazing_start
-from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Failure, Method, RivalRun
 from vibroimpact.system import System

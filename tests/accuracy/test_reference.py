@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 
 pytest.importorskip("flint")
 
-from vibroimpact.accuracy.reference import (
+from vibroimpact.accuracy.reference.roots import Undecidable
+from vibroimpact.accuracy.reference.run import (
     IMPACT,
     RELEASE,
     STICK,
@@ -18,7 +19,6 @@ from vibroimpact.accuracy.reference import (
     proven_run,
     reference_run,
 )
-from vibroimpact.accuracy.reference_roots import Undecidable
 
 MODULATED = {
     "epsilon": "0.1",

@@ -7,9 +7,9 @@ from mpmath import mp, mpf
 from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
-from vibroimpact.accuracy.reference import reference_run
+from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Scene, fitted_order, measure
-from vibroimpact.exact.simulation import EVENT
+from vibroimpact.exact.engine.simulation import EVENT
 from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system import System

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from chapter import FORCES, PARAMETERS
-from vibroimpact.checks.config import parse
+from vibroimpact_pipeline.config import parse
 
 
 def test_the_config_is_the_chapters():

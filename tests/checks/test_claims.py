@@ -9,10 +9,12 @@ import pytest
 import yaml
 
 from claims import evidence as evidence_of
-from vibroimpact.checks import claims_equations, claims_manifold, claims_points
-from vibroimpact.checks.claims import CHECKS, judge, problems, to_markdown
-from vibroimpact.checks.claims_finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, misprint
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.claims import equations as claims_equations
+from vibroimpact.claims import manifold as claims_manifold
+from vibroimpact.claims import points as claims_points
+from vibroimpact.claims.finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, misprint
+from vibroimpact.claims.judge import CHECKS, judge, problems, to_markdown
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 
 ROOT = Path(__file__).parents[2]
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))

@@ -14,20 +14,15 @@ from chapter import FORCES, PARAMETERS
 from checking import assert_caught, build
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
-from vibroimpact.accuracy.reference import proven_run
-from vibroimpact.checks import figure_check
-from vibroimpact.figures import (
-    basins,
-    branches,
-    companion_10_04,
-    companion_10_05,
-    companion_horizon,
-    companion_stability,
-    epsilon_limit,
-    modulation,
-    regime_map,
-    tables,
-)
+from vibroimpact.accuracy.reference.run import proven_run
+from vibroimpact.figures.companions import companion_10_04, companion_10_05, companion_horizon, companion_stability
+from vibroimpact.figures.companions import companion_basins as basins
+from vibroimpact.figures.companions import companion_branches as branches
+from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
+from vibroimpact.figures.companions import companion_modulation as modulation
+from vibroimpact.figures.companions import companion_regime_map as regime_map
+from vibroimpact.figures.kit import tables
+from vibroimpact_pipeline.figure_check import compare as figure_check
 
 LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from vibroimpact.checks.config import case_parameters, complaints, parse, problems, typed
+from vibroimpact_pipeline.config import case_parameters, complaints, parse, problems, typed
 
 ROOT = Path(__file__).parents[2]
 GOOD = parse((ROOT / "config/config.yaml").read_text())

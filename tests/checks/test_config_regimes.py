@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from vibroimpact.checks.config import parse, problems
 from vibroimpact.system import System
+from vibroimpact_pipeline.config import parse, problems
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,9 +8,9 @@ import pytest
 from matplotlib.transforms import Bbox
 
 from checking import assert_caught, build
-from vibroimpact.checks import figure_check
-from vibroimpact.checks.figure_page import page
-from vibroimpact.figures import manifold, style
+from vibroimpact.figures.kit import manifold, style
+from vibroimpact_pipeline.figure_check import compare as figure_check
+from vibroimpact_pipeline.figure_check.page import page
 
 LIMITS = figure_check.tolerances()
 WITH_POINTS = ["fig10_06", "fig10_07", "fig10_10"]

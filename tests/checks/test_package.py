@@ -29,5 +29,5 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(tmp_path):
     required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
-    assert "vibroimpact/figures/vibroimpact.mplstyle" in names
+    assert "vibroimpact/figures/kit/vibroimpact.mplstyle" in names
     assert not [name for name in names if "__pycache__" in name]

@@ -12,9 +12,9 @@ import pytest
 
 import vibroimpact
 from pipeline_trees import run_module
-from vibroimpact.checks import provenance
-from vibroimpact.checks.sources import Sources
-from vibroimpact.figures import style, tables
+from vibroimpact.figures.kit import style, tables
+from vibroimpact_pipeline.provenance import verify as provenance
+from vibroimpact_pipeline.sources import Sources
 
 ROOT = Path(__file__).parents[2]
 FIG10_05 = {"notebook": "closed_form", "model": "closed_form", "C_range": [0.5, 1.1]}
@@ -52,7 +52,10 @@ def test_same_figure_and_record_same_bytes(figures, tmp_path):
         tables.write(figures[like].compute(), tmp_path / f"{name}.csv")
     code = (
         "import json, sys\nfrom pathlib import Path\n"
-        "from vibroimpact.figures import fig10_06, fig10_08, style, tables\n"
+        "from vibroimpact.figures.chapter import fig10_06\n"
+        "from vibroimpact.figures.chapter import fig10_08\n"
+        "from vibroimpact.figures.kit import style\n"
+        "from vibroimpact.figures.kit import tables\n"
         "source, target, record = Path(sys.argv[1]), sys.argv[2], json.loads(sys.argv[3])\n"
         "kinds = ['pdf', 'svg', 'artists']\n"
         "for name, module, kinds in (('fig10_08', fig10_08, ['png', *kinds]), ('fig10_09', fig10_06, kinds)):\n"
@@ -79,7 +82,7 @@ def tree(figures, tmp_path):
     shutil.copytree(Path(vibroimpact.__file__).parent, root / "src/vibroimpact")
     (root / "results/figures").mkdir(parents=True)
     (root / "results/input.csv").write_text("x\n1\n")
-    step = {"files": ["notebooks/closed_form.ipynb"], "modules": ["vibroimpact.figures.fig10_04"]}
+    step = {"files": ["notebooks/closed_form.ipynb"], "modules": ["vibroimpact.figures.chapter.fig10_04"]}
     fingerprint = Sources().fingerprint(root / step["files"][0], modules=step["modules"])
     record = {
         "figure": "fig10_04",
@@ -98,7 +101,7 @@ def tree(figures, tmp_path):
 
 def ask(tree, *arguments, file="results/figures/fig10_04.png"):
     """Exit status and output of the command, with the library of the tree."""
-    return run_module(tree, "vibroimpact.checks.provenance", file, *arguments)
+    return run_module(tree, "vibroimpact_pipeline.provenance.verify", file, *arguments)
 
 
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
@@ -133,7 +136,7 @@ def test_a_changed_tree_does_not_match(tree, name, old, new, expected):
 
 
 def test_what_the_figure_does_not_use_may_change(tree):
-    for name in ("src/vibroimpact/exact/simulation.py", "src/vibroimpact/checks/accept.py"):
+    for name in ("src/vibroimpact/exact/engine/simulation.py", "src/vibroimpact_pipeline/figure_check/accept.py"):
         with open(tree / name, "a") as file:
             file.write("\n# edited\n")
     config = (tree / "config/config.yaml").read_text()

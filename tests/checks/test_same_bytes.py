@@ -2,7 +2,7 @@
 
 import pytest
 
-from vibroimpact.checks.same_bytes import digests, main
+from vibroimpact_pipeline.same_bytes import digests, main
 
 FILES = {
     "figures/a.csv": "x,y\n1,2\n",

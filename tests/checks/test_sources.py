@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from vibroimpact.checks.sources import Sources
+from vibroimpact_pipeline.sources import Sources
 
 SOURCES = Sources()
 
@@ -18,7 +18,7 @@ def test_imports_are_followed_through_the_library():
     assert "vibroimpact.theory.stability" in used
     assert "vibroimpact" in used
     assert not any(name.startswith(("vibroimpact.exact", "vibroimpact.figures")) for name in used)
-    assert "vibroimpact.system.restitution" in SOURCES.modules_used(["vibroimpact.exact.simulation"])
+    assert "vibroimpact.system.restitution" in SOURCES.modules_used(["vibroimpact.exact.engine.simulation"])
 
 
 def test_an_unknown_module_is_refused():
@@ -62,8 +62,8 @@ def test_of_a_notebook_only_what_its_cells_say_counts(tmp_path):
     [
         ("theory/manifold.py", True),
         ("theory/__init__.py", True),
-        ("exact/simulation.py", False),
-        ("figures/vibroimpact.mplstyle", False),
+        ("exact/engine/simulation.py", False),
+        ("figures/kit/vibroimpact.mplstyle", False),
     ],
 )
 def test_an_edited_library_module_counts_where_it_is_used(tmp_path, edited, changes):
@@ -74,7 +74,7 @@ def test_an_edited_library_module_counts_where_it_is_used(tmp_path, edited, chan
     script.write_text("from vibroimpact.theory.masri import lower_limit\n")
 
     def fingerprint():
-        code = f"from vibroimpact.checks.sources import Sources; print(Sources().fingerprint({str(script)!r}))"
+        code = f"from vibroimpact_pipeline.sources import Sources; print(Sources().fingerprint({str(script)!r}))"
         run = subprocess.run(
             [sys.executable, "-c", code],
             env={**os.environ, "PYTHONPATH": str(tmp_path)},
@@ -91,6 +91,6 @@ def test_an_edited_library_module_counts_where_it_is_used(tmp_path, edited, chan
 
 
 def test_the_whole_engine_counts_for_compiled_code():
-    script_of_engine = SOURCES.fingerprint(modules=["vibroimpact.exact.simulation"])
+    script_of_engine = SOURCES.fingerprint(modules=["vibroimpact.exact.engine.simulation"])
     assert SOURCES.compiled() != script_of_engine
     assert len(SOURCES.compiled()) == 16

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp, ttest_ind
 
-from vibroimpact.checks.table_distance import MEASURES, Rules, differences_in_structure, distances
-from vibroimpact.figures.tables import curve, join
+from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact_pipeline.figure_check.tables import MEASURES, Rules, differences_in_structure, distances
 
 RANDOM = np.random.default_rng(5)
 

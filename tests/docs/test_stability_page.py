@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from verdict_tables import verdicts_of
-from vibroimpact.exact.orbits import half_period_multipliers, symmetric_orbit
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.penetration import largest_C
 

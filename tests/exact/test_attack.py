@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from attacks import Observer, attacks, random_start, random_system, same_events, truth
-from vibroimpact.accuracy.reference_roots import Undecidable
+from vibroimpact.accuracy.reference.roots import Undecidable
 
 PER_SYSTEM = 10
 

@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from attacks import Observer, fast_attack, truth
-from vibroimpact.exact.certificate import KNOWN
+from vibroimpact.exact.engine.certificate import KNOWN
 
 
 def test_a_ball_that_turns_twice_between_two_proofs_is_seen(chapter):

@@ -5,11 +5,11 @@ import pytest
 
 flint = pytest.importorskip("flint", reason="python-flint belongs to the optional extra `reference`")
 
-from vibroimpact.exact import certify_symmetric_orbits as module  # noqa: E402
-from vibroimpact.exact.certify_symmetric_orbits import certify  # noqa: E402
-from vibroimpact.exact.impulse_response import forced_amplitude  # noqa: E402
-from vibroimpact.exact.orbits import orbits  # noqa: E402
-from vibroimpact.exact.symmetric import symmetric_solutions  # noqa: E402
+from vibroimpact.exact.orbits import certify as module  # noqa: E402
+from vibroimpact.exact.orbits.certify import certify  # noqa: E402
+from vibroimpact.exact.orbits.impulse_response import forced_amplitude  # noqa: E402
+from vibroimpact.exact.orbits.search import orbits  # noqa: E402
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
 

@@ -11,8 +11,8 @@ import pytest
 from scipy.optimize import brentq
 
 import vibroimpact as vi
-from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
 from vibroimpact.system.restitution import after_impact
 
 DIGITS = 40

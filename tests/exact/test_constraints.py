@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
-from vibroimpact.exact.constraints import LOOKAHEAD, gap, gap_rounding, own_remainder, push, remainder
-from vibroimpact.exact.flow import CONTACT_STATES, flow_of, jet
+from vibroimpact.exact.engine.constraints import LOOKAHEAD, gap, gap_rounding, own_remainder, push, remainder
+from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, jet
 from vibroimpact.system.matrices import rate_matrix
 
 unit = st.floats(-1, 1)

@@ -11,8 +11,8 @@ import pytest
 
 import vibroimpact as vi
 from hard_starts import departures, faults
-from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.simulation import IMPACT, STICK
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.simulation import IMPACT, STICK
 
 ALONE = dict(alpha12_hat=0.0, gamma12_hat=0.0, f20_hat=0.0)
 ALMOST_ALONE = dict(ALONE, alpha12_hat=1e-20)
@@ -72,7 +72,7 @@ def test_a_run_with_too_many_exclusions_is_given_up():
     program = """
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.exact import events
+from vibroimpact.exact.engine import event_loop as events
 events.MOST_PROOFS = events.MOST_PROOFS_PER_EVENT = events.MOST_PROOFS_PER_UNIT = 0
 vi.simulate(vi.System(**PARAMETERS, f10_hat=1, f20_hat=1), [0] * 8, 3)
 """

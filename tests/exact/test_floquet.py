@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.floquet import contraction, follow, multipliers
-from vibroimpact.exact.orbits import half_period_multipliers, orbits, search
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.floquet import contraction, follow, multipliers
+from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, search
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 
 DIGITS = 40
 STEP = "1e-14"

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.exact.exclusion import crossing, least, nearby_zero, return_time, safe_time
-from vibroimpact.exact.flow import CONTACT_STATES, advance, flow_of, jet
+from vibroimpact.exact.engine.exclusion import crossing, least, nearby_zero, return_time, safe_time
+from vibroimpact.exact.engine.flow import CONTACT_STATES, advance, flow_of, jet
 from vibroimpact.system.matrices import rate_matrix
 
 SPECTRA = {

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.simulation import STICK
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.simulation import STICK
 
 UNCOUPLED = dict(alpha12_hat=0.0, gamma12_hat=0.0)
 REST = {

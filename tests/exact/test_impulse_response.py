@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.exact.impulse_response import ImpulseResponse, forced_amplitude
+from vibroimpact.exact.orbits.impulse_response import ImpulseResponse, forced_amplitude
 from vibroimpact.system.matrices import dynamic_stiffness
 
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact import impulse_response
-from vibroimpact.exact.floquet import follow
-from vibroimpact.exact.newton import newton
-from vibroimpact.exact.orbits import orbits, search
-from vibroimpact.exact.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
+from vibroimpact.exact.orbits import impulse_response
+from vibroimpact.exact.orbits.floquet import follow
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.search import orbits, search
+from vibroimpact.exact.orbits.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
 
 known = functools.cache(orbits)
 
@@ -306,8 +306,8 @@ def test_orbits_do_not_depend_on_how_a_flight_is_cut(chapter, monkeypatch):
     whole = orbits(chapter())
     impulse_response._kept.cache_clear()
     monkeypatch.setattr(impulse_response, "_FINE_NODES", 7)
-    monkeypatch.setattr("vibroimpact.exact.symmetric._PIECES_AT_ONCE", 2)
-    monkeypatch.setattr("vibroimpact.exact.orbits._SAMPLES", 7)
+    monkeypatch.setattr("vibroimpact.exact.orbits.symmetric._PIECES_AT_ONCE", 2)
+    monkeypatch.setattr("vibroimpact.exact.orbits.search._SAMPLES", 7)
     cut = orbits(chapter())
     impulse_response._kept.cache_clear()
     assert [a.admissible for a in cut] == [b.admissible for b in whole]

@@ -7,8 +7,8 @@ import pytest
 from flint import arb, ctx
 
 import vibroimpact as vi
-from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.phase import Instant, ahead, phase_at, reduced
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.phase import Instant, ahead, phase_at, reduced
 
 START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.exact.saltation import impact_matrix, impact_saltation, vector_field
+from vibroimpact.exact.orbits.saltation import impact_matrix, impact_saltation, vector_field
 from vibroimpact.system.restitution import after_impact
 
 BEFORE = np.array([0.3, -0.7, 0.2, 0.1, 0.9, -0.4, -0.3, 0.6])

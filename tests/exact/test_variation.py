@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.accuracy.reference import reference_run
-from vibroimpact.exact.errors import errors_of
-from vibroimpact.exact.margins import margins_of
-from vibroimpact.exact.simulation import IMPACT, RELEASE, STICK
-from vibroimpact.exact.turns import GAP
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.errors import errors_of
+from vibroimpact.exact.engine.margins import margins_of
+from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.exact.engine.turns import GAP
 
 STEP = Fraction(1, 10**25)
 

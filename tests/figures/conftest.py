@@ -8,7 +8,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures import (
+from vibroimpact.figures.chapter import (
     fig10_01,
     fig10_02,
     fig10_03,
@@ -19,7 +19,7 @@ from vibroimpact.figures import (
     fig10_08,
     fig10_10,
 )
-from vibroimpact.theory.labels import labels
+from vibroimpact.theory.fixed_points.labels import labels
 
 STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]

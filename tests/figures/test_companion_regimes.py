@@ -9,7 +9,11 @@ from matplotlib.lines import Line2D
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
-from vibroimpact.figures import basins, branches, epsilon_limit, modulation, regime_map
+from vibroimpact.figures.companions import companion_basins as basins
+from vibroimpact.figures.companions import companion_branches as branches
+from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
+from vibroimpact.figures.companions import companion_modulation as modulation
+from vibroimpact.figures.companions import companion_regime_map as regime_map
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}

@@ -7,7 +7,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
-from vibroimpact.figures.tables import select
+from vibroimpact.figures.kit.tables import select
 
 
 def lines_with(axes, table, panel, series, x, y):

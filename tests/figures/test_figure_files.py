@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 from PIL import Image
 
-from vibroimpact.figures import style, tables
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.figures.kit import style, tables
+from vibroimpact.figures.kit.files import replacing
 
 KINDS = ("png", "pdf", "svg")
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.linalg import expm
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import half_period_multipliers
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.search import half_period_multipliers
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes.branches import Path, branches
 from vibroimpact.regimes.families import (
     FOLD,
@@ -126,7 +126,7 @@ def test_grazing_points_touch_a_wall_between_impacts(path, found):
 
 def largest_excursion_by_sampling(system, orbit, samples=20000):
     """Largest |W| at its sampled maxima inside flights; boxes from their Fourier series would not know the impacts."""
-    from vibroimpact.exact.floquet import follow
+    from vibroimpact.exact.orbits.floquet import follow
 
     times = np.sort((orbit.impact_phases * system.period).ravel())
     modules = np.array([1, 1, 2, 2])[np.argsort((orbit.impact_phases * system.period).ravel())]

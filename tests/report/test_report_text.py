@@ -9,9 +9,9 @@ import pytest
 import yaml
 from math_core import LatexError
 
-from report_pages import Pages, cell, digits, markdown_table, said, setting
-from report_results import Results
-from report_site import convert
+from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, setting
+from vibroimpact_pipeline.report.results import Results
+from vibroimpact_pipeline.report.site import convert
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "report"

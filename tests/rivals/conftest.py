@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 
 from chapter import PARAMETERS
-from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.rivals import METHODS
 from vibroimpact.system import System
 

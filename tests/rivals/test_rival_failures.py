@@ -8,7 +8,7 @@ from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
 from vibroimpact.rivals.penalty import tuned
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
-from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points
 
 
 @pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty, LSODA"])

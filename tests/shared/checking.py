@@ -1,6 +1,6 @@
 """Figures written as the pipeline does, and what a verdict of the figure check must say."""
 
-from vibroimpact.figures import style, tables
+from vibroimpact.figures.kit import style, tables
 
 
 def build(folder, name, table, figure, picture=True):

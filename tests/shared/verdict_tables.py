@@ -3,9 +3,9 @@
 import pandas as pd
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import orbits
-from vibroimpact.figures.companion_verdicts import fixed_point_rows, orbit_rows
-from vibroimpact.theory.labels import labels
+from vibroimpact.claims.verdict_table import fixed_point_rows, orbit_rows
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.theory.fixed_points.labels import labels
 
 
 def verdicts_of(systems):

@@ -8,9 +8,9 @@ import pytest
 from scipy.optimize import least_squares
 
 from vibroimpact.system import System
-from vibroimpact.theory import certify_fixed_points
-from vibroimpact.theory.certify_fixed_points import certify
-from vibroimpact.theory.fixed_points import FixedPointSearch, search
+from vibroimpact.theory.fixed_points import certify as certify_fixed_points
+from vibroimpact.theory.fixed_points.certify import certify
+from vibroimpact.theory.fixed_points.search import FixedPointSearch, search
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import rates
 

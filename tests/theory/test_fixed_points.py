@@ -9,8 +9,9 @@ from scipy.optimize import root
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.theory import manifold, real_zeros
-from vibroimpact.theory.fixed_points import search
+from vibroimpact.theory import manifold
+from vibroimpact.theory.fixed_points import real_zeros
+from vibroimpact.theory.fixed_points.search import search
 from vibroimpact.theory.slow_flow import rates
 
 CHAPTER = {

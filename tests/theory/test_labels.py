@@ -5,7 +5,7 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory import manifold
-from vibroimpact.theory.labels import labels
+from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.stability import printed_limit
 
 

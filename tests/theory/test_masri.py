@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import half_period_multipliers, orbits, symmetric_orbit
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory import masri
 from vibroimpact.theory.stability import limit_with_squares, printed_limit
 

@@ -5,7 +5,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from vibroimpact.theory.real_zeros import _clusters, real_zeros
+from vibroimpact.theory.fixed_points.real_zeros import _clusters, real_zeros
 
 
 def product(in_x, in_y):

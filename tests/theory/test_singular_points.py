@@ -8,7 +8,7 @@ import sympy as sp
 
 import vibroimpact as vi
 from vibroimpact.theory import manifold
-from vibroimpact.theory.singular_points import determinant, singular_everywhere, singular_points
+from vibroimpact.theory.fixed_points.singular_points import determinant, singular_everywhere, singular_points
 
 CHAPTER = vi.System(
     epsilon=0.1,

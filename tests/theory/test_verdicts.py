@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import orbits
-from vibroimpact.theory import verdicts
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import jacobian, rates
 

@@ -100,5 +100,5 @@ def test_a_build_with_nothing_to_do_loads_nothing_that_computes_or_draws(built):
     output = built.snakemake(PYTHONPROFILEIMPORTTIME="1")
     assert "Nothing to be done" in output
     imported = set(re.findall(r"^import time:.*\| +(\S+)$", output, re.MULTILINE))
-    assert {"snakemake.cli", "vibroimpact.checks.sources"} <= imported
+    assert {"snakemake.cli", "vibroimpact_pipeline.sources"} <= imported
     assert not imported & {"matplotlib", "numba", "scipy"}

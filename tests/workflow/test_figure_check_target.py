@@ -5,7 +5,7 @@ import json
 import pytest
 
 from pipeline_trees import run_module
-from vibroimpact.checks.provenance import embedded
+from vibroimpact_pipeline.provenance.verify import embedded
 
 COMPANIONS = ["10_04", "10_05", "stability", "horizon", "branches", "regime_map", "modulation", "basins", "epsilon"]
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)] + [f"companion_{name}" for name in COMPANIONS]
@@ -80,6 +80,6 @@ def test_every_figure_tells_where_it_comes_from_and_matches_its_tree(built):
     files += ["companion_horizon.svg", "companion_stability.pdf", "companion_regime_map.csv"]
     files += ["../accuracy/work_precision.png", "../accuracy/hazards.svg"]
     for file in files:
-        status, said = run_module(built.path, "vibroimpact.checks.provenance", f"results/figures/{file}")
+        status, said = run_module(built.path, "vibroimpact_pipeline.provenance.verify", f"results/figures/{file}")
         assert status == 0, said
         assert "The file matches the tree." in said

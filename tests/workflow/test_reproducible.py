@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from vibroimpact.checks.same_bytes import digests
+from vibroimpact_pipeline.same_bytes import digests
 
 FIGURES = ["fig10_01", "fig10_04", "fig10_06", "fig10_08"]  # one of each notebook that computes anew
 COMPANIONS = ["companion_10_05", "companion_modulation"]

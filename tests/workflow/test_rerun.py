@@ -53,13 +53,13 @@ def test_results_of_a_version_that_wrote_fewer_files_are_not_taken_as_they_are(r
 
 
 def test_an_edited_library_module_rebuilds_what_uses_it(rebuilt):
-    with open(rebuilt / "src/vibroimpact/exact/simulation.py", "a") as module:
+    with open(rebuilt / "src/vibroimpact/exact/engine/simulation.py", "a") as module:
         module.write("\n# edited\n")
     assert rebuilt.planned("figures") == {"simulation", "fig10_08", "fig10_11"}
 
 
 def test_an_edited_figure_module_rebuilds_the_figures_it_draws(rebuilt):
-    with open(rebuilt / "src/vibroimpact/figures/fig10_04.py", "a") as module:
+    with open(rebuilt / "src/vibroimpact/figures/chapter/fig10_04.py", "a") as module:
         module.write("\n# edited\n")
     assert rebuilt.planned("figures") == {"fig10_04"}
 
@@ -109,7 +109,7 @@ def test_a_figure_is_a_target(rebuilt):
 
 
 def test_a_changed_lock_or_test_or_document_rebuilds_nothing(rebuilt):
-    for name in ("environment.lock", "README.md", "src/vibroimpact/checks/config.py"):
+    for name in ("environment.lock", "README.md", "src/vibroimpact_pipeline/config.py"):
         with open(rebuilt / name, "a") as file:
             file.write("\n# edited\n")
     assert rebuilt.planned() == set()

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from vibroimpact.checks import scene_models
+from vibroimpact.accuracy import scene_models
 
 
 @pytest.fixture(scope="module")

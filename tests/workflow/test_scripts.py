@@ -17,10 +17,10 @@ import verdict_grid
 import verdicts
 from chapter import PARAMETERS
 from notebook import main as notebook
-from offline import markdown_to_html
-from vibroimpact.exact.simulation import simulate as integrate
-from vibroimpact.figures import companion_stability
+from vibroimpact.exact.engine.simulation import simulate as integrate
+from vibroimpact.figures.companions import companion_stability
 from vibroimpact.system import System
+from vibroimpact_pipeline.report.offline import markdown_to_html
 
 SYSTEM = {
     **PARAMETERS,

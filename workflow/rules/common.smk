@@ -7,12 +7,12 @@ from pathlib import Path
 import yaml
 from snakemake.utils import update_config
 
-from vibroimpact.checks import config as config_checks
-from vibroimpact.checks.sources import Sources
+from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline.sources import Sources
 
 ROOT = Path(workflow.basedir)
 sys.path.append(str(ROOT / "workflow/scripts"))
-from environment import settle
+from vibroimpact_pipeline.environment import settle
 
 CONFIG_FILE = "config/config.yaml"
 OVERRIDES = config_checks.typed(config)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.figures.kit.files import replacing
 
 
 @contextlib.contextmanager

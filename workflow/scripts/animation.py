@@ -3,10 +3,10 @@
 import json
 
 from adapter import logging_to
-from vibroimpact.figures.animation import PLACES, compute, draw
-from vibroimpact.figures.atomic import replacing
-from vibroimpact.figures.style import save
-from vibroimpact.figures.tables import read
+from vibroimpact.figures.companions.animation import PLACES, compute, draw
+from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.kit.tables import read
 from vibroimpact.system import System
 
 DECIMALS = {"t": 4, "X1": 3, "Y1": 3, "X2": 3, "Y2": 3}

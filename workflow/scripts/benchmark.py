@@ -7,9 +7,9 @@ import pandas as pd
 import yaml
 
 from adapter import replacing
-from environment import settle
-from vibroimpact.checks.config import case_parameters
-from vibroimpact.checks.sources import Sources
+from vibroimpact_pipeline.config import case_parameters
+from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.sources import Sources
 
 SECONDS = 0.5
 

@@ -8,11 +8,11 @@ import dataclasses
 import json
 
 from adapter import logging_to
-from vibroimpact.exact import certify_symmetric_orbits as symmetric_orbits
-from vibroimpact.exact.orbits import search
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.exact.orbits import certify as symmetric_orbits
+from vibroimpact.exact.orbits.search import search
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
-from vibroimpact.theory import certify_fixed_points as fixed_points
+from vibroimpact.theory.fixed_points import certify as fixed_points
 
 
 def main(systems: dict, output) -> None:

@@ -7,9 +7,9 @@ import pandas as pd
 import yaml
 
 from adapter import logging_to
-from vibroimpact.checks.claims import judge, to_markdown
-from vibroimpact.checks.claims_evidence import Evidence, Simulation
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.claims.evidence import Evidence, Simulation
+from vibroimpact.claims.judge import judge, to_markdown
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 
 TABLES = ("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders")

@@ -1,7 +1,7 @@
 """Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
 
 from adapter import logging_to, write_csv
-from vibroimpact.figures.coexistence import compute_lifetimes, compute_tori
+from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.system import System
 
 

@@ -3,10 +3,10 @@
 from importlib import import_module
 
 from adapter import logging_to
-from origin import recorded
-from vibroimpact.figures.style import save
-from vibroimpact.figures.tables import read, write
+from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.kit.tables import read, write
 from vibroimpact.system import System
+from vibroimpact_pipeline.provenance.record import recorded
 
 
 def main(module: str, settings: dict, inputs: dict, outputs: dict, provenance: dict) -> None:

@@ -3,9 +3,9 @@
 import json
 
 from adapter import logging_to
-from vibroimpact.checks.figure_check import check_all, lines, tolerances
-from vibroimpact.checks.figure_page import page
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.figure_check.compare import check_all, lines, tolerances
+from vibroimpact_pipeline.figure_check.page import page
 
 
 def main(figures, reference, new, html, verdicts) -> None:

@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from environment import settle
-from vibroimpact.checks.config import case_parameters, parse
-from vibroimpact.checks.sources import Sources
+from vibroimpact_pipeline.config import case_parameters, parse
+from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.sources import Sources
 
 settle(Path.cwd(), Sources())
 
-from vibroimpact.exact.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
+from vibroimpact.exact.engine.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
 from vibroimpact.rivals import METHODS  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 

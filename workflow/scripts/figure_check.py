@@ -4,7 +4,7 @@ import json
 import sys
 from pathlib import Path
 
-from vibroimpact.checks.figure_check import has_failed, lines
+from vibroimpact_pipeline.figure_check.compare import has_failed, lines
 
 
 def main(verdicts, page) -> int:

@@ -4,8 +4,8 @@ import pandas as pd
 
 from adapter import logging_to, write_csv
 from vibroimpact.system import System
-from vibroimpact.theory.fixed_points import fixed_points
-from vibroimpact.theory.labels import labels
+from vibroimpact.theory.fixed_points.labels import labels
+from vibroimpact.theory.fixed_points.search import fixed_points
 
 COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 

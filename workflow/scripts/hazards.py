@@ -3,11 +3,11 @@
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from origin import recorded
 from vibroimpact.accuracy.hazards import hazards, judge
-from vibroimpact.figures.hazards import draw
-from vibroimpact.figures.style import save
+from vibroimpact.figures.companions.hazards import draw
+from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS
+from vibroimpact_pipeline.provenance.record import recorded
 
 
 def main(all_of_them: bool, outputs: dict, provenance: dict) -> None:

@@ -11,9 +11,9 @@ import papermill
 from traitlets.config import Config
 
 from adapter import logging_to
-from offline import page
-from origin import recorded
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.provenance.record import recorded
+from vibroimpact_pipeline.report.offline import page
 
 PARAMETERS = {"figure", "settings", "inputs", "outputs", "provenance"}
 

@@ -1,8 +1,8 @@
 """All exact 1:1 responses of one case with the verdicts on them -> CSV, a row per orbit."""
 
 from adapter import logging_to, write_csv
-from vibroimpact.exact.orbits import search
-from vibroimpact.figures.companion_verdicts import orbit_rows
+from vibroimpact.claims.verdict_table import orbit_rows
+from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
 
 

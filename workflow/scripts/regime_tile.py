@@ -1,7 +1,7 @@
 """One tile of the map of regimes -> CSV: a row per pair of forcing amplitudes."""
 
 from adapter import logging_to, write_csv
-from vibroimpact.figures.regime_map import compute_tile
+from vibroimpact.figures.companions.companion_regime_map import compute_tile
 from vibroimpact.system import System
 
 

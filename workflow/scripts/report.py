@@ -7,9 +7,9 @@ from pathlib import Path
 import yaml
 
 from adapter import logging_to
-from report_pages import Pages
-from report_results import Results
-from report_site import write
+from vibroimpact_pipeline.report.pages import Pages
+from vibroimpact_pipeline.report.results import Results
+from vibroimpact_pipeline.report.site import write
 
 SETTINGS = "report/report.yaml"
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from vibroimpact.checks import scene_models
-from vibroimpact.figures import tables
+from vibroimpact.accuracy import scene_models
+from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 
 

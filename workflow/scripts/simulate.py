@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from vibroimpact.accuracy.reference import proven_run
-from vibroimpact.exact.simulation import KINDS, simulate
-from vibroimpact.figures.atomic import replacing
+from vibroimpact.accuracy.reference.run import proven_run
+from vibroimpact.exact.engine.simulation import KINDS, simulate
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 
 WINDOW = ("transient_cycles", "window_cycles", "samples_per_cycle")

@@ -5,11 +5,11 @@ import json
 import numpy as np
 
 from adapter import logging_to, write_csv
-from vibroimpact.figures.atomic import replacing
-from vibroimpact.figures.style import save
-from vibroimpact.figures.travel import compute, draw
+from vibroimpact.figures.companions.travel import compute, draw
+from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.style import save
 from vibroimpact.system import System
-from vibroimpact.theory.verdicts import CRITERIA
+from vibroimpact.theory.criteria import CRITERIA
 
 
 def main(parameters: dict, settings: dict, outputs: dict) -> None:

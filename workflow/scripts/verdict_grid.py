@@ -1,7 +1,7 @@
 """Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
 
 from adapter import logging_to, write_csv
-from vibroimpact.figures.verdict_grid import compute
+from vibroimpact.figures.companions.verdict_grid import compute
 from vibroimpact.system import System
 
 

@@ -3,10 +3,10 @@
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from vibroimpact.figures.companion_verdicts import CRITERIA, fixed_point_rows
+from vibroimpact.claims.verdict_table import CRITERIA, fixed_point_rows
 from vibroimpact.system import System
-from vibroimpact.theory.fixed_points import fixed_points
-from vibroimpact.theory.labels import labels
+from vibroimpact.theory.fixed_points.labels import labels
+from vibroimpact.theory.fixed_points.search import fixed_points
 
 
 def main(case: str, parameters: dict, inputs: dict, output) -> None:

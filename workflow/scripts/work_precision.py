@@ -3,13 +3,13 @@
 import pandas as pd
 
 from adapter import logging_to, write_csv
-from origin import recorded
 from scenes import scene_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
-from vibroimpact.figures.style import save
-from vibroimpact.figures.work_precision import draw
+from vibroimpact.figures.companions.work_precision import draw
+from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS
+from vibroimpact_pipeline.provenance.record import recorded
 
 
 def main(scenes: dict, seconds: float, short: bool, outputs: dict, provenance: dict) -> None:

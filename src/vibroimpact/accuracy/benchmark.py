@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 
 from vibroimpact.accuracy.errors import compare
-from vibroimpact.accuracy.reference import proven_run, reference_run
+from vibroimpact.accuracy.reference.run import proven_run, reference_run
 from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.accuracy.work_precision import Scene
 

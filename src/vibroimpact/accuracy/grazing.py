@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, ctx
 
-from vibroimpact.accuracy.reference_flow import ExactSystem, to_ball
+from vibroimpact.accuracy.reference.flow import ExactSystem, to_ball
 
 BITS = 256
 NEWTON_STEPS = 12

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from vibroimpact.accuracy.errors import FAINT, compare
 from vibroimpact.accuracy.grazing import grazing_start
-from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
 from vibroimpact.system import System
 

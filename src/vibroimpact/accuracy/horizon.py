@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vibroimpact.exact.simulation import simulate
+from vibroimpact.exact.engine.simulation import simulate
 
 
 def departure(system, state, truth: np.ndarray):

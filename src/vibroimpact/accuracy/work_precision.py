@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.accuracy.errors import compare
-from vibroimpact.accuracy.reference import proven_run
+from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.rivals.protocol import Method, RivalRun
 from vibroimpact.system import System

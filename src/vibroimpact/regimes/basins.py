@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vibroimpact.exact.orbits import orbits
+from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.regime_map import centres
 from vibroimpact.regimes.settling import Observation, settle

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vibroimpact.exact.simulation import IMPACT, Run, simulate
+from vibroimpact.exact.engine.simulation import IMPACT, Run, simulate
 from vibroimpact.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
 from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
 from vibroimpact.regimes.modulation import bursts

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vibroimpact.exact.simulation import IMPACT, Run, simulate
+from vibroimpact.exact.engine.simulation import IMPACT, Run, simulate
 from vibroimpact.regimes.periodicity import mirror_distance, repeats_after
 from vibroimpact.system.amplitude import sawtooth_amplitude
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from vibroimpact.exact.floquet import follow
-from vibroimpact.exact.orbits import Orbit, extremes
+from vibroimpact.exact.orbits.floquet import follow
+from vibroimpact.exact.orbits.search import Orbit, extremes
 
 _MODULES = np.array([1, 1, 2, 2])
 

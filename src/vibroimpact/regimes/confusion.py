@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from vibroimpact.exact.simulation import simulate_many
+from vibroimpact.exact.engine.simulation import simulate_many
 from vibroimpact.regimes.settling import Observation, named, settle
 
 

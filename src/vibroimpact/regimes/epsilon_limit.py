@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from vibroimpact.exact.orbits import symmetric_orbit
-from vibroimpact.exact.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.response import impact_times
 

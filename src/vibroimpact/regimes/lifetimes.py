@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.simulation import simulate_many
+from vibroimpact.exact.engine.simulation import simulate_many
 from vibroimpact.regimes.classification import UNSETTLED, observe
 
 UNSEEN = 0.05

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.simulation import simulate
+from vibroimpact.exact.engine.simulation import simulate
 
 
 class Exponent(NamedTuple):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vibroimpact.exact.simulation import IMPACT, STICK, Run, simulate
+from vibroimpact.exact.engine.simulation import IMPACT, STICK, Run, simulate
 
 PER_CYCLE = 24
 """Samples in a forcing period that amplitudes are taken from."""

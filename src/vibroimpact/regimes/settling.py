@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from vibroimpact.exact.simulation import simulate, simulate_many
+from vibroimpact.exact.engine.simulation import simulate, simulate_many
 from vibroimpact.regimes.character import character
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 

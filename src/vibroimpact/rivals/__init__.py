@@ -1,9 +1,9 @@
 """Other integrators of the same system behind one small protocol, to be measured against the engine."""
 
+from vibroimpact.rivals.event_driven import Engine
 from vibroimpact.rivals.heyoka_taylor import HeyokaTaylor
 from vibroimpact.rivals.leading_order import LeadingOrder
 from vibroimpact.rivals.moreau_jean import MoreauJean
-from vibroimpact.rivals.ours import Engine
 from vibroimpact.rivals.penalty import Penalty
 from vibroimpact.rivals.solve_ivp import integrators
 

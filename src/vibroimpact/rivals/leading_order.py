@@ -3,7 +3,7 @@
 import numpy as np
 
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
-from vibroimpact.theory.fixed_points import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.response import impact_times, leading_order
 

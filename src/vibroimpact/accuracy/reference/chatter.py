@@ -1,0 +1,51 @@
+"""Completion of chatter: the limit of infinitely many impacts by extrapolation of the first ones."""
+
+import math
+from fractions import Fraction
+
+from vibroimpact.accuracy.reference.flow import to_ball
+
+
+class Chatter:
+    """Consecutive impacts of the same balls on the same walls, and the state in which they accumulate.
+
+    The map from one impact to the next is analytic in the rebound speed and contracts it by kappa at speed
+    zero, the other coordinates being neutral there. In Koenigs' linearising coordinate it is a multiplication
+    by kappa, so every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
+    (the first term alone is the geometric series of the flight times). Richardson extrapolation removes
+    power after power, and its error falls like kappa^(n^2 / 2).
+    """
+
+    def __init__(self, contacts, kappa: Fraction):
+        self.contacts = contacts
+        # For kappa near 1 only every stride-th impact is used: the ratio stays at or below 1/2 and the
+        # extrapolation amplifies rounding by less than 10.
+        self._stride = max(1, math.ceil(math.log(2) / -math.log(kappa)))
+        self._ratio = to_ball(kappa) ** self._stride
+        self._impacts = 0
+        self._row = []
+        self.change = None
+
+    @property
+    def limit(self):
+        """Extrapolated state of the accumulation point, as the list of coordinates that add() gets."""
+        return self._row[-1]
+
+    def add(self, coordinates) -> bool:
+        """Take in the state after the next impact; True if this has improved the limit.
+
+        change is then the largest difference between the new limit and the one before, a bound in practice
+        of the error of the older one and a generous one of that of the newer.
+        """
+        self._impacts += 1
+        if (self._impacts - 1) % self._stride:
+            return False
+        previous, row, power = self._row, [coordinates], self._ratio
+        for column in previous:
+            row.append([(new - power * old) / (1 - power) for new, old in zip(row[-1], column, strict=True)])
+            power = power * self._ratio
+        self._row = row
+        if not previous:
+            return False
+        self.change = max(abs(new - old).upper() for new, old in zip(row[-1], previous[-1], strict=True))
+        return True

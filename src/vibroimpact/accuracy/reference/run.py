@@ -1,0 +1,178 @@
+"""Arbitrary-precision simulation of (10.1): the judge of every other method.
+
+Parameters and start are rational numbers. Between events the boxes' motion is a Taylor series with an enclosed
+tail, the next event is found with proof in ball arithmetic, and each flight starts from an exact (rational)
+state, so what a single flight contributes is enclosed. How these contributions grow along the trajectory is
+decided by running again with more digits: see proven_run.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from flint import arb, ctx
+
+from vibroimpact.accuracy.reference.flow import ExactSystem, exact
+from vibroimpact.accuracy.reference.roots import Undecidable
+from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, IMPACT, RELEASE, STICK, Trajectory
+
+__all__ = ["IMPACT", "RELEASE", "STICK", "ProvenRun", "ReferenceRun", "departure", "proven_run", "reference_run"]
+
+EVENT = np.dtype([("tau", float), ("module", np.int8), ("wall", np.int8), ("kind", np.int8), ("state", float, (8,))])
+
+
+@dataclass(frozen=True, eq=False)
+class ReferenceRun:
+    """A trajectory in arbitrary precision. State order and units as everywhere: dimensionless.
+
+    digits: decimals to which a single flight is computed; events: structured array (tau, module, wall, kind
+    0 impact / 1 stick / 2 release, state after), rounded to float64; event_taus (n,), event_states (n, 8) and
+    final_exact (8,): the same as arbitrary-precision numbers (flint.arb); samples (n, 8), final (8,): float64;
+    local_error (arb): largest radius of the enclosures of a single flight; completion_error (arb): largest last
+    correction of a completed chatter's limit; flights, chatters: their numbers.
+    """
+
+    digits: int
+    events: np.ndarray
+    event_taus: tuple
+    event_states: tuple
+    samples: np.ndarray
+    final: np.ndarray
+    final_exact: tuple
+    local_error: arb
+    completion_error: arb
+    flights: int
+    chatters: int
+
+    @property
+    def final_text(self) -> tuple[str, ...]:
+        """The final state as decimal strings with all digits carried."""
+        return tuple(value.str(self.digits, radius=False) for value in self.final_exact)
+
+
+@dataclass(frozen=True, eq=False)
+class ProvenRun:
+    """A run confirmed by another one.
+
+    run: the finer run; coarse: the other one; agreement: largest absolute difference between them over all
+    times and states of events, samples and the final state, which bounds the error of the coarse run in practice.
+    """
+
+    run: ReferenceRun
+    coarse: ReferenceRun
+    agreement: float
+
+
+def reference_run(system_parameters, state, cycles, digits, tau0=0, sample_times=None) -> ReferenceRun:
+    """Simulate (10.1) for a number of forcing periods from tau0, every flight to the given decimals.
+
+    system_parameters: a System or a mapping of its ten parameters; state: [X1, Y1, X2, Y2, X1', Y1', X2', Y2'];
+    tau0, cycles: start and length of the window. All of these are rational numbers: decimal strings, Fractions,
+    or floats read as their shortest decimals. sample_times: ascending times in the window; floats among them
+    are taken at their binary value. A sample at an event is the state after it.
+
+    A ball that rests on a wall at the start sticks there if the wall pushes it (w X'' > 0, or the first
+    derivative that does not vanish to the digits), else it leaves at once.
+
+    Raises:
+        ValueError: inadmissible parameters, a start beyond a wall, or times outside the window.
+        Undecidable: a decision, such as graze or miss, that needs more digits.
+    """
+    if digits < 20:
+        raise ValueError(f"digits: {digits} is below 20; use simulate for float64 accuracy")
+    length = exact("cycles", cycles)
+    if length < 0:
+        raise ValueError(f"cycles: {cycles} is below 0")
+    system = ExactSystem.of(system_parameters)
+    start = [exact("state", value) for value in state]
+    _require_inside(start)
+    bits = int(digits * 3.3219281) + 1
+    with ctx.workprec(bits + GUARD_BITS):
+        trajectory = Trajectory(system, start, exact("tau0", tau0), length, bits, sample_times)
+        trajectory.run()
+        return _collect(trajectory, digits)
+
+
+def proven_run(
+    system_parameters, state, cycles, accuracy=1e-15, digits=None, tau0=0, sample_times=None, max_digits=5000
+) -> ProvenRun:
+    """The run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
+
+    digits: where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the
+    modulated case, and 40 more.
+
+    Raises:
+        ArithmeticError: no agreement up to max_digits.
+    """
+    digits = digits or int(40 + 0.33 * float(exact("cycles", cycles)))
+    coarse, agreement = None, np.inf
+    while digits <= max_digits:
+        try:
+            fine = reference_run(system_parameters, state, cycles, digits, tau0, sample_times)
+        except Undecidable:
+            fine = None
+        if coarse and fine:
+            agreement = _agreement(coarse, fine)
+            if agreement <= accuracy:
+                return ProvenRun(fine, coarse, agreement)
+        coarse, digits = fine, 2 * digits
+    raise ArithmeticError(f"no two precisions up to {max_digits} digits agree to {accuracy} (last: {agreement})")
+
+
+def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
+    """How two runs of the same motion part: event times of the fine run (n,) and differences there (n,).
+
+    The difference is the largest in time and state; it is inf from the first event that is not the same.
+    """
+    error = np.full(len(fine.events), np.inf)
+    for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):
+        if any(one[name] != other[name] for name in ("module", "wall", "kind")):
+            break
+        error[i] = max(
+            _distance(coarse.event_states[i], fine.event_states[i]),
+            _distance([coarse.event_taus[i]], [fine.event_taus[i]]),
+        )
+    return fine.events["tau"], error
+
+
+def _collect(trajectory, digits):
+    record, final = trajectory.record, tuple(trajectory.state())
+    events = np.zeros(len(record), EVENT)
+    for i, (tau, module, wall, kind, state) in enumerate(record):
+        events[i] = (float(tau), module + 1, wall, kind, [float(value) for value in state])
+    return ReferenceRun(
+        digits=digits,
+        events=events,
+        event_taus=tuple(entry[0] for entry in record),
+        event_states=tuple(entry[4] for entry in record),
+        samples=_to_float(trajectory.samples),
+        final=_to_float([final])[0],
+        final_exact=final,
+        local_error=trajectory.local_error,
+        completion_error=trajectory.completion_error,
+        flights=trajectory.flights,
+        chatters=trajectory.chatters,
+    )
+
+
+def _to_float(states):
+    return np.array([[float(value) for value in state] for state in states]).reshape(-1, 8)
+
+
+def _agreement(coarse, fine):
+    if len(coarse.events) != len(fine.events):
+        return np.inf
+    apart = [departure(coarse, fine)[1], np.abs(coarse.samples - fine.samples).ravel()]
+    return float(max(_distance(coarse.final_exact, fine.final_exact), *(a.max(initial=0.0) for a in apart)))
+
+
+def _distance(one, other):
+    return max(float(abs(a - b).upper()) for a, b in zip(one, other, strict=True))
+
+
+def _require_inside(start):
+    if len(start) != 8:
+        raise ValueError(f"state: {len(start)} entries, needs 8")
+    for i in (0, 2):
+        gap = start[i] - start[i + 1]
+        if abs(gap) > 1:
+            raise ValueError(f"state: |W{i // 2 + 1}| = {float(abs(gap))} is above 1, a ball beyond its wall")

@@ -1,0 +1,371 @@
+"""The event loop of the reference simulation: flights, impacts, chatter, sticking and release in ball arithmetic."""
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import arb, arb_poly, ctx
+
+from vibroimpact.accuracy.reference.chatter import Chatter
+from vibroimpact.accuracy.reference.flow import ExactSystem, Flow, exact, to_ball
+from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
+
+IMPACT, STICK, RELEASE = 0, 1, 2
+# Of the infinitely many impacts of a completed chatter those with a slower rebound |W'| are not listed.
+LISTED_SPEED = Fraction(1, 10**12)
+GUARD_BITS = 64  # carried beyond the digits asked for
+SEARCH_BITS = 96  # enough to exclude and bracket events nearly always; where not, the full precision is used
+
+
+@dataclass
+class _Ball:
+    """One module's ball seen from its box: gap W, rate W', and the wall it touches, if any.
+
+    order: number of leading Taylor coefficients that vanish, of 1 - wall W for a ball that leaves the wall (1 after
+    an impact, 2 or more after a release) and of the contact force for a stuck one (None: no force ever).
+    """
+
+    gap: arb
+    rate: arb
+    wall: int = 0
+    order: int | None = 0
+    stuck: bool = False
+
+    def walls_ahead(self):
+        """Walls at which this module's next event may be: both in flight, its own while a force holds it there."""
+        if not self.stuck:
+            return (1, -1)
+        return () if self.order is None else (self.wall,)
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """An event that may end the flight: the first root of a distance (or contact force) of a module."""
+
+    module: int
+    wall: int
+    root: arb
+
+
+@dataclass
+class Trajectory:
+    """A simulation in progress; every method runs at the working precision that the caller has set.
+
+    record: [(tau, module 0 or 1, wall, kind, state after)]; samples: states in the order asked for. Numbers are
+    exact midpoints (flint.arb); see reference_run for the rest.
+    """
+
+    system: ExactSystem
+    start: list
+    tau0: Fraction
+    cycles: Fraction
+    bits: int
+    sample_times: object
+    flights: int = 0
+    chatters: int = 0
+    local_error: arb = field(default_factory=arb)
+    completion_error: arb = field(default_factory=arb)
+    record: list = field(default_factory=list)
+    samples: list = field(default_factory=list)
+
+    def __post_init__(self):
+        x1, y1, x2, y2, v1, u1, v2, u2 = self.start
+        self.tau = to_ball(self.tau0).mid()
+        self.box = [to_ball(value).mid() for value in (x1, x2, v1, v2)]
+        self.balls = [_Ball(to_ball(x1 - y1).mid(), to_ball(v1 - u1).mid())]
+        self.balls.append(_Ball(to_ball(x2 - y2).mid(), to_ball(v2 - u2).mid()))
+        self.omega = to_ball(self.system.Omega)
+        self.kappa = to_ball(self.system.kappa)
+        self.impulse = to_ball(self.system.epsilon * (1 + self.system.kappa) / (1 + self.system.epsilon))
+        self.end = (to_ball(self.tau0) + 2 * arb.pi() * to_ball(self.cycles) / self.omega).mid()
+        self.tolerance = arb(2) ** -self.bits
+        self.flows = {}
+        self.chatter = None
+        self.pending = self._sample_queue()
+
+    def _sample_queue(self):
+        times = [] if self.sample_times is None else list(self.sample_times)
+        # A float in a grid of times was computed, not written: it stands for its binary value.
+        rational = [Fraction(float(t)) if isinstance(t, float) else exact("sample_times", t) for t in times]
+        if any(later < earlier for earlier, later in pairwise(rational)):
+            raise ValueError("sample_times: not ascending")
+        balls = [to_ball(t).mid() for t in rational]
+        if balls and (balls[0] < self.tau - self.tolerance or balls[-1] > self.end + self.tolerance):
+            raise ValueError(f"sample_times: leave the window [{float(self.tau)}, {float(self.end)}]")
+        return balls[::-1]
+
+    # -- the loop ----------------------------------------------------------------------------------------
+
+    def run(self):
+        """Fill record, samples and the closing state."""
+        self._meet_walls_at_start()
+        while self.tau < self.end:
+            self._fly()
+        self._settle()
+        self.samples += [self.state() for _ in self.pending]
+
+    def _fly(self):
+        """One flight: to the next event, the end of the window or the longest step, whichever comes first."""
+        self.flights += 1
+        self._settle()
+        flow, search_flow = self._flow(self.bits + GUARD_BITS), self._flow(SEARCH_BITS)
+        vector = self._vector()
+        series, search_series = flow.series(vector), search_flow.series(vector)
+        longest = to_ball(flow.longest_step).mid()
+        candidates = self._next_events(series, search_series, longest)
+        remaining = self.end - self.tau
+        if candidates and candidates[0].root < remaining + self.tolerance:
+            step = candidates[0].root
+        else:
+            candidates, step = [], longest.min(remaining)
+        self._sample(search_series, step)
+        self._advance(series, step, candidates)
+        impacts = [candidate for candidate in candidates if not self.balls[candidate.module].stuck]
+        for candidate in impacts:
+            self._impact(candidate.module)
+        self._follow_chatter(tuple((candidate.module, candidate.wall) for candidate in impacts))
+
+    # -- state -------------------------------------------------------------------------------------------
+
+    def state(self):
+        x, v = self.box[:2], self.box[2:]
+        one, two = self.balls
+        gaps, rates = (one.gap, two.gap), (one.rate, two.rate)
+        places = [value for i in range(2) for value in (x[i], (x[i] - gaps[i]).mid())]
+        return [*places, *(value for i in range(2) for value in (v[i], (v[i] - rates[i]).mid()))]
+
+    def _vector(self):
+        return [*self.box, *(self.omega * self.tau).sin_cos()]
+
+    def _flow(self, bits):
+        stuck = tuple(ball.stuck for ball in self.balls)
+        if (stuck, bits) not in self.flows:
+            self.flows[stuck, bits] = Flow(self.system, stuck, bits)
+        return self.flows[stuck, bits]
+
+    def _note(self, module, kind):
+        self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
+
+    def _point(self, value):
+        """The midpoint of an enclosure, where the next flight starts; the radius goes into local_error."""
+        if not value.rad() < self.tolerance:
+            raise Undecidable(f"a flight's enclosure has radius {value.rad()}, wider than the digits asked for")
+        self.local_error = self.local_error.max(value.rad())
+        return value.mid()
+
+    def _advance(self, series, step, arriving):
+        walls = {candidate.module: candidate.wall for candidate in arriving}
+        motion = [arb_poly(coefficients) for coefficients in series]
+        box = [p(step) for p in motion] + [p.derivative()(step) for p in motion]
+        for i, ball in enumerate(self.balls):
+            if ball.stuck:
+                continue
+            relative = _relative(ball, series[i])
+            ball.gap = arb(walls[i]) if i in walls else self._point(arb_poly(relative)(step))
+            ball.rate = self._point(arb_poly(relative).derivative()(step))
+            ball.wall, ball.order = walls.get(i, 0), 0
+        self.box = [self._point(value) for value in box]
+        self.tau = self._point(self.tau + step)
+
+    def _sample(self, series, step):
+        """Record the samples strictly before the end of the flight."""
+        stop = self.tau + step - self.tolerance
+        if not (self.pending and self.pending[-1] < stop):
+            return
+        with ctx.workprec(SEARCH_BITS):
+            motion = [arb_poly(coefficients) for coefficients in series]
+            speed = [p.derivative() for p in motion]
+            gaps = [_relative(ball, coefficients) for ball, coefficients in zip(self.balls, series, strict=True)]
+            gap = [arb_poly(coefficients) for coefficients in gaps]
+            rate = [p.derivative() for p in gap]
+            while self.pending and self.pending[-1] < stop:
+                t = (self.pending.pop() - self.tau).mid()
+                state = [value for i in range(2) for value in (motion[i](t), motion[i](t) - gap[i](t))]
+                state += [value for i in range(2) for value in (speed[i](t), speed[i](t) - rate[i](t))]
+                self.samples.append(state)
+
+    # -- the next event ----------------------------------------------------------------------------------
+
+    def _next_events(self, series, search_series, longest):
+        """The earliest event within the longest step, with all that coincide with it to the digits."""
+        try:
+            with ctx.workprec(SEARCH_BITS):
+                found = self._bracket(search_series, longest)
+                found = [(keys, refine(self._distance(keys, search_series), ball)) for keys, ball in found]
+        except Undecidable:
+            found = self._bracket(series, longest)
+        found = _earliest(found, arb(0))
+        found = [(keys, refine(self._distance(keys, series), ball)) for keys, ball in found]
+        return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
+
+    def _bracket(self, series, longest):
+        """[(module, wall), ball that contains the first root] of every distance with a root before the others."""
+        keys = [(module, wall) for module in range(2) for wall in self.balls[module].walls_ahead()]
+        distances = [(key, self._distance(key, series)) for key in keys]
+        hints = {key: _parabola_hint(distance, longest) for key, distance in distances}
+        found, end = [], longest
+        for key, distance in sorted(distances, key=lambda item: hints[item[0]] is None):
+            hint = hints[key]
+            ball = first_root(distance, end, hint if hint is not None and hint < end else None)
+            if ball is not None:
+                found.append((key, ball))
+                end = end.min(ball.upper())
+        return found
+
+    def _distance(self, key, series):
+        """Power series that is positive until the event: distance to a wall, or force that holds a stuck ball.
+
+        At a wall just left (or a force just set) the vanishing leading coefficients are divided out.
+        """
+        module, wall = key
+        ball = self.balls[module]
+        if ball.stuck:
+            return arb_poly(_force(ball, series[module])[ball.order :])
+        relative = _relative(ball, series[module])
+        if ball.wall == wall:
+            return arb_poly([-wall * value for value in relative[ball.order :]])
+        return arb_poly([1 - wall * relative[0], *(-wall * value for value in relative[1:])])
+
+    # -- events ------------------------------------------------------------------------------------------
+
+    def _meet_walls_at_start(self):
+        gaps = (self.start[0] - self.start[1], self.start[2] - self.start[3])
+        touching = [i for i in range(2) if abs(gaps[i]) == 1]
+        for i in touching:
+            self.balls[i].wall = int(gaps[i])
+            if self.balls[i].wall * self.balls[i].rate > 0:
+                self._impact(i)
+            self.balls[i].order = 1
+        for i in touching:
+            if self.balls[i].rate.is_zero():
+                self.balls[i].stuck = True
+                self._settle(i, started=True)
+
+    def _impact(self, module):
+        """Newton's restitution with X' + epsilon Y' conserved; slower than the digits show, the ball sticks."""
+        ball = self.balls[module]
+        if not ball.wall * ball.rate > -self.tolerance:
+            raise Undecidable("an impact whose approach speed is not positive to the digits")
+        self.box[2 + module] = self._point(self.box[2 + module] - self.impulse * ball.rate)
+        ball.rate, ball.order = self._point(-self.kappa * ball.rate), 1
+        self._note(module, IMPACT)
+        if abs(ball.rate) < self.tolerance:
+            self._stick(module)
+
+    def _stick(self, module):
+        ball = self.balls[module]
+        ball.gap, ball.rate, ball.stuck, ball.order = arb(ball.wall), arb(0), True, 0
+        self._note(module, STICK)
+
+    def _settle(self, *modules, started=False):
+        """Release every stuck ball whose contact force w X'' is no longer that of a wall that pushes.
+
+        The first coefficient of the force that does not vanish to the digits decides, so this serves a force
+        that has just fallen through zero, one that an impact of the other module has made jump, and a start.
+        """
+        for module in modules or range(2):
+            ball = self.balls[module]
+            if not ball.stuck:
+                continue
+            series = self._flow(self.bits + GUARD_BITS).series(self._vector())
+            force = _force(ball, series[module])
+            ball.order = next((k for k, value in enumerate(force) if abs(value) > self.tolerance), None)
+            if ball.order is None or force[ball.order] > 0:
+                continue
+            ball.stuck = False
+            ball.order += 2  # in free flight the gap opens as t^2 times the force
+            if not started:
+                self._note(module, RELEASE)
+
+    # -- chatter -----------------------------------------------------------------------------------------
+
+    def _follow_chatter(self, contacts):
+        """Add the impacts of this instant to the chatter they continue, and complete it once it is known."""
+        if self.chatter is None or self.chatter.contacts != contacts:
+            self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
+        if not contacts or any(self.balls[module].stuck for module, _ in contacts):
+            self.chatter = None
+            return
+        others = [ball for i, ball in enumerate(self.balls) if i not in dict(contacts)]
+        coordinates = [self.tau, *self.box, *(value for ball in others for value in (ball.gap, ball.rate))]
+        if self.chatter.add(coordinates) and self._is_complete(contacts):
+            self._complete(contacts, others)
+
+    def _is_complete(self, contacts):
+        """The limit is known to the digits, and nothing else can happen before the impacts accumulate."""
+        if not self.chatter.change < self.tolerance:
+            return False
+        if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
+            return False
+        time = self.chatter.limit[0] - self.tau
+        if abs(time) < self.tolerance:
+            return True
+        next_stop = self.end if not self.pending else self.end.min(self.pending[-1])
+        return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
+
+    def _is_undisturbed(self, contacts, time):
+        """Contact forces keep their sign and other balls stay off the walls, with a wide margin."""
+        flow, vector = self._flow(SEARCH_BITS), self._vector()
+        acceleration = flow.size(vector) * to_ball(flow.norm)
+        series = flow.series(vector)
+        for i, ball in enumerate(self.balls):
+            if i in dict(contacts) or ball.stuck:
+                if not _force(ball, series[i])[0] > 4 * time * acceleration * to_ball(flow.norm):
+                    return False
+            elif not 1 - abs(ball.gap) > 2 * time * (abs(ball.rate) + 4 * time * acceleration):
+                return False
+        return True
+
+    def _complete(self, contacts, others):
+        self.chatters += 1
+        self.completion_error = self.completion_error.max(self.chatter.change)
+        tau, *values = [self._point(value) for value in self.chatter.limit]
+        self._forget_unlisted(dict(contacts))
+        self.tau, self.box = tau, values[:4]
+        for ball, gap, rate in zip(others, values[4::2], values[5::2], strict=True):
+            ball.gap, ball.rate = gap, rate
+            if not ball.stuck:
+                ball.wall, ball.order = 0, 0
+        for module, _ in contacts:
+            self._stick(module)
+        self.chatter = None
+
+    def _forget_unlisted(self, modules):
+        while self.record:
+            _, module, _, kind, state = self.record[-1]
+            speed = abs(state[4 + 2 * module] - state[5 + 2 * module])
+            if kind != IMPACT or module not in modules or speed > to_ball(LISTED_SPEED):
+                return
+            self.record.pop()
+
+
+def _relative(ball, motion):
+    """Taylor coefficients of W = X - Y: those of X from the second order on, the ball flying freely."""
+    if ball.stuck:
+        return [ball.gap]
+    return [ball.gap, ball.rate, *motion[2:]]
+
+
+def _force(ball, motion):
+    """Taylor coefficients of w X'', the acceleration that wall w gives a ball that rests on it."""
+    return [ball.wall * (k + 2) * (k + 1) * value for k, value in enumerate(motion[2:])]
+
+
+def _parabola_hint(distance, longest):
+    """Twice the root of the distance's first two terms, where that is far nearer than the longest step.
+
+    It separates the short flights of a chatter from the long step in one split.
+    """
+    height, slope = distance[0], distance[1]
+    if not (height > 0 and slope < 0):
+        return None
+    hint = (-2 * height / slope).mid()
+    return hint if 4 * hint < longest else None
+
+
+def _earliest(found, tolerance):
+    """The pairs (key, ball) whose ball may be the earliest, or comes within the tolerance of it."""
+    if not found:
+        return []
+    first = min(ball.upper() for _, ball in found)
+    return [(key, ball) for key, ball in found if ball.lower() <= first + tolerance]

@@ -1,0 +1,259 @@
+"""No more than a scene needs: for every figure the rungs of the ladder, their errors for what it shows, their costs.
+
+The order of the rungs is fixed here, from the cheapest to the dearest, so that no figure depends on a timing. A figure
+needs a rung whose error its lines cannot show: less than half their width, as a share of the axis.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import mpmath as mp
+import numpy as np
+import pandas as pd
+
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.accuracy.timing import shortest_time
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.exact.orbits.verdict import floquet
+from vibroimpact.figures.chapter import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
+from vibroimpact.figures.kit.fixed_point_table import labelled_points
+from vibroimpact.system import System
+from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.response import leading_order
+
+LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation")
+"""Rungs by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""
+
+DRAWN_BY = {
+    "fig10_03": fig10_03, "fig10_04": fig10_04, "fig10_05": fig10_05, "fig10_06": fig10_06, "fig10_07": fig10_07,
+    "fig10_08": fig10_08, "fig10_09": fig10_06, "fig10_10": fig10_10, "fig10_11": fig10_08,
+}  # fmt: skip
+DIGITS = 30
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One way to compute what a figure shows: its error as a share of the axis, or why it cannot, and the work."""
+
+    name: str
+    error: float
+    work: Callable | None = None
+    note: str = ""
+
+
+def visible(figure) -> float:
+    """The smallest error that the lines of a figure can show, as a share of an axis: half the thinnest line's width."""
+    figure.draw_without_rendering()
+    shares = []
+    for axes in figure.axes:
+        widths = [line.get_linewidth() for line in axes.lines if line.get_linestyle() != "None"]
+        height = axes.get_window_extent().height * 72.0 / figure.dpi
+        shares += [0.5 * min(widths) / height] if widths else []
+    return min(shares)
+
+
+def in_use(scene: dict, simulation: dict | None = None) -> str:
+    """The rung that the config names for a figure; a simulation carried with extra digits is the proven one."""
+    proven = scene["model"] == "simulation" and "digits" in (simulation or {})
+    return "proven simulation" if proven else scene["model"]
+
+
+def rows(figure: str, scene: dict, table: pd.DataFrame, rungs: list[Rung], rung_in_use: str, seconds: float) -> list:
+    """The rows of the table for one figure: rung, error, tolerance, cost in seconds, whether it is in use."""
+    tolerance = visible(DRAWN_BY[figure].draw(table))
+    return [
+        {
+            "figure": figure,
+            "rung": rung.name,
+            "error": rung.error,
+            "tolerance": tolerance,
+            "meets": rung.error <= tolerance,
+            "cost_s": _cost(rung.work, seconds),
+            "in_use": rung.name == rung_in_use,
+            "note": rung.note,
+        }
+        for rung in sorted(rungs, key=lambda rung: LADDER.index(rung.name))
+    ]
+
+
+def _cost(work, seconds):
+    if work is None:
+        return np.nan
+    work()
+    return shortest_time(work, seconds)
+
+
+def _share(values, truth, span):
+    """Largest difference as a share of an axis that spans so much."""
+    return float(np.abs(np.asarray(values, float) - np.asarray(truth, float)).max() / span)
+
+
+def _span(values):
+    return float(np.ptp(np.asarray(values, float)))
+
+
+def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFrame) -> list[Rung]:
+    """Figures 10.3 to 10.5: the formula in float64 against the same formula with 30 digits."""
+    with mp.workdps(DIGITS):
+        truth = {"fig10_03": _true_sawtooth, "fig10_04": _true_manifold, "fig10_05": _true_limit}[figure](scene, system)
+        series, x, y, f = truth
+        curve = table[table["series"].isin(series)]
+        if figure == "fig10_05":  # the shaded region is a polygon: without its two upper corners it is the limit
+            curve = curve[curve[y] < scene["C_range"][1]]
+        exact = [float(f(mp.mpf(float(value)))) for value in curve[x]]
+    work = {
+        "fig10_03": lambda: fig10_03.compute(scene["amplitude"], scene["theta"], scene["tau0_max"]),
+        "fig10_04": lambda: fig10_04.compute(system["kappa"], scene["C_max"]),
+        "fig10_05": lambda: fig10_05.compute(scene["C_range"]),
+    }[figure]
+    return [Rung("closed_form", _share(curve[y], exact, _span(table[y])), work)]
+
+
+def _true_sawtooth(scene, system):
+    def Z(tau):
+        return 2 / mp.pi * mp.mpf(scene["amplitude"]) * mp.asin(mp.cos(tau - mp.mpf(scene["theta"])))
+
+    return ["Z"], "tau0", "Z", Z
+
+
+def _true_manifold(scene, system):
+    r = 2 * (1 - mp.mpf(str(system["kappa"]))) / (mp.pi * (1 + mp.mpf(str(system["kappa"]))))
+    return ["SIM unstable", "SIM stable"], "C", "B", lambda C: mp.sqrt(1 - 2 * C + (1 + r**2) * C**2)
+
+
+def _true_limit(scene, system):
+    return ["stable"], "kappa", "C", lambda k: 4 / (4 + mp.pi * 2 * (1 - k) / (mp.pi * (1 + k)))
+
+
+def true_fixed_point(system: System, point):
+    """A fixed point of the slow flow solved anew with 30 digits: (10.23) as two complex equations, written out."""
+    with mp.workdps(DIGITS):
+        s = {name: mp.mpf(str(value)) for name, value in vars(system).items()}
+        r = 2 * (1 - s["kappa"]) / (mp.pi * (1 + s["kappa"]))
+        coupling = s["alpha12_hat"] + 1j * s["gamma12_hat"]
+        tuning = 2 * s["sigma_e_hat"] - s["alpha12_hat"], 2 * s["sigma_e_hat"] - s["alpha12_hat"] - s["sigma20_hat"]
+        damping = s["gamma1_hat"] + s["gamma12_hat"], s["gamma2_hat"] + s["gamma12_hat"]
+        force = s["f10_hat"], s["f20_hat"]
+
+        def residual(C1, psi1, C2, psi2):
+            C, B = (C1, C2), [mp.sqrt(1 - 2 * c + (1 + r**2) * c**2) for c in (C1, C2)]
+            b = [B[0] * mp.expj(-psi1), B[1] * mp.expj(-psi2)]
+            found = []
+            for i in range(2):
+                impacts = 8 / mp.pi**2 * C[i] * ((1 - C[i]) + 1j * r * C[i]) / B[i] ** 2
+                value = (tuning[i] - 1j * damping[i] - impacts) * b[i] + coupling * b[1 - i] + force[i]
+                found += [value.real, value.imag]
+            return found
+
+        C1, psi1, C2, psi2 = mp.findroot(residual, [point.C[0], point.psi[0], point.C[1], point.psi[1]])
+        B = [mp.sqrt(1 - 2 * c + (1 + r**2) * c**2) for c in (C1, C2)]
+        return SimpleNamespace(C=(C1, C2), B=B, psi=(psi1, psi2), rho=r)
+
+
+def slow_flow_rungs(figure: str, scene: dict, system: System, points: pd.DataFrame, table: pd.DataFrame) -> list[Rung]:
+    """Figures of fixed points (10.6, 10.9) and of their response (10.7, 10.10)."""
+    known = labelled_points(points)
+    if "fixed_point" in scene:
+        known = [point for point in known if point.label == scene["fixed_point"]]
+    truths = [true_fixed_point(system, point) for point in known]
+    if "fixed_point" in scene:
+        tau = np.linspace(0.0, system.period, 200)
+        got = leading_order(system, known[0], tau)
+        errors = [_share(getattr(got, name), _true_response(system, truths[0], tau, name), 2.0) for name in "UXWY"]
+    else:
+        errors = [
+            _share(np.r_[p.C, p.B], [*t.C, *t.B], min(scene["C_max"])) for p, t in zip(known, truths, strict=True)
+        ]
+    return [
+        Rung("closed_form", np.inf, note="gives the manifold, not the points on it"),
+        Rung("slow_flow", max(errors), lambda: fixed_points(system)),
+    ]
+
+
+def _true_response(system, point, tau, name):
+    """U, W, X or Y of (10.9), (10.10) with 30 digits, shape (n, 2)."""
+    values = np.empty((len(tau), 2))
+    with mp.workdps(DIGITS):
+        omega = 1 + mp.mpf(str(system.epsilon)) * mp.mpf(str(system.sigma_e_hat))
+        e = mp.mpf(str(system.epsilon))
+        for i in range(2):
+            C, B, psi = point.C[i], point.B[i], point.psi[i]
+            lag = mp.atan2(1 - C, point.rho * C)
+            for n, t in enumerate(tau):
+                phase = omega * mp.mpf(float(t)) - psi
+                U = B * mp.sin(phase)
+                W = U + 2 / mp.pi * C * mp.asin(mp.cos(phase - lag))
+                X = (U + e * W) / (1 + e)
+                values[n, i] = {"U": U, "W": W, "X": X, "Y": X - W}[name]
+    return values
+
+
+def settled_rungs(system: System, settings: dict, points: pd.DataFrame, samples: pd.DataFrame) -> list[Rung]:
+    """Figure 10.8: the motion that is observed, X_2 and W_2 over one forcing period."""
+    per_cycle = settings["samples_per_cycle"]
+    drawn = samples.iloc[-per_cycle - 1 : -1]
+    phase = np.arange(per_cycle) / per_cycle * system.period
+    truth = _settled_truth(system, drawn.iloc[0, 1:].to_numpy(float), phase)
+    span = 2 * np.abs(truth[:, 0]).max()
+
+    def error(X2, W2):
+        return max(_share(X2, truth[:, 0], span), _share(W2, truth[:, 1], 2.0))
+
+    theory = []
+    for point in labelled_points(points):
+        response = leading_order(system, point, phase)
+        theory.append(error(response.X[:, 1], response.W[:, 1]))
+    stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
+    drawn_error = error(drawn["X2"], drawn["X2"] - drawn["Y2"])
+    cycles = settings["transient_cycles"] + settings["window_cycles"]
+    followed = [simulate(system, orbit.state, 1, sample_times=phase).samples for orbit in stable]
+    orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
+    return [
+        Rung("closed_form", np.inf, note="gives no motion of this system"),
+        Rung("slow_flow", min(theory), lambda: fixed_points(system), "nearest fixed point, leading order"),
+        Rung("simulation", drawn_error, lambda: simulate(system, settings["initial_state"], cycles)),
+        Rung("orbit", orbit_error, lambda: orbits(system), "the stable one; an unstable one is never drawn"),
+    ]
+
+
+def _settled_truth(system, state, phase, digits=40):
+    """X_2 and W_2 (n, 2) of the periodic motion next to a state, by one Newton step of the 40-digit period map."""
+    jacobian = simulate(system, state, 1).jacobian
+    moved = reference_run(system, [repr(float(x)) for x in state], 1, digits).final - state
+    start = state - np.linalg.solve(jacobian - np.eye(8), moved)
+    samples = reference_run(system, [repr(float(x)) for x in start], 1, digits, sample_times=phase).samples
+    return np.column_stack([samples[:, 2], samples[:, 2] - samples[:, 3]])
+
+
+def modulated_rungs(system: System, settings: dict, points, samples: pd.DataFrame, agreement: float) -> list[Rung]:
+    """Figure 10.11: X_2 and W_2 over the window, against the proved trajectory that the figure shows."""
+    tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
+    W2 = X2 - samples["Y2"].to_numpy()
+    cycles = settings["transient_cycles"] + settings["window_cycles"]
+
+    def error(other_X2, other_W2):
+        return max(_share(other_X2, X2, _span(X2)), _share(other_W2, W2, 2.0))
+
+    theory = [leading_order(system, point, tau) for point in labelled_points(points)]
+    floating = simulate(system, settings["initial_state"], cycles, sample_times=tau).samples
+    stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
+    digits = settings["digits"]
+    return [
+        Rung("closed_form", np.inf, note="gives no motion of this system"),
+        Rung("slow_flow", min(error(r.X[:, 1], r.W[:, 1]) for r in theory), lambda: fixed_points(system)),
+        Rung(
+            "simulation",
+            error(floating[:, 2], floating[:, 2] - floating[:, 3]),
+            lambda: simulate(system, settings["initial_state"], cycles),
+            "float64: beyond its horizon",
+        ),
+        Rung("orbit", np.inf, lambda: orbits(system), f"{len(stable)} stable orbits"),
+        Rung(
+            "proven simulation",
+            agreement,
+            lambda: reference_run(system, settings["initial_state"], cycles, digits),
+            f"{digits} digits, proved by doubling them",
+        ),
+    ]

@@ -1,1 +1,0 @@
-"""Checks of inputs and outputs of the pipeline."""

@@ -1,0 +1,1 @@
+"""The chapter's claims, each judged by a check that computes."""

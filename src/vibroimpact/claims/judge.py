@@ -1,0 +1,83 @@
+"""The chapter's claims, each judged by a check that computes: the verdict is never written by hand.
+
+A claim is a mapping with id, place, statement, check (name of a function of the modules below), arguments (optional,
+of that function) and refuted_by (what would refute it); docs/claims.yaml holds them all. A check takes the Evidence and
+the arguments, and returns a Finding.
+"""
+
+from vibroimpact.claims import equations as claims_equations
+from vibroimpact.claims import manifold as claims_manifold
+from vibroimpact.claims import motion as claims_motion
+from vibroimpact.claims import points as claims_points
+from vibroimpact.claims.evidence import Evidence
+from vibroimpact.claims.finding import VERDICTS
+
+MODULES = (claims_equations, claims_manifold, claims_points, claims_motion)
+CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
+FIELDS = ("id", "place", "statement", "check", "refuted_by")
+
+
+def problems(claims: list[dict]) -> list[str]:
+    """What is wrong with a list of claims, a line each: missing or unknown fields, ids given twice, unknown checks."""
+    found = []
+    ids = [claim.get("id") for claim in claims]
+    for place, claim in enumerate(claims, start=1):
+        name = claim.get("id") or f"claim {place}"
+        found += [f"{name}: {field} is missing" for field in FIELDS if not claim.get(field)]
+        found += [f"{name}: unknown field {field!r}" for field in claim.keys() - {*FIELDS, "arguments"}]
+        if ids.index(claim.get("id")) < place - 1:
+            found.append(f"{name}: id given twice")
+        if claim.get("check") and claim["check"] not in CHECKS:
+            found.append(f"{name}: no check is called {claim['check']!r}")
+    return found
+
+
+def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
+    """The claims, each with its verdict, the parts that hold or do not, and the numbers.
+
+    Raises:
+        ValueError: the list of claims has problems.
+    """
+    found = problems(claims)
+    if found:
+        raise ValueError("claims: " + "; ".join(found))
+    judged = []
+    for claim in claims:
+        finding = CHECKS[claim["check"]](evidence, **claim.get("arguments", {}))
+        judged.append({**claim, "verdict": finding.verdict, "parts": finding.parts, "numbers": finding.numbers})
+    return judged
+
+
+def to_markdown(judged: list[dict]) -> str:
+    """A readable table of judged claims, after a count of verdicts."""
+    counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in VERDICTS}
+    lines = [
+        "# The claims of the chapter",
+        "",
+        f"{len(judged)} claims of sections 10.2 to 10.5: "
+        + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+        + ".",
+        "",
+        "| claim | place | what it says | verdict | parts and numbers | refuted by |",
+        "| --- | --- | --- | --- | --- | --- |",
+    ]
+    return "\n".join(lines + [_row(claim) for claim in judged]) + "\n"
+
+
+def _row(claim):
+    parts = [f"{part}: {_WORDS[holds]}" for part, holds in claim["parts"].items()]
+    numbers = [f"{name} = {_shown(value)}" for name, value in claim["numbers"].items()]
+    cells = [claim["id"], claim["place"], claim["statement"], f"**{claim['verdict']}**"]
+    cells += ["; ".join(parts) + (". " if numbers else "") + ", ".join(numbers), claim["refuted_by"]]
+    return "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |"
+
+
+_WORDS = {True: "yes", False: "no", None: "open"}
+
+
+def _shown(value):
+    if isinstance(value, float):
+        return f"{value:.5g}"
+    if isinstance(value, list):
+        return "(" + ", ".join(_shown(item) for item in value) + ")"
+    return str(value)

@@ -1,0 +1,132 @@
+"""Checks of section 10.3 on the manifold: its fold, where the ball stays inside, and which part of it is stable."""
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from vibroimpact.claims.finding import Finding
+from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, rho
+from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
+from vibroimpact.theory.penetration import largest_C
+from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.stability import limit_with_squares, printed_limit
+
+CHECKS = (
+    "fold_of_the_manifold",
+    "no_penetration",
+    "printed_condition",
+    "two_branches",
+    "right_arm_is_stable",
+    "left_arm_has_a_stable_piece",
+    "printed_limit_left_of_the_fold",
+    "stability_regions",
+)
+KAPPAS = np.linspace(0.01, 0.99, 99)
+_SURPLUS = 1e-9
+
+
+def fold_of_the_manifold(evidence):
+    """(10.25) against a minimisation of (10.16)."""
+    place, level = 0.0, 0.0
+    for kappa in KAPPAS:
+        r = rho(kappa)
+        found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
+        place = max(place, abs(found.x - C_min(r)))
+        level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
+    # The place of a minimum is known to the square root of rounding, its level to rounding.
+    numbers = {"largest error of C_min": place, "of B_min": level}
+    return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
+
+
+def no_penetration(evidence):
+    """|W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points, for large C."""
+    kappa = evidence.system.kappa
+    points = evidence.fixed_points[["C1", "C2"]].to_numpy()
+    end = largest_C(kappa)
+    parts = {
+        "none for C < 0": all(_furthest(C, kappa) > 1 for C in (-1.0, -0.1, -0.01)),
+        "all fixed points": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in points.ravel()),
+        "all C >= 0": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in np.linspace(0.0, 3 * end, 100)),
+    }
+    numbers = {"largest C inside": end, "largest C of a fixed point": points.max()}
+    return Finding(parts, numbers | {"furthest at twice the largest C": _furthest(2 * end, kappa)})
+
+
+def _furthest(C, kappa):
+    t = np.linspace(0, 2 * np.pi, 20001)
+    r = rho(kappa)
+    return np.abs(B_of_C(C, r) * np.sin(t + impact_phase(C, r)) + sawtooth(t, C, 0.0)).max()
+
+
+def printed_condition(evidence):
+    """(10.26) against the multipliers of the impact map: at the limit, and all the way above it."""
+    kappa = evidence.system.kappa
+    limit, squared, end = printed_limit(rho(kappa)), limit_with_squares(rho(kappa)), largest_C(kappa)
+    at_limit, at_squared = (np.abs(impact_multipliers(C, kappa)).max() for C in (limit, squared))
+    above = np.linspace(limit, end, 500)[1:]
+    stable = np.array([_is_stable(C, kappa) for C in above])
+    below = np.array([_is_stable(C, kappa) for C in np.linspace(0.0, limit, 200)[1:]])
+    parts = {
+        "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
+        "all motions above it are stable": stable.all(),
+    }
+    numbers = {
+        "(10.26)": limit,
+        "largest multiplier there": at_limit,
+        "with squares": squared,
+        "largest multiplier at that": at_squared,
+        "derived lower limit": lower_limit(kappa),
+        "derived upper limit": upper_limit(kappa),
+        "stable share above": stable.mean(),
+        "stable share below": below.mean(),
+    }
+    return Finding(parts, numbers)
+
+
+def _is_stable(C, kappa):
+    return np.abs(impact_multipliers(C, kappa)).max() < 1
+
+
+def two_branches(evidence):
+    """One stable and one unstable branch: stability changes once along the curve."""
+    kappa = evidence.system.kappa
+    C = np.linspace(0.0, largest_C(kappa), 4001)[1:]
+    stable = np.array([_is_stable(c, kappa) for c in C])
+    changes = int(np.sum(stable[1:] != stable[:-1]))
+    return Finding({"stability changes once": changes == 1}, {"changes": changes})
+
+
+def right_arm_is_stable(evidence):
+    """The right arm, from the fold to where it still is a motion."""
+    kappa = evidence.system.kappa
+    fold, end = lower_limit(kappa), largest_C(kappa)
+    C = np.linspace(fold, end, 2002)[1:-1]
+    stable = np.array([_is_stable(c, kappa) for c in C])
+    parts = {"just right of the fold": stable[0], "all the way": stable.all()}
+    return Finding(parts, {"stable up to C": C[stable].max(), "stable share of the arm": stable.mean()})
+
+
+def left_arm_has_a_stable_piece(evidence):
+    """The left arm, and its piece right of (10.26) above all."""
+    kappa = evidence.system.kappa
+    limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
+    piece = [_is_stable(C, kappa) for C in np.linspace(limit, fold, 502)[1:-1]]
+    arm = [_is_stable(C, kappa) for C in np.linspace(0, fold, 2002)[1:-1]]
+    numbers = {"from": limit, "to": fold, "stable share of the piece": np.mean(piece)}
+    return Finding({"a piece of the left arm is stable": any(piece) or any(arm)}, numbers)
+
+
+def printed_limit_left_of_the_fold(evidence):
+    """As Fig. 10.5 shows (10.26): below the curve C_min(kappa) throughout."""
+    gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
+    numbers = {"narrowest gap": gap.min(), "widest": gap.max()}
+    return Finding({"for all kappa": (gap > 0).all()}, numbers)
+
+
+def stability_regions(evidence):
+    """The shaded region of Fig. 10.5, C above (10.26): share of its part with C <= 1.1 that is stable in truth."""
+    inside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) < C]
+    outside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) > C]
+    shaded = np.mean([_is_stable(C, k) for k, C in inside])
+    white = np.mean([not _is_stable(C, k) for k, C in outside])
+    parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1}
+    return Finding(parts, {"stable share of the shaded": shaded, "unstable share of the white": white})

@@ -1,0 +1,247 @@
+"""Checks of sections 10.4 and 10.5 on motions: simulated responses, modulation, and what the theory is worth."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.claims.finding import Finding
+from vibroimpact.claims.points import theory
+from vibroimpact.claims.verdict_table import NO_ORBIT
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
+from vibroimpact.regimes.epsilon_limit import compare
+from vibroimpact.regimes.slow_variables import measure
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.penetration import stays_within_walls
+
+CHECKS = (
+    "steady_two_impacts",
+    "numerical_results_are_similar",
+    "transients_are_long",
+    "only_possible_behaviour",
+    "no_practical_importance",
+    "resonant_intervals",
+    "beating",
+    "lower_amplitudes_end_stable_responses",
+    "unstable_means_modulated",
+    "periodic_solutions",
+    "assesses_stability",
+    "restitution_far_from_unity",
+)
+SIMILAR = 0.1
+"""Largest relative difference of amplitudes that are called similar here: what a figure of the chapter shows."""
+LARGE = 0.5 / np.sqrt(2)
+"""Standard deviation over mean of the amplitudes 1 + d cos of a beat of depth d = 1/2, largest 3 times smallest."""
+PER_CYCLE = 2
+SMALL = 2e-4, 1e-4
+"""Two epsilon, each small enough that the distance of theory and truth is proportional to it."""
+SAYINGS = [STABLE, UNSTABLE]
+DISPLACEMENTS = ["X1", "Y1", "X2", "Y2"]
+
+
+def steady_two_impacts(evidence, case):
+    """The simulated window repeats every cycle, and each ball meets each wall once in it."""
+    simulation = evidence.simulations[case]
+    cycles = simulation.summary["settings"]["window_cycles"]
+    change = simulation.summary["largest_change_after_cycles"]["1"]
+    counts = [simulation.summary["events"]["impact"][str(module)] for module in (1, 2)]
+    impacts = _impacts(simulation)
+    alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
+    parts = {
+        "repeats every cycle": change < 1e-6,
+        # One may lie on the edge of the window.
+        "two impacts per cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
+    }
+    return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})
+
+
+def _impacts(simulation):
+    return simulation.events[simulation.events["kind"] == "impact"]
+
+
+def numerical_results_are_similar(evidence, case, label):
+    """A simulated response against the predicted one: amplitudes C and B, and the symmetry that the prediction has."""
+    row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
+    measured = _measured(evidence.systems[case], simulation)
+    predicted = {name: row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B")}
+    off = {name: np.abs(getattr(measured, name) / value - 1) for name, value in predicted.items()}
+    lean = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
+    parts = {
+        **{f"amplitudes {name} within a tenth": (values < SIMILAR).all() for name, values in off.items()},
+        "symmetric as predicted": lean.max() < 1e-6,
+    }
+    numbers = {"difference of flight times": lean}
+    for name in predicted:
+        numbers |= {f"{name} predicted": predicted[name], f"{name} simulated": getattr(measured, name)}
+        numbers |= {f"relative difference of {name}": off[name]}
+    return Finding(parts, numbers)
+
+
+def _measured(system, simulation):
+    """Slow variables of a simulated window."""
+    whole = simulation.samples.iloc[:-1]
+    return measure(system, whole["tau"].to_numpy(), whole[DISPLACEMENTS].to_numpy(), _impacts(simulation))
+
+
+def transients_are_long(evidence, case):
+    """Cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
+    motions = evidence.motions(case)
+    stable = motions[motions["floquet"] == STABLE]
+    cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
+    return Finding({"longer than the cycles shown": cycles > 10}, {"cycles to a tenth": cycles})
+
+
+def only_possible_behaviour(evidence, case):
+    """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest."""
+    shares = evidence.measured(case, "spread", "share of starts").set_index("regime")["mean"]
+    (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
+    motions = evidence.motions(case)
+    parts = {
+        "no stable 1:1 response": not (motions["floquet"] == STABLE).any(),
+        "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
+        "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
+    }
+    numbers = {f"share {regime}": share for regime, share in shares.items()}
+    return Finding(parts, numbers | {"from rest": rest, "one ball idle from rest": rest == IDLE})
+
+
+def no_practical_importance(evidence, case, label):
+    """The orbit of an unstable fixed point is not observed: it is unstable itself, and nothing stays near it."""
+    partner = evidence.points(case).loc[label, "orbit"]
+    orbit = evidence.motions(case).set_index("label").loc[partner]
+    parts = {"its orbit is not stable": orbit["floquet"] != STABLE}
+    return Finding(parts, {"largest multiplier": orbit["modulus_1"]})
+
+
+def resonant_intervals(evidence, case):
+    """Bursts of resonant flights, and shorter gaps between them, irregular by the largest Lyapunov exponent."""
+    share, burst = (
+        evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
+        for quantity in ("resonant share", "burst length")
+    )
+    gap = burst * (1 - share) / share
+    row = evidence.measured(case, "spread", "largest Lyapunov exponent").iloc[0]
+    parts = {
+        "intervals of resonant motion": (burst > 1).all(),
+        "shorter non-resonant ones between": (gap < burst).all(),
+        "irregular": row["mean"] > 5 * row["uncertainty"],
+    }
+    numbers = {"resonant share": share.tolist(), "burst, cycles": burst.tolist(), "gap, cycles": gap.tolist()}
+    return Finding(parts, numbers | {"largest Lyapunov exponent": row["mean"]})
+
+
+def beating(evidence, case):
+    """Amplitudes of each box vary more than in a sinusoidal beat whose largest is 3 times its smallest."""
+    rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
+    found = rows["mean"].loc[[1, 2]]
+    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
+    return Finding(parts, {"amplitude variation": found.tolist()})
+
+
+def lower_amplitudes_end_stable_responses(evidence, sequence):
+    """From case to case: fixed points stable by the theory and in truth, and where the last motion ends."""
+    points = [evidence.points(case) for case in sequence]
+    by_theory = [sum(theory(row) == STABLE for _, row in rows.iterrows()) for rows in points]
+    in_truth = [int((rows["floquet"] == STABLE).sum()) for rows in points]
+    others = [int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in sequence]
+    share = _modulated_share(evidence, sequence[-1])
+    parts = {
+        "a stable fixed point at first, by theory": by_theory[0] > 0,
+        "a stable fixed point at first, in truth": in_truth[0] > 0,
+        "none at last": by_theory[-1] == in_truth[-1] == 0,
+        "modulated response at last": share > 0,
+    }
+    numbers = {"stable by theory": by_theory, "stable in truth": in_truth, "stable 1:1 orbits of any kind": others}
+    return Finding(parts, numbers | {"modulated share at last": share})
+
+
+def unstable_means_modulated(evidence):
+    """The observed cases whose fixed points all are unstable in truth: share of spread starts that end modulated."""
+    observed = evidence.modulation["case"].unique()
+    unstable = [case for case in observed if (evidence.points(case)["floquet"] == UNSTABLE).all()]
+    shares = {case: _modulated_share(evidence, case) for case in unstable}
+    parts = {"modulated wherever all fixed points are unstable": all(share == 1 for share in shares.values())}
+    return Finding(parts, {f"modulated share, {case}": share for case, share in shares.items()})
+
+
+def _modulated_share(evidence, case):
+    shares = evidence.measured(case, "spread", "share of starts").set_index("regime")["mean"]
+    return shares.get(STRONGLY_MODULATED, 0.0)
+
+
+def periodic_solutions(evidence, f10_hat, f20_hat):
+    """Every fixed point has an exact orbit that stays between the walls: of the cases, over a grid, at given forces."""
+    both = evidence.fixed_points.merge(
+        evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
+    )
+    off = np.hypot(both["C1"] - both["C1_exact"], both["C2"] - both["C2_exact"])
+    grid, system = _at_epsilon(evidence), evidence.system.with_(f10_hat=f10_hat, f20_hat=f20_hat)
+    folds = evidence.special_points.query("path == 'f20_hat' and kind == 'fold'").groupby("family")["p"].min()
+    parts = {
+        "an exact orbit for each of the chapter's": len(both) == len(evidence.fixed_points),
+        "that stays between the walls": both["admissible_exact"].all(),
+        "one for each over the grid of forces": grid["admissible"].all(),
+    }
+    numbers = {
+        "points": len(evidence.fixed_points),
+        "largest distance in C": off.max(),
+        "points over the grid": len(grid),
+        "without an orbit between the walls": int((~grid["admissible"]).sum()),
+        f"fixed points at forces {f10_hat}, {f20_hat}": len(fixed_points(system)),
+        "exact orbits there": sum(orbit.symmetric and orbit.admissible for orbit in orbits(system)),
+        "f20 of the fold of fixed points": folds["fixed point"],
+        "f20 of the fold of exact orbits": folds["symmetric orbit"],
+    }
+    return Finding(parts, numbers)
+
+
+def _at_epsilon(evidence):
+    """The grid of verdicts at the epsilon of the cases."""
+    grid = evidence.verdict_grid
+    return grid[grid["epsilon"] == evidence.system.epsilon]
+
+
+def assesses_stability(evidence):
+    """Criteria against the multipliers of the exact orbits over a grid of forces: is what they say right, mostly?
+
+    Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable.
+    """
+    grid = evidence.verdict_grid.assign(theory=[theory(row) for _, row in evidence.verdict_grid.iterrows()])
+    judged = grid[grid["floquet"].isin(SAYINGS)]
+    parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["floquet"] == NO_ORBIT).sum())}
+    for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
+        for epsilon, rows in judged.groupby("epsilon", sort=False):
+            matrix = pd.crosstab(rows[criterion], rows["floquet"]).reindex(index=SAYINGS, columns=SAYINGS, fill_value=0)
+            numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
+            if epsilon == evidence.system.epsilon:
+                for saying in SAYINGS:
+                    right, said = matrix.loc[saying, saying], matrix.loc[saying].sum()
+                    parts[f"{saying} by {name} is right, mostly"] = 2 * right > said
+                    numbers[f"{saying} by {name}, share right"] = right / said if said else None
+    points = evidence.fixed_points
+    numbers["of the chapter's points"] = len(points)
+    numbers["right by (10.26)"] = int((points["printed_10_26"] == points["floquet"]).sum())
+    both = np.array([theory(row) for _, row in points.iterrows()])
+    numbers["right by fast and slow"] = int((both == points["floquet"]).sum())
+    return Finding(parts, numbers)
+
+
+def restitution_far_from_unity(evidence, kappas):
+    """At restitution coefficients from small to large: fixed points next to exact orbits, and balls between walls.
+
+    A fixed point is next to an orbit if their distance falls like epsilon; there must be as many of both.
+    """
+    parts, numbers = {}, {}
+    for kappa in kappas:
+        system = evidence.system.with_(kappa=kappa)
+        points = fixed_points(system)
+        roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))
+        ratios = [np.divide(*(compare(system.with_(epsilon=e), point).distance for e in SMALL)) for point in points]
+        motions = int((roots[:, 2:] > 0).all(axis=1).sum())
+        parts[f"kappa = {kappa}: as the exact orbits"] = motions == len(points) and np.allclose(ratios, 2, rtol=0.05)
+        if points:
+            inside = [all(stays_within_walls(C, kappa) for C in point.C) for point in points]
+            parts[f"kappa = {kappa}: between the walls"] = all(inside)
+        numbers[f"fixed points at {kappa}"] = len(points)
+    return Finding(parts, numbers)

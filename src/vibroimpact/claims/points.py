@@ -1,0 +1,159 @@
+"""Checks of section 10.4 on fixed points: how many, where, how stable, how they move, and the singular points."""
+
+from itertools import permutations
+
+import numpy as np
+from scipy.optimize import brentq
+
+from vibroimpact.claims.finding import Finding
+from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+from vibroimpact.theory.fixed_points.labels import labels
+from vibroimpact.theory.fixed_points.polynomials import Balance
+from vibroimpact.theory.fixed_points.search import fixed_points, search
+from vibroimpact.theory.fixed_points.singular_points import determinant, singular_points
+from vibroimpact.theory.manifold import B_of_C, C_min, rho
+from vibroimpact.theory.slow_flow import rates
+
+CHECKS = (
+    "number_of_fixed_points",
+    "phases_can_be_eliminated",
+    "label_of_a_point",
+    "stable_points",
+    "on_the_left_arm",
+    "points_move_left",
+    "stable_point_moves_down_the_right_arm",
+    "singular_and_bifurcating",
+    "places_of_singular_points",
+)
+NAMES = ("C1", "C2")
+
+
+def number_of_fixed_points(evidence, case, number):
+    """The list, proved complete in interval arithmetic."""
+    proof = evidence.certificates[case]["fixed_points"]
+    listed = len(evidence.points(case))
+    parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
+    return Finding(parts, {"listed": listed, "proved, of either sign": proof["proved"], "complete": proof["complete"]})
+
+
+def phases_can_be_eliminated(evidence):
+    """Equations in B_i and C_i alone lead to all fixed points: each solves (10.23), and none is missing."""
+    worst, complete = 0.0, True
+    for case, system in evidence.systems.items():
+        complete &= evidence.certificates[case]["fixed_points"]["complete"]
+        for point in search(system).points:
+            worst = max(worst, np.abs(rates(system, point.B, point.psi, point.C)).max())
+    parts = {"all solve (10.23)": worst < 1e-12, "proved complete": complete}
+    return Finding(parts, {"largest residual of (10.23)": worst})
+
+
+def label_of_a_point(evidence, case, label, says):
+    """What a caption calls a point: against the theory with both time scales, and against its exact orbit."""
+    row = evidence.points(case).loc[label]
+    said = theory(row)
+    parts = {
+        f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
+        f"{says} in truth": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
+    }
+    criteria = ("printed_10_26", "masri_derived", "slow_flow", "floquet")
+    return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
+
+
+def theory(row):
+    """Verdict of both time scales together."""
+    says = {row["masri_derived"], row["slow_flow"]}
+    return UNSTABLE if UNSTABLE in says else STABLE if says == {STABLE} else UNDECIDED
+
+
+def stable_points(evidence, case, number):
+    """How many fixed points of a case are stable: by (10.26), by the theory carried through, in truth."""
+    points = evidence.points(case)
+    counts = {
+        "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
+        "by theory, fast and slow": sum(theory(row) == STABLE for _, row in points.iterrows()),
+        "in truth": int((points["floquet"] == STABLE).sum()),
+    }
+    return Finding({f"{number} {name}": count == number for name, count in counts.items()}, counts)
+
+
+def on_the_left_arm(evidence, case, label, modules):
+    """Projections of a point against the fold of the manifold."""
+    row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
+    parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
+    return Finding(parts, {"C": row[list(NAMES)].tolist(), "C_min": fold})
+
+
+def points_move_left(evidence, before, after):
+    """Every projection, from one case to the other, label by label; also the best that any pairing can do."""
+    first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
+    parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
+    pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
+    moved = {"moves to the left": sum(parts.values()), "of": len(parts)}
+    return Finding(parts, moved | {"in the pairing with most": max(pairings)})
+
+
+def stable_point_moves_down_the_right_arm(evidence, before, after, label):
+    """Both projections of the point that the captions call stable in both cases."""
+    fold = C_min(rho(evidence.system.kappa))
+    first, last = evidence.points(before).loc[label], evidence.points(after).loc[label]
+    parts = {f"P{i}": fold < last[f"C{i}"] < first[f"C{i}"] and last[f"B{i}"] < first[f"B{i}"] for i in (1, 2)}
+    return Finding(parts, {"C before": first[list(NAMES)].tolist(), "C after": last[list(NAMES)].tolist()})
+
+
+def singular_and_bifurcating(evidence, case, f20_range):
+    """Does P_i on S_i go with a bifurcation? Where a point is singular, and where two of them merge."""
+    system = evidence.systems[case]
+    meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)
+    here = system.with_(f20_hat=meeting)
+    point = min(fixed_points(here), key=lambda p: _nearest_singular(here, p))
+    counts = [len(fixed_points(system.with_(f20_hat=meeting + shift))) for shift in (-1e-3, 0.0, 1e-3)]
+    rate = np.abs(point.slow_eigenvalues).min()
+    special = evidence.special_points.set_index(["path", "family", "kind"])
+    fold = special.loc[[("f20_hat", "fixed point", "fold")]].iloc[0]
+    at_fold = system.with_(f20_hat=fold["p"] + 1e-6)
+    merging = min(fixed_points(at_fold), key=lambda p: np.abs(p.C - fold[list(NAMES)].to_numpy(float)).max())
+    distance = _nearest_singular(at_fold, merging)
+    parts = {
+        "a fixed point becomes singular": _nearest_singular(here, point) < 1e-6,
+        "their number changes there": len(set(counts)) > 1,
+        "an eigenvalue vanishes there": rate < 1e-3,
+        "a point is singular where two merge": distance < 1e-2,
+    }
+    numbers = {"f20 of P1 = S1": meeting, "number of points there": counts[1], "smallest |eigenvalue|": rate}
+    return Finding(parts, numbers | {"f20 of the fold": fold["p"], "nearest S at the fold": distance})
+
+
+def _determinant_on_branch(system, f20):
+    """The determinant of (10.24) at the point labelled like the second of the case with unequal forces."""
+    there = system.with_(f20_hat=f20)
+    points = sorted(fixed_points(there), key=lambda point: point.C[1])
+    return determinant(there, points[-2].C)
+
+
+def _nearest_singular(system, point):
+    """Distance in C of the nearer of both projections from its nearest singular point."""
+    gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
+    return np.concatenate(gaps).min(initial=np.inf)
+
+
+def places_of_singular_points(evidence, case, label):
+    """S_1 by two eliminations that both lead from (10.23) to equations in B_i, C_i; (10.24) is not printed."""
+    system = evidence.systems[case]
+    listed = fixed_points(system)
+    point = next(p for name, p in zip(labels(system, listed), listed, strict=True) if name == label)
+    first = singular_points(system, point, 1)[:, 0]
+    C = np.linspace(0.0, 3.0, 3001)
+    other = np.array([_other_determinant(system, [c, point.C[1]]) for c in C])
+    second = C[:-1][np.diff(np.sign(other)) != 0]
+    same = len(first) == len(second) and np.allclose(first, second, atol=2e-3)
+    numbers = {"S1 by sin^2 + cos^2 = 1": first.tolist(), "S1 by the product of both": second.tolist()}
+    return Finding({"the squares are where (10.24) is singular": True if same else None}, numbers)
+
+
+def _other_determinant(system, C):
+    """|K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2, which keeps it finite."""
+    balance = Balance.of(system)
+    z, q = balance.at(C)
+    p = q + balance.K * z
+    B = B_of_C(np.asarray(C), rho(system.kappa))
+    return abs(balance.K) ** 4 * np.prod(B**2) - abs(np.prod(p)) ** 2

@@ -1,0 +1,89 @@
+"""Four criteria on every fixed point and orbit of a case: (10.26), Masri's analysis, slow flow, multipliers."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.exact.orbits.verdict import floquet
+from vibroimpact.theory import criteria as verdicts
+from vibroimpact.theory.penetration import stays_within_walls
+
+CRITERIA = (*verdicts.CRITERIA, "floquet")
+NO_ORBIT = "no orbit"
+REACH = 1.0
+"""An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
+next are above 2.5, where the orbits next to two fixed points have merged."""
+_SIDES = [(module, wall) for module in (1, 2) for wall in ("plus", "minus")]
+_PHASES = [f"phase{module}_{wall}" for module, wall in _SIDES]
+_SPEEDS = [f"speed{module}_{wall}" for module, wall in _SIDES]
+_MODULI = [f"modulus_{k}" for k in range(1, 9)]
+_OF_ORBIT = [
+    "case",
+    "label",
+    "symmetric",
+    "admissible",
+    "C1",
+    "C2",
+    *_PHASES,
+    *_SPEEDS,
+    *_MODULI,
+    "residual",
+    *CRITERIA,
+]
+
+
+def orbit_rows(case: str, orbits) -> pd.DataFrame:
+    """A row per exact orbit, in order: what it is and what the criteria say.
+
+    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
+    of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
+    (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, residual, one column per
+    criterion.
+    """
+    counts = {True: 0, False: 0}
+    rows = []
+    for orbit in orbits:
+        counts[orbit.symmetric] += 1
+        label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
+        says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
+        kind = [case, label, orbit.symmetric, orbit.admissible]
+        numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
+        rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
+    return pd.DataFrame(rows, columns=_OF_ORBIT)
+
+
+def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
+    """A row per fixed point, by label: what the criteria say, the multipliers being those of its exact orbit.
+
+    Args:
+        labelled: pairs (label, fixed point).
+        orbits: `orbit_rows` of the same case.
+
+    Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
+    orbit that goes with it, see `partners`; "" if there is none), one per criterion.
+    """
+    labelled = sorted(labelled, key=lambda pair: pair[0])
+    symmetric = orbits[orbits["symmetric"].astype(bool)]  # a table without rows has no types
+    found = partners([point.C for _, point in labelled], symmetric[["C1", "C2"]].to_numpy(float))
+    rows = []
+    for (label, point), place in zip(labelled, found, strict=True):
+        partner = None if place is None else symmetric.iloc[place]
+        exact = NO_ORBIT if partner is None else partner["floquet"]
+        within = all(stays_within_walls(C, system.kappa) for C in point.C)
+        says = {**verdicts.of_fixed_point(system, point), "floquet": exact}
+        known_as = "" if partner is None else partner["label"]
+        row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
+        rows.append({**row, "orbit": known_as, **says})
+    return pd.DataFrame(rows, columns=["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA])
+
+
+def partners(points, orbits) -> list[int | None]:
+    """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
+
+    None where another fixed point is nearer to that orbit, or there is none within REACH.
+    """
+    points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
+    if not len(orbits):
+        return [None] * len(points)
+    gaps = np.linalg.norm(points[:, None] - orbits[None], axis=2)
+    nearest = enumerate(gaps.argmin(axis=1))
+    return [int(k) if gaps[:, k].argmin() == n and gaps[n, k] < REACH else None for n, k in nearest]

@@ -1,0 +1,37 @@
+"""What a run writes down: its events, one row each, and a ledger of what its certificate needs besides.
+
+A row is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach]; the stick
+that completes a chatter is noted at the chatter's last simulated impact.
+"""
+
+from vibroimpact.exact.engine.compiled import inlined
+
+IMPACT, STICK, RELEASE = 0, 1, 2
+FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = range(6)
+"""Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
+neglect."""
+
+
+PHASE, APPROACH, ROW = 12, 13, 14  # places in a row, and its length
+
+
+@inlined
+def record(events, count, time, i, wall, kind, boxes, balls, approach=0.0):
+    """Write an event to its row of the table (m, ROW), all but its phase; returns the number of events.
+
+    approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
+    starts, at its stick.
+    """
+    row = events[count]
+    row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
+    pack(boxes, balls, row[4:PHASE])
+    row[APPROACH] = approach
+    return count + 1
+
+
+@inlined
+def pack(boxes, balls, state):
+    """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    for i in range(4):
+        state[2 * i] = boxes[i]
+        state[2 * i + 1] = balls[i]

@@ -1,0 +1,94 @@
+"""The event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
+
+Between events the flow is linear and evaluated in closed form (flow.advance). The next event is approached from the
+safe side (flight.fly), so nothing before it is missed. Events (contact.settle):
+
+impact    a ball meets a wall with outward relative velocity: Newton's restitution, momentum conserved;
+stick     the end of a chatter: infinitely many impacts in a finite time, completed at once when what that neglects is
+          below rounding; from then on box and ball move as one of mass 1 + epsilon;
+release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it jump below zero.
+
+Time is the forcing phase, kept modulo one period without loss (phase.ahead), so it does not lose digits in long runs.
+"""
+
+import math
+
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.constraints import gap_rounding
+from vibroimpact.exact.engine.contact import settle
+from vibroimpact.exact.engine.event_log import NEGLECTED, PHASE, ROW, pack
+from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
+from vibroimpact.exact.engine.motion import glide
+from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
+
+FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
+MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
+PATIENCE = 100_000  # events without any progress of time after which a run is given up
+MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
+"""A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
+
+
+@compiled
+def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, most_events):
+    """Run a state over a number of forcing cycles.
+
+    start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
+    when the run starts; samples (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns
+    the boxes and balls at the end, the events (m, ROW) as rows (books), the status and the ledger of the run.
+    """
+    q = flow.coefficients
+    events, count = np.empty((64, ROW)), 0
+    ledger = np.zeros(NEGLECTED + 1)
+    walls, touching, due = (0, 0), (0, 0), -1
+    (first, first_tail), revolutions, elapsed = start_phase, 0, 0.0
+    phase, tail = first, first_tail
+    sampled, stalled = 0, 0
+    most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
+    while True:
+        sine, cosine = math.sin(phase), math.cos(phase)
+        sine, cosine = sine + cosine * tail, cosine - sine * tail
+        if count + MOST_AT_ONCE > len(events):
+            events = np.concatenate((events, np.empty_like(events)))
+        ahead_of_start = (phase - first) + (tail - first_tail)
+        whole = cycles - revolutions
+        remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
+        noted = count
+        boxes, balls, walls, touching, count = settle(
+            flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
+        )
+        for k in range(noted, count):
+            events[k, PHASE] = phase
+        if remaining == 0.0:
+            break
+        most = most_proofs + MOST_PROOFS_PER_EVENT * count
+        t, due, later, there = fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, most, ledger)
+        for i in range(2):
+            beyond = abs(later[i] - there[i]) - 1.0
+            if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, later, there, i):
+                return later, there, events[:count], PENETRATED, ledger
+        stalled = 0 if t > 0.0 else stalled + 1
+        if stalled > PATIENCE or due == STUCK_IN_TIME:
+            return boxes, balls, events[:count], STALLED, ledger
+        if due == TIRED:
+            return boxes, balls, events[:count], EXHAUSTED, ledger
+        if count > most_events:
+            return boxes, balls, events[:count], CROWDED, ledger
+        if due < 0 and t >= remaining:
+            revolutions, phase, tail = cycles, first, first_tail
+        else:
+            phase, tail = ahead(phase, tail, q.omega, t)
+            if phase >= TWO_PI:
+                (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
+        before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
+        while sampled < len(sample_times) and sample_times[sampled] < start + elapsed:
+            lag = max(sample_times[sampled] - start - before, 0.0)
+            snapshot, flying = glide(flow, boxes, balls, walls, sine, cosine, lag)
+            pack(snapshot, flying, samples[sampled])
+            sampled += 1
+        boxes, balls, touching = later, there, (0, 0)
+    while sampled < len(sample_times):
+        pack(boxes, balls, samples[sampled])
+        sampled += 1
+    return boxes, balls, events[:count], FINISHED, ledger

@@ -1,0 +1,204 @@
+"""Free flight in closed form: the linear flow of the boxes, evaluated without time stepping.
+
+Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
+The flow over a time t is exp(A j h) from a table (`node`), then the Taylor polynomial there (`jet`) over the rest of
+at most h/2, short enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
+resonant spectra are no exception.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
+
+CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
+"""Which balls stick, in the order of the tables: index = stuck_1 + 2 stuck_2."""
+
+STEPS_PER_UNIT = 32
+LONGEST_TABLE = 8192
+
+
+class Coefficients(NamedTuple):
+    """The scalars of (10.2) as the compiled loops read them.
+
+    ground: stiffness of box 2 to ground (that of box 1 is 1); drive: |(f1, f2)|; growth: that of the sixth derivative
+    of the force; shift: the farthest that the force moves a box from rest within the tables; mass: that of box and
+    ball together.
+    """
+
+    k11: float
+    k12: float
+    k22: float
+    ground: float
+    c11: float
+    c12: float
+    c22: float
+    f1: float
+    f2: float
+    omega: float
+    epsilon: float
+    kappa: float
+    drive: float
+    growth: float
+    shift: float
+    mass: float
+    inverse_mass: float
+
+
+class Flow(NamedTuple):
+    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing (and its inverse),
+    their longest time.
+
+    unit: a time over which nothing in the system changes much, 1 / its fastest rate.
+    """
+
+    coefficients: Coefficients
+    propagators: np.ndarray
+    rotations: np.ndarray
+    spacing: float
+    density: float
+    longest: float
+    unit: float
+
+
+@lru_cache(maxsize=64)
+def flow_of(system) -> Flow:
+    """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
+    stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
+    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
+    propagators = np.array([_powers(rate_matrix(system, stuck), spacing, count) for stuck in CONTACT_STATES])
+    coefficients = Coefficients(
+        *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
+        system.stiffness2,
+        *(float(v) for v in (damping[0, 0], damping[0, 1], damping[1, 1])),
+        float(force[0]),
+        float(force[1]),
+        system.Omega,
+        system.epsilon,
+        system.kappa,
+        float(np.hypot(*force)),
+        float(np.hypot(*force)) * system.Omega**6,
+        float(np.abs(propagators[:, :, :2, 4:]).max()),
+        1.0 + system.epsilon,
+        1.0 / (1.0 + system.epsilon),
+    )
+    angles = system.Omega * spacing * np.arange(count)
+    rotations = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return Flow(
+        coefficients,
+        np.ascontiguousarray(propagators[:, :, :4, :]),
+        rotations,
+        spacing,
+        1.0 / spacing,
+        spacing * (count - 1),
+        1.0 / fastest,
+    )
+
+
+def _powers(rate, spacing, count):
+    """exp(rate spacing j) for j < count, in extended precision so that the table is rounded only once."""
+    scaled = rate.astype(np.longdouble) * spacing
+    term = np.eye(6, dtype=np.longdouble)
+    step = term.copy()
+    for k in range(1, 25):
+        term = term @ scaled / k
+        step = step + term
+    table = np.eye(6, dtype=np.longdouble)[None]
+    while len(table) < count:
+        table = np.concatenate([table, table @ step])
+        step = step @ step
+    return table[:count].astype(float)
+
+
+@inlined
+def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
+    """Box accelerations for inverse masses i1, i2 under the forces s1, s2 (also: next derivative of a derivative)."""
+    a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
+    a2 = i2 * (s2 - q.k12 * x1 - q.k22 * x2 - q.c12 * v1 - q.c22 * v2)
+    return a1, a2
+
+
+@inlined
+def inverse_masses(q, mode):
+    """1 / moving mass of each module in a contact state."""
+    return (q.inverse_mass if mode & 1 else 1.0), (q.inverse_mass if mode & 2 else 1.0)
+
+
+@inlined
+def jet(q, mode, boxes, sine, cosine):
+    """Taylor coefficients X_i^(k) / k!, k = 0 to 7, of both boxes (X1, X2, X1', X2') in free flight: two tuples."""
+    i1, i2 = inverse_masses(q, mode)
+    x1, x2, v1, v2 = boxes
+    fall = -q.omega * q.omega
+    s, c = sine, q.omega * cosine  # derivatives of the forcing's sine: s, c, -omega^2 s, -omega^2 c, ...
+    a1, a2 = acceleration(q, i1, i2, x1, x2, v1, v2, q.f1 * s, q.f2 * s)
+    b1, b2 = acceleration(q, i1, i2, v1, v2, a1, a2, q.f1 * c, q.f2 * c)
+    s, c = fall * s, fall * c
+    c1, c2 = acceleration(q, i1, i2, a1, a2, b1, b2, q.f1 * s, q.f2 * s)
+    d1, d2 = acceleration(q, i1, i2, b1, b2, c1, c2, q.f1 * c, q.f2 * c)
+    s, c = fall * s, fall * c
+    e1, e2 = acceleration(q, i1, i2, c1, c2, d1, d2, q.f1 * s, q.f2 * s)
+    g1, g2 = acceleration(q, i1, i2, d1, d2, e1, e2, q.f1 * c, q.f2 * c)
+    return _scaled(x1, v1, a1, b1, c1, d1, e1, g1), _scaled(x2, v2, a2, b2, c2, d2, e2, g2)
+
+
+@inlined
+def _scaled(x, v, a, b, c, d, e, g):
+    """Derivatives 0 to 7 over their factorials."""
+    return x, v, a * (1 / 2), b * (1 / 6), c * (1 / 24), d * (1 / 120), e * (1 / 720), g * (1 / 5040)
+
+
+@inlined
+def value(p, t):
+    """A polynomial of degree 7, p (8,), at t; the upper half in pairs, which do not wait for each other."""
+    t2 = t * t
+    upper = (p[2] + t * p[3]) + t2 * ((p[4] + t * p[5]) + t2 * (p[6] + t * p[7]))
+    return p[0] + t * (p[1] + t * upper)
+
+
+@inlined
+def slope(p, t):
+    """Derivative of a polynomial of degree 7, p (8,), at t."""
+    t2 = t * t
+    upper = (3.0 * p[3] + t * (4.0 * p[4])) + t2 * ((5.0 * p[5] + t * (6.0 * p[6])) + t2 * (7.0 * p[7]))
+    return p[1] + t * (2.0 * p[2] + t * upper)
+
+
+@inlined
+def along(jets, t):
+    """The boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
+    one, two = jets
+    return value(one, t), value(two, t), slope(one, t), slope(two, t)
+
+
+@inlined
+def node(flow, mode, boxes, sine, cosine, j):
+    """Boxes and forcing phase at the j-th time of the table, j * flow.spacing: (X1, X2, X1', X2'), sin, cos."""
+    if j == 0:
+        return boxes, sine, cosine
+    x1, x2, v1, v2 = boxes
+    p = flow.propagators[mode, j]
+    y1 = p[0, 0] * x1 + p[0, 1] * x2 + p[0, 2] * v1 + p[0, 3] * v2 + p[0, 4] * sine + p[0, 5] * cosine
+    y2 = p[1, 0] * x1 + p[1, 1] * x2 + p[1, 2] * v1 + p[1, 3] * v2 + p[1, 4] * sine + p[1, 5] * cosine
+    w1 = p[2, 0] * x1 + p[2, 1] * x2 + p[2, 2] * v1 + p[2, 3] * v2 + p[2, 4] * sine + p[2, 5] * cosine
+    w2 = p[3, 0] * x1 + p[3, 1] * x2 + p[3, 2] * v1 + p[3, 3] * v2 + p[3, 4] * sine + p[3, 5] * cosine
+    ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
+    return (y1, y2, w1, w2), sine * ca + cosine * sa, cosine * ca - sine * sa
+
+
+@compiled
+def advance(flow, mode, boxes, sine, cosine, t):
+    """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
+    j = int(t * flow.density + 0.5)
+    r = t - j * flow.spacing
+    there, s, c = node(flow, mode, boxes, sine, cosine, j)
+    angle = flow.coefficients.omega * r
+    h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
+    sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))
+    ca = 1.0 - h * (1 / 2) * (1.0 - h * (1 / 12) * (1.0 - h * (1 / 30)))
+    return along(jet(flow.coefficients, mode, there, s, c), r), s * ca + c * sa, c * ca - s * sa

@@ -1,0 +1,238 @@
+"""Direct integration of the equations of motion, (10.1) in the form (10.2)."""
+
+import math
+import numbers
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from vibroimpact.exact.engine import event_log as books
+from vibroimpact.exact.engine import event_loop as kernel
+from vibroimpact.exact.engine.certificate import Certificate
+from vibroimpact.exact.engine.course import course_of
+from vibroimpact.exact.engine.flow import flow_of
+from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
+from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
+from vibroimpact.system import System
+
+EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
+"""One event: time, module 1 or 2, wall +1 or -1, kind (IMPACT, STICK, RELEASE), state just after it."""
+
+IMPACT, STICK, RELEASE = books.IMPACT, books.STICK, books.RELEASE
+MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
+"""A run with more events is given up: only kappa next to 1 can chatter so long."""
+FAILURES = {
+    kernel.PENETRATED: "a ball went through a wall",
+    kernel.STALLED: "time stands still",
+    kernel.CROWDED: "there are too many events",
+    kernel.EXHAUSTED: "there are too many exclusions",
+}
+NO_TIMES = np.empty(0)
+LATEST = 2.0**43
+"""From here on floats are further apart than 1e-3, and times of a run cannot be told."""
+MOST_CYCLES = 2**53
+ROUNDED = 1e-12
+"""So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
+KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A simulated motion.
+
+    begin: time of the start, exactly; events: (m,) structured array (EVENT) in the order of time; samples: (n, 8)
+    states at the sample times, at an event the state after it; final: (8,) state at the end. States are
+    [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. ledger: the kernel's (books).
+    """
+
+    system: System
+    start: np.ndarray
+    begin: float | Instant
+    cycles: int
+    events: np.ndarray
+    samples: np.ndarray
+    final: np.ndarray
+    _rows: np.ndarray = field(repr=False)
+    ledger: np.ndarray = field(repr=False)
+
+    @property
+    def tau0(self) -> float:
+        """Time of the start, rounded."""
+        return float(self.begin)
+
+    @property
+    def end(self) -> Instant:
+        """Time of the final state, exactly; a run from there, tau0=run.end, goes on in the same forcing phase."""
+        return exactly(self.begin).later(self.cycles, self.system.Omega)
+
+    @cached_property
+    def jacobian(self) -> np.ndarray:
+        """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
+        return jacobian(*self.course)[np.ix_(PUBLIC_ORDER, PUBLIC_ORDER)]
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """What the run can vouch for."""
+        return Certificate.of(self)
+
+    @cached_property
+    def course(self) -> tuple:
+        """The flow, the flights between the events and the events as `course_of` and `books` tell them."""
+        flow, duration = flow_of(self.system), self.cycles * self.system.period
+        phase = phase_at(self.begin, self.system.Omega)[0]
+        return flow, course_of(flow, self.start, self._rows, phase, duration), self._rows
+
+
+def simulate(system: System, state, cycles: int, tau0: float | Instant = 0.0, sample_times=None) -> Run:
+    """Integrate the exact system over a number of forcing cycles, impacts, chatter, sticking and release included.
+
+    Args:
+        system: parameters.
+        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
+        cycles: forcing periods to run, a whole number >= 0.
+        tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
+            the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
+        sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
+
+    Raises:
+        ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
+        ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
+            were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
+    """
+    state = _checked_state(state)
+    begin, cycles = _checked_window(system, cycles, tau0)
+    times = _checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
+    return _run(system, state, cycles, begin, times)
+
+
+def simulate_many(
+    system: System, states, cycles: int, tau0: float | Instant = 0.0, progress: bool = False
+) -> list[Run]:
+    """Simulate from many starts on all cores; every run equals its `simulate` bit by bit.
+
+    Args:
+        system: parameters.
+        states: (n, 8) starts.
+        cycles, tau0: as for `simulate`.
+        progress: report on standard error, about once a second.
+
+    Raises:
+        ValueError: an argument is malformed or a start inadmissible (its row is named).
+        ArithmeticError: an invariant broke in one of the runs.
+    """
+    states = _real_array("states", states)
+    if states.ndim != 2 or states.shape[1] != 8:
+        raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
+    for row, state in enumerate(states):
+        try:
+            _checked_state(state)
+        except ValueError as error:
+            raise ValueError(f"states[{row}]: {error}") from None
+    begin, cycles = _checked_window(system, cycles, tau0)
+    flow_of(system)  # built once, before the threads share it
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:  # the kernel releases the interpreter's lock
+        runs = [pool.submit(_run, system, state, cycles, begin, NO_TIMES) for state in states]
+        if progress:
+            _report(runs)
+        return [run.result() for run in runs]
+
+
+def _report(runs):
+    """Count finished runs on standard error until all are done."""
+    pending = set(runs)
+    while pending:
+        _, pending = wait(pending, timeout=1.0)
+        print(
+            f"\r{len(runs) - len(pending)}/{len(runs)} runs", end="" if pending else "\n", file=sys.stderr, flush=True
+        )
+
+
+def _run(system, state, cycles, begin, times):
+    """One run from checked arguments."""
+    samples, tau0 = np.empty((len(times), 8)), float(begin)
+    most_events = min(MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles, MOST_CYCLES)
+    values = state.tolist()
+    boxes, balls, phase = tuple(values[0::2]), tuple(values[1::2]), phase_at(begin, system.Omega)
+    boxes, balls, rows, status, ledger = kernel.integrate(
+        flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events
+    )
+    if status != kernel.FINISHED:
+        what = FAILURES[status]
+        raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
+    final = np.empty(8)
+    final[0::2], final[1::2] = boxes, balls
+    return Run(system, state, begin, cycles, _table(rows, tau0), samples, final, rows, ledger)
+
+
+def _table(rows, tau0):
+    """Rows of the kernel (books) as a structured array."""
+    table = np.empty(len(rows), EVENT)
+    table["tau"] = tau0 + rows[:, 0]
+    for column, name in enumerate(("module", "wall", "kind"), start=1):
+        table[name] = rows[:, column]
+    table["state"] = rows[:, 4 : books.PHASE]
+    return table
+
+
+def _real_array(name, values):
+    """A float array, nothing lost in the conversion."""
+    try:
+        array = np.array(values)
+        if array.dtype.kind == "c":
+            raise TypeError
+        return array.astype(float, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name}: {values!r} is not an array of real numbers") from None
+
+
+def _checked_state(state):
+    state = _real_array("state", state)
+    if state.shape != (8,) or not np.isfinite(state).all():
+        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {state.tolist()}")
+    x1, y1, x2, y2 = state[:4].tolist()
+    for module, box, ball in ((1, x1, y1), (2, x2, y2)):
+        relative = abs(box - ball)
+        if relative > 1.0 and relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
+            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
+    return state
+
+
+def _checked_window(system, cycles, tau0):
+    """The start of a run, exactly, and its number of cycles."""
+    if not _is_finite(cycles) or int(cycles) != cycles or not 0 <= cycles <= MOST_CYCLES:
+        raise ValueError(f"cycles: {cycles!r} is not a whole number from 0 to {MOST_CYCLES}")
+    if not isinstance(tau0, Instant) and not _is_finite(tau0):
+        raise ValueError(f"tau0: {tau0!r} is neither a finite real number nor the end of a run")
+    begin = tau0 if isinstance(tau0, float) else exactly(tau0)
+    start = float(begin)
+    for name, tau in (("tau0", start), ("cycles", start + cycles * system.period)):
+        if not abs(tau) < LATEST:
+            raise ValueError(
+                f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
+                "its times (the forcing is the same whole periods earlier)"
+            )
+    return begin, int(cycles)
+
+
+def _is_finite(value):
+    """Whether a value is a real number that a float can stand for."""
+    try:
+        return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def _checked_times(sample_times, start, end):
+    if sample_times is None:
+        return NO_TIMES
+    times = _real_array("sample_times", sample_times)
+    if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
+        raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
+    slack = 4.0 * math.ulp(max(abs(start), abs(end)))
+    if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
+        raise ValueError(f"sample_times: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
+    return times

@@ -1,0 +1,165 @@
+"""Variational flow: how a small perturbation of the whole state passes the flights and the events of a run.
+
+Perturbations pass a flight by its linear flow, an impact by its saltation matrix, a release by continuity (the force
+vanishes there) or together with the impact that forces it, and a completed chatter by the derivative of its completion:
+the infinitely many saltations it stands for are never multiplied out. Inside, states are ordered [boxes, balls].
+"""
+
+import math
+
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.contact import impact
+from vibroimpact.exact.engine.course import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
+from vibroimpact.exact.engine.event_log import APPROACH, IMPACT, PHASE, STICK
+from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses, jet
+from vibroimpact.exact.engine.motion import mode_of
+
+PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
+"""Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+
+
+@compiled
+def jacobian(flow, flights, events):
+    """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (course_of)
+    and its events (books).
+    """
+    total, matrix = np.eye(8), np.empty((8, 8))
+    for n in range(len(flights)):
+        if flights[n, LENGTH] > 0.0:
+            fill_flight(flow, flights[n], matrix)
+            total = matrix @ total
+        if n < len(events):
+            fill_event(flow.coefficients, flights, events, n, matrix)
+            total = matrix @ total
+    return total
+
+
+@compiled
+def fill_flight(flow, flight, matrix):
+    """Fill the derivative (8, 8) of the state at the end of a flight by the one at its start."""
+    _, _, walls = start_of(flight)
+    left = min(flight[LENGTH], flow.longest)
+    _fill_free(flow, walls, left, matrix)
+    left = flight[LENGTH] - left
+    while left > 0.0:
+        step, before = min(left, flow.longest), matrix.copy()
+        _fill_free(flow, walls, step, matrix)
+        matrix[:] = matrix @ before
+        left -= step
+
+
+@compiled
+def _fill_free(flow, walls, t, matrix):
+    """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
+    q, mode = flow.coefficients, mode_of(walls)
+    j = int(t * flow.density + 0.5)
+    p, rest = flow.propagators[mode, j], t - j * flow.spacing
+    matrix[:] = 0.0
+    for k in range(4):  # without the force a box's motion is linear in the state
+        later = along(jet(q, mode, (p[0, k], p[1, k], p[2, k], p[3, k]), 0.0, 0.0), rest)
+        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = later
+    for i in range(2):
+        if walls[i] != 0:  # the ball goes where its box goes
+            matrix[4 + i, :4] = matrix[i, :4]
+            matrix[6 + i, :4] = matrix[2 + i, :4]
+        else:
+            matrix[4 + i, 4 + i] = matrix[6 + i, 6 + i] = 1.0
+            matrix[4 + i, 6 + i] = t
+
+
+@compiled
+def fill_event(q, flights, events, n, matrix):
+    """Fill the derivative (8, 8) of the state after event n by the one before it."""
+    i, wall, kind, phase = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3], events[n, PHASE]
+    _, _, walls = start_of(flights[n])
+    before = flights[n, AFTER:]
+    if kind == IMPACT:
+        after = flights[n + 1, BEFORE:AFTER]
+        _impact_matrix(q, i, before, after, walls, walls_after(events, n, walls), phase, matrix)
+    elif kind == STICK:
+        inward, push = 0.0, 0.0
+        if completes_chatter(events, n):
+            field = np.empty(8)
+            _field(q, walls, before, phase, field)
+            inward, push = events[n, APPROACH], wall * field[2 + i]
+        _stick_matrix(q, i, wall, inward, push, walls[1 - i] != 0, matrix)
+    else:
+        _fill_identity(matrix)
+
+
+@compiled
+def _field(q, walls, state, phase, field):
+    """Fill the rate of change (8,) of a state (8,) in a contact state."""
+    i1, i2 = inverse_masses(q, mode_of(walls))
+    force = math.sin(phase)
+    a1, a2 = acceleration(q, i1, i2, state[0], state[1], state[2], state[3], q.f1 * force, q.f2 * force)
+    field[0], field[1], field[2], field[3] = state[2], state[3], a1, a2
+    field[4], field[5] = state[6], state[7]
+    field[6] = a1 if walls[0] != 0 else 0.0
+    field[7] = a2 if walls[1] != 0 else 0.0
+
+
+@compiled
+def _impact_matrix(q, i, before, after, walls, walls_after, phase, matrix):
+    """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
+
+    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), R the impact law, n the
+    normal of the wall, f- and f+ the fields around it; walls_after differs from walls where the impact releases a ball.
+    """
+    box, ball = 2 + i, 6 + i
+    through, outgoing = np.empty(8), np.empty(8)
+    _field(q, walls, before, phase, through)
+    _field(q, walls_after, after, phase, outgoing)
+    through[box], through[ball] = impact(q.epsilon, q.kappa, through[box], through[ball])
+    approach = before[box] - before[ball]
+    _fill_identity(matrix)
+    matrix[box, box], matrix[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
+    matrix[box, ball], matrix[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
+    for k in range(8):
+        jump = (outgoing[k] - through[k]) / approach
+        matrix[k, i] += jump
+        matrix[k, 4 + i] -= jump
+
+
+@compiled
+def _fill_identity(matrix):
+    matrix[:] = 0.0
+    for k in range(8):
+        matrix[k, k] = 1.0
+
+
+@compiled
+def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
+    """Fill the derivative (8, 8) of completing a chatter of ball i that starts with an inward speed under a push.
+
+    Box and ball keep their momentum and centre of mass. While the gap closes, springs and dampers act on the box where
+    it is and not where it will stick: the time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), that of its rate
+    the gap itself, and both are felt to first order in the perturbation.
+    """
+    e = q.epsilon
+    share = e / (1.0 + e)
+    _fill_identity(matrix)
+    for row in (i, 4 + i):
+        matrix[row, :] = 0.0
+        matrix[row, i], matrix[row, 4 + i] = 1.0 / (1.0 + e), share
+    for row in (2 + i, 6 + i):
+        matrix[row, :] = 0.0
+        matrix[row, 2 + i], matrix[row, 6 + i] = 1.0 / (1.0 + e), share
+    by_gap = 2.0 * inward / (push * (1.0 - q.kappa**3)) if inward > 0.0 else 0.0
+    by_speed = by_gap * inward / push if inward > 0.0 else 0.0
+    j = 1 - i
+    stiffness = (q.k11 if i == 0 else q.k22, q.k12)
+    damping = (q.c11 if i == 0 else q.c22, q.c12)
+    inverse = (1.0 / (1.0 + e), 1.0 / (1.0 + e) if other_stuck else 1.0)
+    for k in range(2):
+        box, ball = (2 + i, 6 + i) if k == 0 else (2 + j, 6 + j)
+        relative = inverse[k] * share * (damping[k] - stiffness[k] * by_gap)
+        speed = -inverse[k] * share * stiffness[k] * by_speed
+        matrix[box, i] += relative
+        matrix[box, 4 + i] -= relative
+        matrix[box, 2 + i] += speed
+        matrix[box, 6 + i] -= speed
+        if k == 0 or other_stuck:
+            matrix[ball, :] = matrix[box, :]

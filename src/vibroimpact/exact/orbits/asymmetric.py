@@ -1,0 +1,136 @@
+"""Asymmetric 1:1 responses (unequal flight times), by Newton's method from many starts.
+
+Module i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. At each impact its ball's velocity changes by I_i and
+-I_i in turn, so the flight from wall +1 has the velocity I_i (1 - u_i), the one back -I_i u_i, and each crosses
+I_i u_i (1 - u_i) T. Box i is kicked by -epsilon I_i at p_i and +epsilon I_i at q_i. Superposing the forced response and
+all kicks gives per module two conditions of restitution and one of distance,
+
+    (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
+    (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
+    I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i),
+
+six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2.
+
+The starts cover the flight fractions and the lag p_2 - p_1 evenly; for each of them the equations are linear in I and
+in the forcing phase, so the other unknowns start at their least-squares values. Nothing proves the list complete.
+"""
+
+import numpy as np
+
+from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.symmetric import distinct, wrapped
+
+STARTS = 1024
+_SHORTEST = 1e-6  # fraction of the period: roots with a shorter flight are the spurious ones of a vanishing flight
+_UNEQUAL = 1e-7
+_BOXES = np.array([0, 0, 1, 1])
+_KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
+_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1: the additive sequence of its powers fills the cube evenly
+
+
+class AsymmetricConditions:
+    """The equations above for one system.
+
+    Raises:
+        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    """
+
+    def __init__(self, system):
+        self.system = system
+        self.amplitude = forced_amplitude(system)[_BOXES]
+        self._response = impulse_response(system, sign=1)
+
+    def __call__(self, unknowns: np.ndarray):
+        """Residual (n, 6) and Jacobian (n, 6, 6) for unknowns (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6)."""
+        system = self.system
+        times, strengths = unknowns[:, :4], unknowns[:, 4:]
+        forced = self.amplitude * np.exp(1j * system.Omega * times)
+        by_strength, by_kick = self._linear(times)
+        residual = (by_strength @ strengths[..., None])[..., 0] + self._forced(forced)
+        residual[:, 4:] -= 2.0
+        jacobian = np.concatenate([self._moved(forced, by_kick, strengths, times), by_strength], axis=2)
+        return residual, jacobian
+
+    def linear_system(self, times: np.ndarray):
+        """Matrix (n, 6, 4) of the equations for (I_1, I_2, c, s), forcing phase exp(i Omega tau) (c + i s)."""
+        forced = self.amplitude * np.exp(1j * self.system.Omega * times)
+        by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
+        return np.concatenate([self._linear(times)[0], by_phase], axis=2)
+
+    def _forced(self, forced):
+        """The six conditions' terms in the forced response, (n, 6), from its complex value at the impacts."""
+        velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
+        distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
+        return np.concatenate([velocity, distance], axis=1)
+
+    def _linear(self, times):
+        """Coefficients of the strengths, (n, 6, 2), and the responses to unit changes of ball velocity."""
+        system = self.system
+        x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
+        u = wrapped(times[:, 1::2] - times[:, 0::2], system.period) / system.period
+        matrix = np.empty((len(times), 6, 2))
+        for i in range(2):
+            mine = slice(2 * i, 2 * i + 2)
+            matrix[:, :4, i] = (1 + system.kappa) * v[:, :, mine].sum(axis=2)
+            matrix[:, 4:, i] = (x[:, 0::2, mine] - x[:, 1::2, mine]).sum(axis=2)
+            matrix[:, 2 * i, i] -= 1 - u[:, i] - system.kappa * u[:, i] + system.epsilon
+            matrix[:, 2 * i + 1, i] -= system.kappa * (1 - u[:, i]) - u[:, i] - system.epsilon
+            matrix[:, 4 + i, i] += u[:, i] * (1 - u[:, i]) * system.period
+        return matrix, (v, a)
+
+    def _moved(self, forced, responses, strengths, times):
+        """Derivatives (n, 6, 4) by the impact times."""
+        system = self.system
+        others = 1 - np.eye(4)
+        v, a = (r * others * strengths[:, None, _BOXES] for r in responses)
+        by_own = np.eye(4)
+        displacement = by_own * (system.Omega * forced.real + v.sum(axis=2))[:, None, :] - v
+        velocity = by_own * (a.sum(axis=2) - system.Omega**2 * forced.imag)[:, None, :] - a
+        moved = np.concatenate([(1 + system.kappa) * velocity, displacement[:, 0::2] - displacement[:, 1::2]], axis=1)
+        u = wrapped(times[:, 1::2] - times[:, 0::2], system.period) / system.period
+        for i in range(2):
+            start, end = 2 * i, 2 * i + 1
+            slope = strengths[:, i] * (1 + system.kappa) / system.period
+            lengthening = np.stack([slope, slope, strengths[:, i] * (1 - 2 * u[:, i])], axis=1)
+            rows = [start, end, 4 + i]
+            moved[:, rows, end] += lengthening
+            moved[:, rows, start] -= lengthening
+        return moved
+
+
+def asymmetric_solutions(system, starts: int = STARTS):
+    """Roots (p_1, q_1, p_2, q_2, I_1, I_2) found, times in [0, T), shape (n, 6), and how many starts led to each, (n,).
+
+    Mirror images are roots of their own; each is credited with the starts that led to the other.
+
+    Raises:
+        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    """
+    if system.has_undriven_module:
+        return np.empty((0, 6)), np.empty(0, dtype=int)
+    period = system.period
+    conditions = AsymmetricConditions(system)
+    found = newton(conditions, _starts(system, conditions, starts))
+    found[:, :4] = wrapped(found[:, :4], period)
+    u = wrapped(found[:, 1:4:2] - found[:, 0:4:2], period) / period
+    genuine = (u > _SHORTEST).all(axis=1) & (u < 1 - _SHORTEST).all(axis=1) & (abs(u - 0.5) > _UNEQUAL).any(axis=1)
+    found = found[genuine]
+    return distinct(np.concatenate([found, _mirrored(found, period)]), period, 4)
+
+
+def _starts(system, conditions, count):
+    lag, first, second = (np.arange(1, count + 1) / _PLASTIC**k % 1.0 for k in (1, 2, 3))
+    zero = np.zeros(count)
+    times = np.stack([zero, first, lag, lag + second], axis=1) * system.period
+    matrices = conditions.linear_system(times)
+    constant = np.array([0.0, 0.0, 0.0, 0.0, 2.0, 2.0])
+    solutions = np.linalg.pinv(matrices) @ constant
+    shift = np.arctan2(solutions[:, 3], solutions[:, 2]) / system.Omega
+    return np.concatenate([times + shift[:, None], solutions[:, :2]], axis=1)
+
+
+def _mirrored(roots, period):
+    """The images under state(tau) -> -state(tau + T/2): the walls change roles."""
+    times = wrapped(roots[:, [1, 0, 3, 2]] + period / 2, period)
+    return np.concatenate([times, roots[:, 4:]], axis=1)

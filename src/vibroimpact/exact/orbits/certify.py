@@ -1,0 +1,167 @@
+"""Proof that the list of symmetric 1:1 responses is complete, in interval arithmetic (python-flint's arb).
+
+The equations of exact.symmetric, P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), are reduced
+once more. Eliminating the phase leaves one complex equation linear in the real C_1, C_2,
+
+    (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),
+
+so C = N(delta) / D(delta) by Cramer's rule, and the modulus of the equation k with the larger |a_k| leaves, for delta
+alone,
+
+    F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
+
+Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
+[T/2, T]. These are bisected until on each interval F excludes 0, or F' and D do, so that the signs of F at the two ends
+tell whether there is one root or none. The domain is thereby everything: any lag, any phase, any real C. What stays
+open at the smallest width (a double root, a root at a kink) is reported.
+"""
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series
+
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
+from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
+
+_NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
+_FIRST = 8
+_MOST = 10_000  # intervals to look at: the rest is reported as undecided
+_TERMS = 3
+_IDENTITY = arb_mat(np.eye(4).tolist())
+_UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What is proved of a system whose matrices and forcing are the float64 numbers that the code holds.
+
+    isolated: intervals of the lag (tau_2 - tau_1) / T, each with exactly one symmetric response, ascending.
+    undecided: intervals in which nothing is proved; everywhere else there is no symmetric response.
+    complete: nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
+    """
+
+    isolated: list[tuple[float, float]]
+    undecided: list[tuple[float, float]]
+    complete: bool
+
+
+def certify(system) -> Proof:
+    """Prove how many symmetric 1:1 responses a system has, admissible or not.
+
+    There is none where a module is driven by nothing.
+
+    Raises:
+        ValueError: undamped boxes in resonance with the impacts.
+    """
+    isolated, undecided = ([], []) if system.has_undriven_module else _bisect(_Condition(system))
+    listed = symmetric_solutions(system)
+    lags = np.sort(wrapped(listed[:, 1] - listed[:, 0], system.period) / system.period)
+    matched = len(lags) == len(isolated) and all(a <= x <= b for (a, b), x in zip(isolated, lags, strict=True))
+    return Proof(isolated, undecided, matched and not undecided)
+
+
+def _bisect(condition):
+    """Intervals of the lag over T with exactly one root, and those that stay open, both ascending."""
+    pending = [(half, k / _FIRST, (k + 1) / _FIRST) for half in (0, 1) for k in range(_FIRST)]
+    isolated, undecided = [], []
+    for visited in itertools.count():
+        if not pending:
+            return sorted(isolated), sorted(undecided)
+        half, lower, upper = pending.pop()
+        roots = condition.count(lower, upper, half) if visited < _MOST else None
+        lag = ((lower + half) / 2, (upper + half) / 2)
+        if roots == 1:
+            isolated.append(lag)
+        elif roots is None and (upper - lower <= _NARROWEST or visited >= _MOST):
+            undecided.append(lag)
+        elif roots is None:
+            middle = (lower + upper) / 2
+            pending += [(half, lower, middle), (half, middle, upper)]
+
+
+class _Condition:
+    """F and D of the module docstring, with derivatives, on intervals of delta."""
+
+    def __init__(self, system):
+        self.half_period = arb.pi() / arb(system.Omega)
+        self.rate = arb_mat(rate_matrix(system)[:4, :4].tolist())
+        epsilon, kappa = arb(system.epsilon), arb(system.kappa)
+        omega = arb(system.Omega)
+        self.place = 1 / (1 + epsilon)
+        self.kick = 4 * epsilon * self.place / self.half_period
+        self.own_velocity = 2 * self.place / self.half_period * (1 + 2 * epsilon - kappa) / (1 + kappa)
+        self.omega = omega
+        stiffness = acb_mat([[acb(z.real, z.imag) for z in row] for row in dynamic_stiffness(system).tolist()])
+        try:
+            amplitude = stiffness.solve(acb_mat([[acb(f)] for f in system.forcing.tolist()]))
+            closure = (self.rate * self.half_period).exp() + _IDENTITY
+            self.start = closure.solve(_UNIT_IMPULSES)
+        except ZeroDivisionError:
+            raise ValueError("system: its undamped boxes are in resonance with the impacts; add damping") from None
+        self.amplitude = amplitude[0, 0], amplitude[1, 0]
+        self.larger = int(abs(amplitude[1, 0]).mid() > abs(amplitude[0, 0]).mid())
+
+    def count(self, lower, upper, half):
+        """Roots with delta in (half + [lower, upper]) T/2: 0, 1, or None where that stays open."""
+        radius = (upper - lower) / 2
+        step = arb(0, radius) * self.half_period
+        F0, _ = self._at(arb((lower + upper) / 2), half)
+        F, D = self._at(arb((lower + upper) / 2, radius), half)
+        slope = F0[1] + 2 * F[2] * step
+        if not (F0[0] + slope * step).contains(0):
+            return 0
+        ends = [self._at(arb(end), half)[0][0] for end in (lower, upper)]
+        if slope.contains(0) or D[0].contains(0) or any(end.contains(0) for end in ends):
+            return None
+        return int((ends[0] > 0) != (ends[1] > 0))
+
+    def _at(self, position, half):
+        """Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2, position a number or interval."""
+        sign = 1 - 2 * half
+        forward = (self.rate * (self.half_period * position)).exp() * self.start
+        backward = (self.rate * (self.half_period * (1 - position))).exp() * self.start
+        lag = self._entry([sign * term for term in self._taylor(forward, 1)], row=1, column=0)
+        lead = self._entry([-sign * term for term in self._taylor(backward, -1)], row=0, column=1)
+        P1, P2 = (self._own(0), lead), (lag, self._own(1))
+        turn = (acb(0, 1) * arb.pi() * position).exp()
+        rates = [(acb(0, 1) * self.omega) ** k / math.factorial(k) for k in range(_TERMS)]
+        w1, w2 = self.amplitude[0], _series([sign * self.amplitude[1] * turn * rate for rate in rates])
+        (a, b), (c, d) = (_parts(w2 * P1[k] - w1 * P2[k]) for k in range(2))
+        e, f = _parts((w1 - w2) * acb(0, 1))
+        D, N1, N2 = a * d - b * c, e * d - f * c, a * f - b * e
+        (x, y), (u, v) = (_parts(entry) for entry in (P1, P2)[self.larger])
+        F = (x * N1 + u * N2) ** 2 + (y * N1 + v * N2 + D) ** 2 - abs(self.amplitude[self.larger]) ** 2 * D**2
+        return _coefficients(F), _coefficients(D)
+
+    def _taylor(self, motion, direction):
+        """Taylor coefficients of a motion of the boxes, forward or backward in time."""
+        terms = [motion]
+        for k in range(1, _TERMS):
+            terms.append(self.rate * terms[-1] * (arb(direction) / k))
+        return terms
+
+    def _entry(self, terms, row, column):
+        """P[row, column], row != column, from the response terms."""
+        return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
+
+    def _own(self, i):
+        """P[i, i]: the response just before the own impact."""
+        velocity = self.own_velocity + self.kick * (self.start[2 + i, i] - 1)
+        return _series([acb(velocity / self.omega, self.kick * self.start[i, i] - self.place)])
+
+
+def _series(coefficients):
+    return acb_series(coefficients, prec=_TERMS)
+
+
+def _parts(series):
+    """Real and imaginary part of a series in a real variable."""
+    coefficients = series.coeffs()
+    return (arb_series([getattr(c, part) for c in coefficients], prec=_TERMS) for part in ("real", "imag"))
+
+
+def _coefficients(series):
+    return [*series.coeffs(), *[arb(0)] * _TERMS][:_TERMS]

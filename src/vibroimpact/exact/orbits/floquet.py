@@ -1,0 +1,74 @@
+"""Monodromy matrix and Floquet multipliers of a motion with known impacts."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import expm
+
+from vibroimpact.exact.orbits.saltation import BALLS, BOXES, impact_matrix, impact_saltation
+from vibroimpact.system.matrices import damping_matrix, rate_matrix
+
+
+class Passage(NamedTuple):
+    """A motion followed through its impacts.
+
+    before (n, 8), after (n, 8): states around each impact; final (8,): state at the end; jacobian (8, 8): derivative of
+    the final state by the first one.
+    """
+
+    before: np.ndarray
+    after: np.ndarray
+    final: np.ndarray
+    jacobian: np.ndarray
+
+
+def free_flight(system, state: np.ndarray, tau: float, duration: float):
+    """State (8,) after a free flight from time tau, and its derivative (8, 8) by the state before."""
+    flow = expm(rate_matrix(system) * duration)
+    phase = system.Omega * tau
+    final, jacobian = np.empty(8), np.zeros((8, 8))
+    final[BOXES] = flow[:4] @ [*state[BOXES], math.sin(phase), math.cos(phase)]
+    final[BALLS[:2]] = state[BALLS[:2]] + duration * state[BALLS[2:]]
+    final[BALLS[2:]] = state[BALLS[2:]]
+    jacobian[np.ix_(BOXES, BOXES)] = flow[:4, :4]
+    jacobian[BALLS, BALLS] = 1.0
+    jacobian[BALLS[:2], BALLS[2:]] = duration
+    return final, jacobian
+
+
+def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
+    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts of `modules` (1, 2) at given times.
+
+    times: ascending in [0, end], one for each entry of modules.
+
+    The impacts are taken as given: that a ball is at its wall at that time is the caller's business.
+
+    Raises:
+        ValueError: an impact without relative velocity (see impact_saltation).
+    """
+    tau, jacobian = 0.0, np.eye(8)
+    before, after = np.empty((len(times), 8)), np.empty((len(times), 8))
+    for k, (time, module) in enumerate(zip(times, modules, strict=True)):
+        before[k], flight = free_flight(system, state, tau, time - tau)
+        after[k] = impact_matrix(system, module) @ before[k]
+        jacobian = impact_saltation(system, before[k], time, module) @ flight @ jacobian
+        state, tau = after[k], time
+    final, flight = free_flight(system, state, tau, end - tau)
+    return Passage(before, after, final, flight @ jacobian)
+
+
+def multipliers(jacobian: np.ndarray) -> np.ndarray:
+    """Eigenvalues of a monodromy matrix, shape (8,) complex, by descending modulus, then descending imaginary part."""
+    values = np.linalg.eigvals(jacobian).astype(complex)
+    return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
+
+
+def contraction(system, impacts: int) -> float:
+    """Product of all multipliers of a motion over one forcing period with so many impacts (Liouville).
+
+    Free flight contracts phase space by exp(-T trace of the damping matrix); each saltation matrix has determinant
+    kappa^2: one factor -kappa from the restitution of the relative velocity, the other from the rate n . f+ / n . f-
+    = -kappa at which the flow leaves and meets the wall.
+    """
+    return math.exp(-system.period * np.trace(damping_matrix(system))) * system.kappa ** (2 * impacts)

@@ -1,0 +1,224 @@
+"""All 1:1 responses of the exact system (10.2) with two impacts per forcing cycle and module, one at each wall."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
+from vibroimpact.exact.orbits.floquet import follow, multipliers
+from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response, powers
+from vibroimpact.exact.orbits.saltation import BALLS, BOXES
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
+from vibroimpact.system import System
+from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
+from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
+
+_MODULES = np.array([1, 1, 2, 2])
+_WALLS = np.array([1, -1, 1, -1])
+_STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
+_SAMPLES = 4096  # of one flight at a time, so that memory does not grow with the period
+_TOUCH = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
+
+    system: the system it belongs to.
+    symmetric: whether state(tau + T/2) = -state(tau).
+    impact_phases: (2, 2), impact times as fractions of the period in [0, 1).
+    ball_speeds: (2, 2), speed of the flight that starts at this wall; negative for a root that is no motion.
+    multipliers: (8,) complex, by descending modulus. Where both modules impact in the same instant and gamma12 is not 0
+        they belong to perturbations that let module 1 impact first.
+    state: (8,) at tau = 0, just after the impact if there is one.
+    admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
+    residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
+    """
+
+    system: System
+    symmetric: bool
+    impact_phases: np.ndarray
+    ball_speeds: np.ndarray
+    multipliers: np.ndarray
+    state: np.ndarray
+    admissible: bool
+    residual: float
+
+    @property
+    def C(self) -> np.ndarray:
+        """Amplitudes of the saw-teeth, C_i of (10.11), shape (2,); negative for a root that is no motion."""
+        plus, minus = self.ball_speeds.T
+        # Both flights cover the same path in one period: plus t = minus (T - t).
+        path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
+        return sawtooth_amplitude(self.system.epsilon, path)
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitSearch:
+    """What a search found and how far it can be trusted.
+
+    orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.symmetric and
+        exact.certify_symmetric_orbits).
+    starts: Newton starts spent on the asymmetric ones, which may be incomplete.
+    fewest_hits: how many of these starts led to the asymmetric orbit (mirror images counted as one) that was hit least,
+        0 if there is none. A small number warns that others may have been missed.
+    """
+
+    orbits: list[Orbit]
+    starts: int
+    fewest_hits: int
+
+
+def orbits(system: System) -> list[Orbit]:
+    """All 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
+
+    Roots that are no motions of the system (see Orbit.admissible) are in the list too, marked. Order: symmetric ones
+    first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an asymmetric orbit
+    and its mirror image are neighbours.
+
+    Raises:
+        ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
+    """
+    return search(system).orbits
+
+
+def search(system: System, starts: int = STARTS) -> OrbitSearch:
+    """As orbits(system), with the effort spent on the asymmetric ones and what it says about completeness.
+
+    Raises:
+        ValueError: as orbits; starts is not a positive integer.
+    """
+    if not isinstance(system, System):
+        raise ValueError(f"system: {system!r} is not a System")
+    if not isinstance(starts, int) or starts < 1:
+        raise ValueError(f"starts: {starts!r} is not a positive integer")
+    symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    roots, hits = asymmetric_solutions(system, starts)
+    asymmetric = [asymmetric_orbit(system, root) for root in roots]
+    fewest = int(hits.min()) if len(hits) else 0
+    return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
+
+
+def half_period_multipliers(orbit: Orbit) -> np.ndarray:
+    """Multipliers (8,) complex of a symmetric orbit over half a period and mirroring: the roots of its multipliers.
+
+    They tell apart what the full ones do not: +1 is a fold, -1 is symmetry breaking.
+
+    Raises:
+        ValueError: the orbit is not symmetric.
+    """
+    if not orbit.symmetric:
+        raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
+    system = orbit.system
+    impacts = _after_zero(orbit.impact_phases * system.period, system.period)
+    order = np.argsort(impacts, kind="stable")[:2]
+    passage = follow(system, orbit.state, impacts[order], _MODULES[order], system.period / 2)
+    return multipliers(-passage.jacobian)
+
+
+def _after_zero(times, period):
+    """Impact times (4,) in (0, T]: the state at tau = 0 is the one after an impact there."""
+    return np.where(times == 0, period, times).ravel()
+
+
+def _order(orbit):
+    """Sorting key; phases break ties between modules that do not feel each other."""
+    speeds = orbit.ball_speeds.sum(axis=1).round(9)
+    return (not orbit.symmetric, *speeds, *orbit.impact_phases.ravel().round(9))
+
+
+def symmetric_orbit(system, root) -> Orbit:
+    """The orbit of a root (4,) of the symmetric equations: impact times of both modules at one wall, then C_1, C_2."""
+    times, C = root[:2], root[2:]
+    later = wrapped(times + system.period / 2, system.period)
+    changes = 4 * path_of(system.epsilon, C) / system.period
+    return _orbit(system, np.stack([times, later], axis=1), changes, np.full(2, 0.5), sign=-1)
+
+
+def asymmetric_orbit(system, root) -> Orbit:
+    """The orbit of a root of the asymmetric equations: impact times (module, wall) flattened, then what they carry."""
+    times = root[:4].reshape(2, 2)
+    fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
+    return _orbit(system, times, root[4:], fractions, sign=1)
+
+
+def _orbit(system, times, changes, fractions, sign):
+    """The orbit with impacts at `times` (2, 2), ball velocity changes (2,) there, flight fractions (2,) from wall +1.
+
+    sign: -1 if it is symmetric, so that each module's kicks are one alternating train; +1 if they are two trains.
+    """
+    speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
+    state = _state(system, times, changes, speeds, sign)
+    impacts = _after_zero(times, system.period)
+    order = np.argsort(impacts, kind="stable")
+    passage = follow(system, state, impacts[order], _MODULES[order], system.period)
+    gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
+    at_wall = gaps[range(4), _MODULES[order] - 1] - _WALLS[order]
+    return Orbit(
+        system=system,
+        symmetric=sign == -1,
+        impact_phases=wrapped(times / system.period, 1.0),
+        ball_speeds=speeds,
+        multipliers=multipliers(passage.jacobian),
+        state=state,
+        admissible=bool((speeds > 0).all() and _within_walls(system, state, impacts[order], passage)),
+        residual=float(max(abs(at_wall).max(), abs(passage.final - state).max())),
+    )
+
+
+def _state(system, times, changes, speeds, sign):
+    """State (8,) at tau = 0 by superposition of the forced response and the trains of kicks."""
+    response, amplitude = impulse_response(system, sign), forced_amplitude(system)
+    trains = 1 if sign == -1 else 2
+    kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
+
+    def boxes(tau):
+        forced = amplitude * np.exp(1j * system.Omega * tau)
+        motion = np.concatenate([forced.imag, system.Omega * forced.real])
+        return motion + np.einsum("iksi,ik->s", response(tau - times[:, :trains]), kicks)
+
+    state = np.empty(8)
+    state[BOXES] = boxes(0.0)
+    since = wrapped(-times, system.period)
+    for i, last in enumerate(since.argmin(axis=1)):
+        wall = (1, -1)[last]
+        velocity = wall * speeds[i, last]
+        state[BALLS[i]] = boxes(times[i, last])[i] - wall + velocity * since[i, last]
+        state[BALLS[2 + i]] = velocity
+    return state
+
+
+def _within_walls(system, state, impacts, passage):
+    """Whether |W_i| <= 1 throughout; it is 1 at the impacts themselves, so only the extrema inside flights matter."""
+    starts, ends = [0.0, *impacts], [*impacts, system.period]
+    flights = zip([state, *passage.after], starts, ends, strict=True)
+    return all(extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in flights)
+
+
+def extremes(system, state, start, end):
+    """|W_i| at its extrema inside one free flight from `state` at time `start` to time `end`."""
+    fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
+    count = 1 + math.ceil((end - start) * fastest / _STEP)
+    spacing = (end - start) / count
+    step = rate_matrix(system) * spacing
+    grid = powers(expm(step), min(count, _SAMPLES) + 1)
+    phase = system.Omega * start
+    boxes = np.array([*state[BOXES], math.sin(phase), math.cos(phase)])
+    found = []
+    for first in range(0, count, _SAMPLES):
+        elapsed = spacing * np.arange(first, min(first + _SAMPLES, count) + 1)[:, None]
+        samples = grid[: len(elapsed)] @ boxes
+        boxes = samples[-1]
+        W = samples[:, :2] - state[BALLS[:2]] - state[BALLS[2:]] * elapsed
+        found.append(_turning_values(W, (samples[:, 2:4] - state[BALLS[2:]]) * spacing))
+    return abs(np.concatenate(found))
+
+
+def _turning_values(W, V):
+    """Values of W where it turns, from samples (n, 2) of it and of its velocity times their spacing."""
+    turns = V[:-1] * V[1:] < 0
+    w0, w1, v0, v1 = W[:-1][turns], W[1:][turns], V[:-1][turns], V[1:][turns]
+    s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there
+    return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

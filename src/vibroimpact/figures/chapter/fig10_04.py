@@ -1,0 +1,44 @@
+"""Figure 10.4: the slow invariant manifold of the system."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.manifold import branches, draw_branches
+from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.manifold import B_min, rho
+
+
+def compute(kappa: float, C_max: float) -> pd.DataFrame:
+    """The manifold B(C), (10.16), with its branches by (10.26) and the level B_min, (10.25), for 0 <= C <= C_max.
+
+    Returns columns panel, series ("SIM stable", "SIM unstable", "B_min"), C, B.
+
+    Raises:
+        ValueError: C_max does not reach beyond the fold C_min.
+    """
+    level = curve("SIM", "B_min", C=[0.0, C_max], B=B_min(rho(kappa)))
+    return join([*branches("SIM", kappa, C_max), level])
+
+
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """Where the stable branch begins, and the lowest point of the manifold."""
+    stable = select(table, "SIM", "SIM stable")[["C", "B"]]
+    points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
+    return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min dotted."""
+    figure = new_figure(SINGLE_COLUMN, 56.0)
+    axes = figure.add_subplot()
+    draw_branches(axes, table, "SIM")
+    level = select(table, "SIM", "B_min")
+    axes.plot(level["C"], level["B"], **LEVEL)
+    axes.annotate(
+        r"$B_{\min}$", (level["C"].iloc[0], level["B"].iloc[0]), (6, 4), textcoords="offset points", fontsize=10
+    )
+    axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
+    axes.legend(loc="upper center", reverse=True)
+    return figure

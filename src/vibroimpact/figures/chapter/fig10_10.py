@@ -1,0 +1,43 @@
+"""Figure 10.10: a fixed point on both planes of the slow invariant manifold, and its theoretical response."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.chapter import fig10_06, fig10_07
+from vibroimpact.figures.kit.fixed_point_table import labelled_point
+from vibroimpact.figures.kit.style import SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import join
+
+
+def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_max) -> pd.DataFrame:
+    """The planes of figure 10.6 and the response of figure 10.7 for one fixed point.
+
+    Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
+
+    Raises:
+        ValueError: as those two.
+    """
+    point = labelled_point(points, fixed_point)
+    return join(
+        [
+            *fig10_06.planes(system, [point], C_max),
+            fig10_07.compute(system, points, fixed_point, periods),
+        ]
+    )
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: the planes side by side, the responses of both modules below."""
+    figure = new_figure(SINGLE_COLUMN, 132.0)
+    panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
+    label = table["panel"].iloc[0][:-1]
+    for module in fig10_06.MODULES:
+        fig10_06.draw_plane(panels[module], table, f"{label}{module}")
+        panels[module].set_xlabel(f"$C_{module}$")
+        fig10_07.draw_response(panels[f"module {module}"], table, module)
+    panels["module 1"].sharex(panels["module 2"])
+    panels["module 1"].sharey(panels["module 2"])
+    panels["module 1"].tick_params(labelbottom=False)
+    panels["module 2"].set_xlabel(r"$\tau$")
+    return figure

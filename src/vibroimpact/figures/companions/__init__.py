@@ -1,0 +1,1 @@
+"""Figures that the chapter does not show: compute(...) -> tables, draw(tables) -> Figure."""

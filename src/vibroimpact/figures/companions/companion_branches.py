@@ -1,0 +1,243 @@
+"""Companion: branches of 1:1 responses against the forcing, of the theory and exact, with simulated attractors."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact.regimes.branches import Path, branches
+from vibroimpact.regimes.classification import APERIODIC, UNSETTLED
+from vibroimpact.regimes.classification import starts as spread_starts
+from vibroimpact.regimes.families import (
+    FAMILIES,
+    FOLD,
+    GRAZING,
+    HOPF,
+    MANIFOLD_FOLD,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    SPEED_ZERO,
+    SYMMETRY_BREAKING,
+    AsymmetricOrbits,
+    FixedPoints,
+)
+from vibroimpact.regimes.lifetimes import bracket
+from vibroimpact.regimes.settling import Observation, settle
+
+MARKERS = {
+    FOLD: "o",
+    SYMMETRY_BREAKING: "^",
+    PERIOD_DOUBLING: "s",
+    NEIMARK_SACKER: "D",
+    HOPF: "D",
+    GRAZING: "X",
+    SPEED_ZERO: "P",
+    MANIFOLD_FOLD: "v",
+}
+_SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
+REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
+DOTS = {
+    REPEATING: {"linestyle": "none", "marker": "o", "markeredgewidth": 0, "markersize": 4.4, "color": "0.8"},
+    VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
+    PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
+}
+"""What starts end in, by simulation."""
+KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
+BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and periodic pair coexist"}
+CRISIS = {"color": BLACK, "linestyle": (0, (1, 1.2)), "linewidth": 1.0, "label": "crisis"}
+LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4}
+BARS = {"capsize": 2.0, "elinewidth": 0.8}
+LEAST = {"linestyle": "none", "marker": "^", "color": "white", "markeredgecolor": BLACK, "markersize": 4.4}
+LIVES = "mean life"
+LIFE_RANGE = (30.0, 1e6)
+"""Fixed, so that the axis does not depend on the error of the shortest life."""
+COLOURS = {AsymmetricOrbits.name: "0.45"}
+_NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
+
+
+def compute(
+    system,
+    paths: list[dict],
+    longest_step: float,
+    seeds: int,
+    attractors: dict,
+    observation: dict,
+    lifetimes: pd.DataFrame,
+) -> dict:
+    """Branches along each path, their special points, and attractors from several starts.
+
+    Args:
+        paths: each with `along` (names of the parameters that move together) and `range` (low, high).
+        longest_step, seeds: of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
+        attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
+        observation: arguments of `regimes.settling.Observation`.
+        lifetimes: of `coexistence.compute_lifetimes`; those along one of the paths are drawn.
+
+    Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C belongs
+    to half of the ball's mean path per cycle; rows of the panel "mean life", labelled by the path, with life,
+    uncertainty, least, and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2).
+    """
+    parts = []
+    for panel, settings in zip("abcdefgh", paths, strict=False):
+        path, interval = Path(system, tuple(settings["along"])), settings["range"]
+        for family in FAMILIES.values():
+            found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
+            parts += [part for number, branch in enumerate(found) for part in _pieces(panel, path, number, branch)]
+        parts.append(_attractors(panel, path, interval, observation, **attractors))
+    table = join(parts)
+    special = table[table["label"].ne("") & table["branch"].notna()]
+    special = special.sort_values("admissible").drop_duplicates(
+        ["panel", "series", "label", "branch", "p"], keep="last"
+    )
+    special = special.sort_index()
+    along = special["panel"].map({panel: " ".join(s["along"]) for panel, s in zip("abcdefgh", paths, strict=False)})
+    special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
+    special = special[["path", "family", "kind", "p", "C1", "C2", "admissible"]]
+    drawn = lifetimes[lifetimes["path"].isin(special["path"])]
+    return {"csv": join([table, *_lives(drawn), *_coexistence(drawn, special)]), "special_points": special}
+
+
+def _lives(lifetimes):
+    for name, rows in lifetimes.groupby("path"):
+        yield curve(LIVES, LIVES, label=name, **{key: rows[key] for key in ("p", "life", "uncertainty", "least")})
+
+
+def _coexistence(lifetimes, special):
+    """Where chaos and the asymmetric pair both attract: from the pair's last Neimark-Sacker point up to the crisis."""
+    for name, rows in lifetimes.groupby("path"):
+        crisis = np.mean(bracket(rows["p"], rows["escapes"]))
+        pair = special[(special["path"] == name) & (special["family"] == AsymmetricOrbits.name) & special["admissible"]]
+        ends = pair[_is(pair, NEIMARK_SACKER) & (pair["p"] < crisis)]["p"]
+        if len(ends):
+            yield curve(LIVES, "coexistence", label=name, p=[ends.max(), crisis])
+
+
+def _pieces(panel, path, number, branch):
+    for piece, (inner, nodes) in enumerate(branch.pieces()):
+        amplitudes = np.array([node.amplitudes for node in nodes])
+        yield curve(
+            panel,
+            branch.family.name,
+            label=[node.kind for node in nodes],
+            branch=number,
+            piece=piece,
+            p=[node.p for node in nodes],
+            C1=amplitudes[:, 0],
+            C2=amplitudes[:, 1],
+            stable=inner.stable,
+            admissible=inner.admissible,
+        )
+
+
+def _attractors(panel, path, interval, observation, values, starts, seed):
+    rows = []
+    for p in np.linspace(*interval, values):
+        regimes = settle(path(p), spread_starts(starts, seed), Observation(**observation))
+        rows += [(p, *regime.mean_amplitudes, regime.name) for regime in regimes]
+    p, C1, C2, names = zip(*rows, strict=True)
+    return curve(panel, "attractor", label=names, p=p, C1=C1, C2=C2)
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: C_2 along each path; stable bold solid, unstable dashed, special points marked."""
+    table, special = tables["csv"], tables["special_points"]
+    panels = [panel for panel in dict.fromkeys(table["panel"]) if panel != LIVES]
+    along = dict(zip(panels, dict.fromkeys(special["path"]), strict=True))
+    figure = new_figure(DOUBLE_COLUMN, 172.0)
+    grid = figure.subplots(3, len(panels), sharex="col", squeeze=False, height_ratios=(3, 3, 2))
+    lives = table[table["panel"] == LIVES]
+    for column, panel in enumerate(panels):
+        mine, points = table[table["panel"] == panel], special[special["path"] == along[panel]]
+        theory = mine["series"] == FixedPoints.name
+        _attractor_dots(grid[1, column], mine[mine["series"] == "attractor"])
+        _lines(grid[0, column], mine[theory])
+        _lines(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
+        _marks(grid[0, column], points[points["family"] == FixedPoints.name])
+        _marks(grid[1, column], points[(points["family"] != FixedPoints.name) & points["admissible"]])
+        attractors = mine[mine["series"] == "attractor"]["p"]
+        grid[1, column].set(xlim=(attractors.min(), attractors.max()))
+        for row, what in enumerate(("theory", "exact")):
+            letter_panel(grid[row, column], "abcdefgh"[row * len(panels) + column])
+            grid[row, column].set_title(what, loc="right", pad=3)
+    for axes in grid[:2].flat:
+        axes.set(ylim=(0.0, 2.6))
+        axes.label_outer()
+    for axes in grid[:2, 0]:
+        axes.set_ylabel("$C_2$")
+    letters = iter("abcdefghijklmnop"[2 * len(panels) :])
+    for column, panel in enumerate(panels):
+        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
+    figure.legend(handles=_legend(special), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
+    return figure
+
+
+def _life(exact, axes, lives, along, letters):
+    """Mean lives below the other panels of a path, and the window of coexistence; nothing where none is known."""
+    if lives.empty:
+        axes.set_axis_off()
+        exact.set_xlabel(_axis(along))
+        exact.tick_params(labelbottom=True)
+        return
+    window = lives[lives["series"] == "coexistence"]["p"]
+    for shaded in (exact, axes) if len(window) else ():
+        shaded.axvspan(*window, zorder=0, **BOTH)
+        shaded.axvline(window.iloc[-1], zorder=0.5, **CRISIS)
+    measured = lives[lives["life"].notna()]
+    axes.errorbar(measured["p"], measured["life"], yerr=measured["uncertainty"], **LIFE, **BARS)
+    least = lives[lives["least"].notna()]
+    axes.plot(least["p"], least["least"], **LEAST)
+    axes.set(yscale="log", ylabel="mean life, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
+    letter_panel(axes, next(letters))
+    axes.set_title("life of the chaos", loc="right", pad=3)
+
+
+def _lines(axes, table):
+    for _, piece in table.groupby(["series", "branch", "piece"], sort=False):
+        style = STABLE if piece["stable"].iloc[0] else UNSTABLE
+        axes.plot(piece["p"], piece["C2"], **style | {"color": COLOURS.get(piece["series"].iloc[0], BLACK)})
+
+
+def _marks(axes, special):
+    for kind, marker in MARKERS.items():
+        rows = special[_is(special, kind)]
+        axes.plot(rows["p"], rows["C2"], marker=marker, zorder=4, **_SPECIAL)
+
+
+def _attractor_dots(axes, attractors):
+    kinds = attractors["label"].map(lambda name: KINDS.get(name, REPEATING))
+    for kind, style in DOTS.items():
+        rows = attractors[kinds == kind]
+        axes.plot(rows["p"], rows["C2"], zorder=1, **style, label=kind)
+
+
+def _is(special, kind):
+    """Rows of a kind; of those that name a module as well."""
+    return special["kind"].str.partition(",")[0] == kind
+
+
+def _legend(special):
+    kinds = [kind for kind in MARKERS if _is(special, kind).any()]
+    marked = {MARKERS[kind]: [other for other in kinds if MARKERS[other] == MARKERS[kind]] for kind in kinds}
+    grey = {"color": COLOURS[AsymmetricOrbits.name]}
+    return [
+        Line2D([], [], **STABLE, label="stable"),
+        Line2D([], [], **UNSTABLE, label="unstable"),
+        Line2D([], [], **STABLE | grey, label="asymmetric, stable"),
+        Line2D([], [], **UNSTABLE | grey, label="asymmetric, unstable"),
+        *(Line2D([], [], **style, label=kind) for kind, style in DOTS.items()),
+        *(Line2D([], [], marker=marker, label=", ".join(names), **_SPECIAL) for marker, names in marked.items()),
+        Patch(**BOTH),
+        Line2D([], [], **CRISIS),
+        Line2D([], [], **LIFE, label=LIVES),
+        Line2D([], [], **LEAST, label="its lower bound"),
+    ]
+
+
+def _axis(along):
+    return (
+        "$" + " = ".join(_NAMES.get(name, r"\mathrm{" + name.replace("_", r"\_") + "}") for name in along.split()) + "$"
+    )

@@ -1,0 +1,154 @@
+"""Companion on stability: four criteria side by side on every fixed point and orbit of each case."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    LIGHT_GREY,
+    letter_panel,
+    new_figure,
+    styled,
+)
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+from vibroimpact.theory.manifold import rho
+from vibroimpact.theory.masri import lower_limit, upper_limit
+from vibroimpact.theory.stability import printed_limit
+
+HEADINGS = ("(10.26)", "Masri", "slow\nflow", "exact")
+FACES = {STABLE: BLACK, UNSTABLE: "white", UNDECIDED: GREY}
+KINDS = {"fixed point": "o", "symmetric": "s", "asymmetric": "D"}
+"""Markers: a fixed point of the theory, an exact orbit of either kind."""
+NAMES = {"fixed point": "fixed point", "symmetric": "symmetric orbit", "asymmetric": "asymmetric orbit"}
+ROW, PLANE, FRAME = 4.3, 46.0, 28.0
+"""Heights in mm: a row of verdicts, a plane, everything around them."""
+
+
+def compute(systems: dict, points: pd.DataFrame, orbits: pd.DataFrame) -> pd.DataFrame:
+    """Verdicts and places of all fixed points and admissible orbits, and the limits of each case.
+
+    Args:
+        systems: the System of each case, in the order of the panels.
+        points, orbits: columns case, label, C1, C2 and one per criterion; orbits also symmetric and admissible, points
+            also orbit (`companion_verdicts`).
+
+    Returns columns panel (the case), series ("fixed point", "symmetric", "asymmetric"; "link": from a fixed point to
+    its orbit; "printed", "stable": lower left and upper right corner of the region that (10.26), Masri's analysis
+    allows), label, C1, C2, one per criterion.
+    """
+    motions = orbits[orbits["admissible"].astype(bool)].astype({"symmetric": bool})
+    parts = []
+    for case, system in systems.items():
+        here, exact = points[points["case"] == case], motions[motions["case"] == case]
+        parts += [
+            _rows(case, "fixed point", here),
+            _rows(case, "symmetric", exact[exact["symmetric"]]),
+            _rows(case, "asymmetric", exact[~exact["symmetric"]]),
+            *_links(case, here, exact),
+        ]
+        corners = {
+            "printed": [printed_limit(rho(system.kappa)), np.inf],
+            "stable": [lower_limit(system.kappa), upper_limit(system.kappa)],
+        }
+        parts += [curve(case, series, C1=corner, C2=corner) for series, corner in corners.items()]
+    columns = ["panel", "series", "label", "C1", "C2", *CRITERIA]
+    return join(part for part in parts if len(part)).reindex(columns=columns)
+
+
+def _rows(case, series, rows):
+    return rows[["label", "C1", "C2", *CRITERIA]].assign(panel=case, series=series)
+
+
+def _links(case, points, orbits):
+    both = points.merge(orbits, left_on="orbit", right_on="label", suffixes=("", "_exact"))
+    return [
+        curve(case, "link", C1=[row["C1"], row["C1_exact"]], C2=[row["C2"], row["C2_exact"]])
+        for _, row in both.iterrows()
+    ]
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white."""
+    cases = list(dict.fromkeys(table["panel"]))
+    most = max(1, *(len(_motions(table, case)) for case in cases))
+    figure = new_figure(DOUBLE_COLUMN, PLANE + ROW * most + FRAME)
+    grid = figure.subplots(2, len(cases), squeeze=False, height_ratios=[PLANE, ROW * most])
+    places = table[["C1", "C2"]].to_numpy(float)
+    end = 1.1 * places[np.isfinite(places)].max()
+    for letter, case, (plane, matrix) in zip("abcdefgh", cases, grid.T, strict=False):
+        letter_panel(plane, letter)
+        _draw_plane(plane, table, case, end)
+        _draw_matrix(matrix, _motions(table, case), most)
+    figure.legend(handles=_key(table), loc="outside lower center", ncols=6, fontsize=8.5)
+    return figure
+
+
+def _motions(table, case):
+    return table[(table["panel"] == case) & table["series"].isin(KINDS)]
+
+
+def _draw_plane(axes, table, case, end):
+    """The plane (C_1, C_2): region of Masri's analysis shaded, that of (10.26) above the dotted lines."""
+    low, high = select(table, case, "stable")["C1"]
+    axes.fill([low, high, high, low], [low, low, high, high], facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
+    printed = select(table, case, "printed")["C1"].iloc[0]
+    axes.plot([printed, printed, end], [end, printed, printed], **LEVEL, zorder=1)
+    links = select(table, case, "link")[["C1", "C2"]].to_numpy().reshape(-1, 2, 2)
+    for link in links:
+        axes.plot(*link.T, color=BLACK, linewidth=0.6, zorder=2)
+    for _, motion in _motions(table, case).iterrows():
+        axes.plot(motion["C1"], motion["C2"], **_marker(motion["series"], overall(motion)), zorder=3)
+    axes.set(xlim=(0, end), ylim=(0, end), xlabel="$C_1$", ylabel="$C_2$", aspect="equal")
+
+
+def overall(motion) -> str:
+    """What is true of an orbit (its multipliers); what the theory says of a fixed point: both time scales stable."""
+    if motion["series"] != "fixed point":
+        return motion["floquet"]
+    says = {motion["masri_derived"], motion["slow_flow"]}
+    return UNSTABLE if UNSTABLE in says else UNDECIDED if UNDECIDED in says else STABLE
+
+
+def _draw_matrix(axes, motions, most):
+    """A row per motion, a column per criterion."""
+    axes.set(xlim=(-2.3, len(CRITERIA) - 0.4), ylim=(most - 0.5, -0.5), xticks=[], yticks=[])
+    axes.set_axis_off()
+    for row, (_, motion) in enumerate(motions.iterrows()):
+        name = f"({motion['label']})" if motion["series"] == "fixed point" else motion["label"]
+        axes.text(-3.3, row, name, va="center", fontsize=8.5)
+        axes.text(-0.75, row, f"{motion['C1']:.2f}, {motion['C2']:.2f}", va="center", ha="right", fontsize=8.5)
+        for column, criterion in enumerate(CRITERIA):
+            if motion[criterion] != NO_ORBIT:
+                axes.plot(column, row, **_marker(motion["series"], motion[criterion]))
+    for column, heading in enumerate(HEADINGS):
+        axes.text(column, -0.75, heading, ha="center", va="bottom", fontsize=8, linespacing=0.95)
+    axes.text(-0.75, -0.75, "$C_1$, $C_2$", ha="right", va="bottom", fontsize=10)
+
+
+def _key(table):
+    """What markers, and those of their faces that occur, mean."""
+    occurring = set(table[list(CRITERIA)].to_numpy().ravel())
+    kinds = [Line2D([], [], **_marker(series, STABLE), label=name) for series, name in NAMES.items()]
+    faces = [
+        Line2D([], [], **_marker("fixed point", verdict), label=verdict) for verdict in FACES if verdict in occurring
+    ]
+    return kinds + faces
+
+
+def _marker(series, verdict):
+    return {
+        "marker": KINDS[series],
+        "linestyle": "none",
+        "color": BLACK,
+        "markerfacecolor": FACES[verdict],
+        "markeredgewidth": 0.7,
+        "markersize": 4.2,
+    }

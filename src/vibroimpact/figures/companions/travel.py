@@ -1,0 +1,77 @@
+"""How the fixed points travel along the manifold as the forcing of the second module changes."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import linear_sum_assignment
+
+from vibroimpact.figures.kit.manifold import branches
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.tables import join
+from vibroimpact.system.verdict import STABLE
+from vibroimpact.theory.criteria import of_fixed_point
+from vibroimpact.theory.fixed_points.search import fixed_points
+
+LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GREY, (0, (4.5, 1.5)), "D")]
+"""Colour, line and marker of each track."""
+EVERY = 6
+"""Markers stand at every so many values: filled where the slow flow is stable, hollow where it is not."""
+
+
+def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
+    """All fixed points at each value of a parameter, followed from value to value, and the manifold.
+
+    Args:
+        systems: value of the parameter (ascending) -> system; kappa is the same in all of them.
+        C_max: the manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
+
+    Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
+    C2, B2, and the verdicts of the theory's criteria; "manifold": columns series, C, B as in figure 10.4.
+    """
+    rows, last, tracks = [], np.empty((0, 2)), 0
+    names = []
+    for value, system in systems.items():
+        points = fixed_points(system)
+        now = np.array([point.C for point in points]).reshape(-1, 2)
+        names, tracks = _continued(names, last, now, tracks)
+        last = now
+        for track, point in zip(names, points, strict=True):
+            row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
+            rows.append({**row, "B2": point.B[1], **of_fixed_point(system, point)})
+    points = pd.DataFrame(rows)
+    end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy().max())
+    kappa = next(iter(systems.values())).kappa
+    return {"points": points, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
+
+
+def _continued(names, last, now, tracks):
+    """The track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
+    gaps = np.linalg.norm(last[:, None] - now[None], axis=2)
+    found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
+    fresh = [new for new in range(len(now)) if new not in found]
+    found |= {new: tracks + number for number, new in enumerate(fresh, start=1)}
+    return [found[new] for new in range(len(now))], tracks + len(fresh)
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
+    """C_1 and C_2 of each track over the parameter, which `name` names as mathematics.
+
+    Filled markers: stable by the slow flow; hollow: not.
+    """
+    figure = new_figure(DOUBLE_COLUMN, 62.0)
+    points = tables["points"]
+    for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
+        for track, rows in points.groupby("track"):
+            colour, line, marker = LOOKS[(track - 1) % len(LOOKS)]
+            axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line, label=f"point {track}")
+            for stable, face in ((True, colour), (False, "white")):
+                shown = rows.iloc[::EVERY]
+                shown = shown[(shown["slow_flow"] == STABLE) == stable]
+                style = {"color": colour, "markerfacecolor": face, "markersize": 3.6, "linestyle": "none"}
+                axes.plot(shown["value"], shown[f"C{module}"], marker=marker, **style)
+        axes.set(xlabel=f"${name}$", ylabel=f"$C_{module}$", xlim=(points["value"].min(), points["value"].max()))
+        letter_panel(axes, letter)
+        if module == 1:
+            axes.legend(fontsize=8)
+    return figure

@@ -1,0 +1,44 @@
+"""Verdicts of the theory on every fixed point over a grid of forces, against the exact orbits at several epsilon."""
+
+import pandas as pd
+
+from vibroimpact.claims.verdict_table import NO_ORBIT, partners
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.verdict import floquet
+from vibroimpact.regimes.regime_map import tile
+from vibroimpact.theory import criteria as verdicts
+from vibroimpact.theory.fixed_points.search import fixed_points
+
+NO_MOTION = {"admissible": False, "floquet": NO_ORBIT}
+
+
+def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
+    """A row per fixed point and epsilon, for forces at the centres of points x points cells.
+
+    Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
+    theory, admissible (whether its exact orbit stays between the walls) and floquet: the verdict on that orbit,
+    "no orbit" where there is none (see `companion_verdicts.partners`).
+    """
+    rows = []
+    for f10, f20 in tile(f10_range, f20_range, points, 0, 1):
+        here = system.with_(f10_hat=f10, f20_hat=f20)
+        listed = fixed_points(here)
+        says = [verdicts.of_fixed_point(here, point) for point in listed]
+        for value in epsilon if listed else ():
+            exact = _exact(here.with_(epsilon=value), [point.C for point in listed])
+            place = {"epsilon": value, "f10_hat": f10, "f20_hat": f20}
+            rows += [
+                {**place, "C1": point.C[0], "C2": point.C[1], **said, **found}
+                for point, said, found in zip(listed, says, exact, strict=True)
+            ]
+    columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *verdicts.CRITERIA, *NO_MOTION]
+    return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
+
+
+def _exact(system, points):
+    """What is true of the orbit of each fixed point."""
+    roots = symmetric_solutions(system)
+    for partner in partners(points, roots[:, 2:]):
+        orbit = None if partner is None else symmetric_orbit(system, roots[partner])
+        yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, "floquet": floquet(orbit)}

@@ -1,0 +1,38 @@
+"""The slow invariant manifold B(C) as figures 10.4, 10.6, 10.9 and 10.10 show it: a stable and an unstable branch."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.figures.kit.style import STABLE, UNSTABLE
+from vibroimpact.figures.kit.tables import curve, select
+from vibroimpact.theory.manifold import B_of_C, C_min, rho
+from vibroimpact.theory.stability import printed_limit
+
+BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
+
+
+def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[pd.DataFrame]:
+    """Both branches of B(C), (10.16), for 0 <= C <= C_max, split where (10.26) says; columns C, B.
+
+    The point where the branches meet is in both, and the fold C_min of (10.25) is among the points.
+
+    Raises:
+        ValueError: C_max does not reach beyond the fold.
+    """
+    r = rho(kappa)
+    limit, fold = printed_limit(r), C_min(r)
+    if not C_max > fold:
+        raise ValueError(f"C_max: {C_max} is not above C_min = {fold}, so the right arm would be missing")
+    C = np.union1d(np.linspace(0.0, C_max, points), [limit, fold])
+    border = np.searchsorted(C, limit)
+    return [
+        curve(panel, series, C=part, B=B_of_C(part, r))
+        for series, part in (("SIM unstable", C[: border + 1]), ("SIM stable", C[border:]))
+    ]
+
+
+def draw_branches(axes, table: pd.DataFrame, panel: str) -> None:
+    """Draw both branches of one panel: stable bold solid, unstable dashed."""
+    for series, style in BRANCHES.items():
+        branch = select(table, panel, series)
+        axes.plot(branch["C"], branch["B"], **style, label=series.removeprefix("SIM "))

@@ -1,0 +1,70 @@
+"""The look shared by all figures, and how a figure becomes files."""
+
+import functools
+import json
+from pathlib import Path
+
+import matplotlib.style
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.artists import describe, drawn_with
+from vibroimpact.figures.kit.files import replacing
+
+STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
+
+SINGLE_COLUMN, DOUBLE_COLUMN = 84.0, 174.0
+"""Widths of a printed figure in mm."""
+
+BLACK, GREY, LIGHT_GREY = "black", "0.55", "0.86"
+STABLE = {"color": BLACK, "linewidth": 1.8, "linestyle": "-"}
+UNSTABLE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4.5, 2.5))}
+LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
+"""Lines of the chapter: stable branch bold solid, unstable branch dashed, B_min and C_min dotted."""
+
+# No date, so that the same figure always gives the same bytes.
+_METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
+"""The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
+
+
+def styled(function):
+    """Run a drawing function in the shared style, whatever the caller's Matplotlib settings are."""
+
+    @functools.wraps(function)
+    def in_style(*args, **kwargs):
+        with matplotlib.style.context(STYLE_FILE, after_reset=True):
+            return function(*args, **kwargs)
+
+    return in_style
+
+
+def new_figure(width: float, height: float, layout: str | None = "constrained") -> Figure:
+    """An empty figure of exactly width by height in mm."""
+    return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
+
+
+def letter_panel(axes, letter: str) -> None:
+    """Letter a panel as the captions do: in bold, above its upper left corner."""
+    axes.set_title(letter, loc="left", weight="bold", pad=3)
+
+
+@styled
+def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all.
+
+    Args:
+        outputs: also ["artists"], if present: what the figure shows, as JSON (see `artists.describe`), with the
+            versions that drew it.
+        provenance: where the figure comes from, JSON data that goes into the metadata of each file.
+    """
+    outputs = dict(outputs.items())  # of the pipeline's own kind of mapping, `in` looks at the values
+    # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
+    for kind in (kind for kind in _METADATA if kind in outputs):
+        metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
+        with replacing(outputs[kind]) as path:
+            figure.savefig(path, format=kind, metadata=metadata)
+        figure.set_layout_engine("none")  # one layout for all files, and not computed again for each
+    if "artists" in outputs:
+        with replacing(outputs["artists"]) as path:
+            content = {"drawn with": drawn_with(), **describe(figure)}
+            path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

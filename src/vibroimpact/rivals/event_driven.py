@@ -1,0 +1,41 @@
+"""The engine of this package, as one method among the others."""
+
+import numpy as np
+
+from vibroimpact.exact.engine.simulation import IMPACT as IMPACT_KIND
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
+
+
+class Engine(Method):
+    """Closed-form flight and certified events (vibroimpact.simulate). It has no tolerance to set."""
+
+    name, family, knob, ladder, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        try:
+            run = simulate(system, state, cycles, tau0)
+        except ArithmeticError as error:
+            return failed(REFUSED, str(error), 0)
+        events = run.events
+        impacts = np.empty(len(events), IMPACT)
+        for name in ("tau", "module", "wall"):
+            impacts[name] = events[name]
+        velocities = events["state"][:, 4:]
+        rebound = np.where(
+            events["module"] == 1, velocities[:, 0] - velocities[:, 1], velocities[:, 2] - velocities[:, 3]
+        )
+        impacts["speed"] = np.abs(rebound) / system.kappa
+        impacts = impacts[events["kind"] == IMPACT_KIND]
+        return RivalRun(run.final, impacts, len(events) + 1, doubt=lambda: _doubt(run, tau0 + cycles * system.period))
+
+
+def _doubt(run, end):
+    """What the certificate of a run leaves open, in words."""
+    certificate = run.certificate
+    if certificate.horizon < end:
+        return f"known up to tau = {certificate.horizon:.6g}"
+    if not certificate.decided:
+        nearest = min(certificate.nearest_miss, certificate.shallowest_hit)
+        return f"an approach to a wall (the nearest: {nearest:.1e}) is within its error"
+    return None

@@ -1,0 +1,1 @@
+"""The figures against their reference set: numbers, artists, pictures."""

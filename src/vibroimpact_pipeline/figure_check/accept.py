@@ -1,0 +1,126 @@
+"""Accept the new figures as the reference set: show what changes, ask for a reason, record both.
+
+Nothing else writes into the reference set.
+"""
+
+import argparse
+import datetime
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.figure_check import pictures as picture_difference
+from vibroimpact_pipeline.figure_check.compare import PASSED, files_of, shown
+
+HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
+SHOWN = 8
+"""Reasons shown per figure; the page has more, figure_check.json has all."""
+
+
+def changed(verdicts: list[dict], figures=()) -> list[dict]:
+    """Verdicts on the named figures, or on all that did not pass.
+
+    Raises:
+        ValueError: a name that no verdict has.
+    """
+    known = {verdict["figure"]: verdict for verdict in verdicts}
+    unknown = [figure for figure in figures if figure not in known]
+    if unknown:
+        raise ValueError(f"figures: unknown {', '.join(unknown)}; there are {', '.join(known)}")
+    return [v for v in verdicts if (v["figure"] in figures if figures else v["status"] != PASSED)]
+
+
+def summary(verdict: dict) -> list[str]:
+    """What changes in one figure: numbers before and after, their distance, and what else is found."""
+    said = [f"{verdict['figure']}: {verdict['status']}"]
+    for column in verdict["tables"]:
+        if column["distance"] != 0:
+            before, after, distance = (_said(column[name]) for name in ("reference", "new", "distance"))
+            said.append(
+                f"  {column['table']}, {column['column']}: before {before}, after {after}, "
+                f"difference {distance} {column['unit']} ({column['where']})"
+            )
+    reasons = verdict["reasons"]
+    said += [f"  {reason}" for reason in reasons[:SHOWN]]
+    return said + [f"  and {len(reasons) - SHOWN} more"] * (len(reasons) > SHOWN)
+
+
+def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.date) -> None:
+    """Copy the files of the given figures into the reference set, and write down why.
+
+    A figure that is no longer built leaves the set.
+
+    Raises:
+        ValueError: the reason is empty.
+    """
+    reason = " ".join(reason.split())
+    if not reason:
+        raise ValueError("reason: empty; say why the reference set changes")
+    entries = [_entry(verdict, new) for verdict in verdicts]
+    for verdict in verdicts:
+        old_files, new_files = (files_of(verdict["figure"], folder) for folder in (reference, new))
+        for path in old_files.values():
+            path.unlink(missing_ok=True)
+        for name, path in new_files.items():
+            if path.is_file():
+                with replacing(Path(reference) / name) as partial:
+                    _keep(path, partial)
+    changes = Path(reference) / "CHANGES.md"
+    earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
+    with replacing(changes) as partial:
+        text = f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n" + "\n".join(entries) + "\n" + earlier
+        partial.write_text(text, encoding="utf-8")
+
+
+def _keep(path, target):
+    """A copy; of a picture the grey that is compared, in half the bytes."""
+    if path.suffix == ".png":
+        target.write_bytes(picture_difference.png(picture_difference.grey(path)))
+    else:
+        shutil.copyfile(path, target)
+
+
+def _entry(verdict, new):
+    """A line on what changes in a figure and what built it."""
+    sidecar = Path(new) / f"{verdict['figure']}.provenance.json"
+    built = json.loads(sidecar.read_text(encoding="utf-8")) if sidecar.is_file() else {}
+    commit = f" Built from {built['commit'][:10]} ({built['tree']} tree)." if built.get("commit") else ""
+    first, *more = verdict["reasons"] or ["nothing that the check sees"]
+    return f"- **{verdict['figure']}**: {first}" + (f", and {len(more)} more" if more else "") + f".{commit}"
+
+
+def _said(value):
+    return "nothing finite" if value is None else shown(value)
+
+
+def main(arguments=None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="python -m vibroimpact_pipeline.figure_check.accept", description=__doc__.splitlines()[0]
+    )
+    parser.add_argument("figures", nargs="*", help="figures to accept; all that differ, if none is named")
+    parser.add_argument("--reason", default="", help="why the reference changes; asked for, if not given")
+    parser.add_argument("--check", type=Path, default=Path("results/figure_check"), help="folder of the figure check")
+    parser.add_argument("--new", type=Path, default=Path("results/figures"), help="folder of the new figures")
+    parser.add_argument("--reference", type=Path, default=Path("figures"), help="folder of the reference set")
+    given = parser.parse_args(arguments)
+    try:
+        verdicts = json.loads((given.check / "figure_check.json").read_text(encoding="utf-8"))
+        found = changed(verdicts, given.figures)
+        if not found:
+            print("Nothing to accept: every figure agrees with its reference.")
+            return 0
+        print(*(line for verdict in found for line in summary(verdict)), sep="\n")
+        print(f"Before, difference and after as pictures: {given.check / 'index.html'}")
+        reason = given.reason if given.reason.strip() or not sys.stdin.isatty() else input("Reason: ")
+        accept(found, given.new, given.reference, reason, datetime.date.today())
+    except (OSError, ValueError) as error:
+        print(f"Not accepted. {error}", file=sys.stderr)
+        return 1
+    print(f"Accepted {len(found)} figure(s); recorded in {given.reference / 'CHANGES.md'}.")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

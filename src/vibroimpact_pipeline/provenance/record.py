@@ -1,0 +1,63 @@
+"""Where the files of a figure come from: what goes into their metadata, and what only the sidecar says."""
+
+import hashlib
+import json
+import platform
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy
+
+from vibroimpact.figures.kit.artists import drawn_with
+from vibroimpact.figures.kit.files import replacing
+
+LOCK = "environment.lock"
+
+
+@contextmanager
+def recorded(job):
+    """Give the record of a job's figure and its outputs by name; write the sidecar, with the run time, at the end."""
+    start, outputs = time.monotonic(), dict(job.output.items())
+    sidecar = outputs.pop("provenance")
+    provenance = record(job.params.origin, job.input)
+    yield provenance, outputs
+    write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)
+
+
+def record(origin: dict, inputs) -> dict:
+    """What decides on a figure, the same in every build of one commit: config slice, steps, lock, inputs, versions."""
+    versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
+    return {
+        **origin,
+        "lock": digest(LOCK),
+        "inputs": {str(path): digest(path) for path in inputs},
+        "versions": versions,
+    }
+
+
+def write_sidecar(path, provenance: dict, outputs, seconds: float) -> None:
+    """Write the record, the files that were made, and what no file of the figure itself bears: commit and run time."""
+    commit, changes = git("rev-parse", "HEAD"), git("status", "--porcelain")
+    sidecar = provenance | {
+        "outputs": {str(output): digest(output) for output in outputs},
+        "commit": commit,
+        "tree": None if changes is None else "modified" if changes else "clean",
+        "seconds": round(seconds, 3),
+    }
+    with replacing(path) as partial:
+        partial.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
+
+
+def digest(path) -> str:
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def git(*arguments) -> str | None:
+    """What git says, or None where there is no repository or no git."""
+    try:
+        run = subprocess.run(["git", *arguments], capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return run.stdout.strip()

@@ -1,0 +1,1 @@
+"""The report: pages from results, one site and one PDF."""
