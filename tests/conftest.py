@@ -2,16 +2,12 @@
 
 import gc
 import os
-import sys
 
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from pipeline_trees import ROOT, Tree, made_once, with_results
-
-sys.path.append(str(ROOT / "workflow/scripts"))
-
 from vibroimpact_pipeline.environment import settle
 from vibroimpact_pipeline.sources import Sources
 

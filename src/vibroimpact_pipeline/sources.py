@@ -16,25 +16,26 @@ import grimp
 import vibroimpact
 
 LIBRARY = "vibroimpact"
+PACKAGES = (LIBRARY, "vibroimpact_pipeline")
 
 
 class Sources:
-    """The import graph of the library, read once."""
+    """The import graph of the library and of the pipeline's own package, read once."""
 
     def __init__(self):
-        self._graph = grimp.build_graph(LIBRARY, include_external_packages=True, cache_dir=None)
-        self._root = Path(find_spec(LIBRARY).origin).parent
+        self._graph = grimp.build_graph(*PACKAGES, include_external_packages=True, cache_dir=None)
+        self._roots = {name: Path(find_spec(name).origin).parent for name in PACKAGES}
 
     def fingerprint(self, *files, modules=()) -> str:
-        """Hash of scripts or notebooks, of everything in the library that they import, and of further modules.
+        """Hash of scripts or notebooks, of everything in the packages that they import, and of further modules.
 
         Args:
             files: Python scripts and notebooks; of a notebook only what its cells say counts. A script may import
                 scripts beside it.
-            modules: names of library modules that are imported by a computed name.
+            modules: names of modules that are imported by a computed name.
 
         Raises:
-            ValueError: a module does not exist in the library.
+            ValueError: a module does not exist.
         """
         digest = hashlib.sha256()
         codes = _with_neighbours([Path(file) for file in files])
@@ -52,17 +53,18 @@ class Sources:
         return digest.hexdigest()[:16]
 
     def modules_used(self, modules) -> list[str]:
-        """The given library modules and all library modules they import, directly or not, sorted."""
-        used = set()
-        waiting = set(modules)
-        while waiting:
-            name = waiting.pop()
+        """The given modules and all of the packages' modules that importing them runs, sorted.
+
+        Raises:
+            ValueError: a module does not exist.
+        """
+        for name in modules:
             if not self.knows(name):
-                raise ValueError(f"modules: {name!r} is no module of {LIBRARY}")
-            package = name.rpartition(".")[0]
-            used.add(name)
-            waiting |= {m for m in self._graph.find_modules_directly_imported_by(name) if self.knows(m)} - used
-            waiting |= {package} - used - {""}
+                raise ValueError(f"modules: {name!r} is no module of {' or '.join(PACKAGES)}")
+        used, asked = set(), set(modules)
+        while asked:
+            used |= asked | {m for name in asked for m in self._graph.find_upstream_modules(name) if self.knows(m)}
+            asked = {package for name in used for package in _packages(name)} - used  # it runs before its modules
         return sorted(used)
 
     def compiled(self) -> str:
@@ -71,16 +73,23 @@ class Sources:
         return self.fingerprint(modules=compiled)
 
     def knows(self, module: str) -> bool:
-        """Whether the library has this module."""
-        return module.split(".")[0] == LIBRARY and module in self._graph.modules
+        """Whether one of the packages has this module."""
+        return module.split(".")[0] in PACKAGES and module in self._graph.modules
 
     def _files(self, name):
         """The file of a module; for a package also the data files beside it, such as a style sheet."""
-        path = self._root.joinpath(*name.split(".")[1:])
+        package, *rest = name.split(".")
+        path = self._roots[package].joinpath(*rest)
         if not path.is_dir():
             return [path.with_suffix(".py")]
         data = (file for file in path.iterdir() if file.is_file() and file.suffix not in (".py", ".pyc"))
         return [path / "__init__.py", *sorted(data)]
+
+
+def _packages(module):
+    """The packages that a module lies in."""
+    parts = module.split(".")
+    return [".".join(parts[:n]) for n in range(1, len(parts))]
 
 
 def _with_neighbours(files) -> dict[Path, str]:

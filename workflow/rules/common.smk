@@ -8,12 +8,10 @@ import yaml
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline.environment import settle
 from vibroimpact_pipeline.sources import Sources
 
 ROOT = Path(workflow.basedir)
-sys.path.append(str(ROOT / "workflow/scripts"))
-from vibroimpact_pipeline.environment import settle
-
 CONFIG_FILE = "config/config.yaml"
 OVERRIDES = config_checks.typed(config)
 SOURCES = Sources()

@@ -1,5 +1,5 @@
-# Figures that the chapter does not show. One entry makes the rule, which bears the figure's name: `module` draws it
-# (vibroimpact.figures.<module>, by default the name), `method` says how, `settings` gives each argument of its
+# Figures that the chapter does not show. One entry makes the rule; it bears the figure's name, and so does the module
+# that draws it (vibroimpact.figures.companions.<name>). `method` says how, `settings` gives each argument of its
 # `compute` a place in the config, `system` or `systems` the system of one case or those of all; `inputs` are tables
 # it reads, made by the steps `before`; `tables` are tables it writes beside the one it plots. `config` names what
 # else decides on it.
@@ -44,7 +44,6 @@ COMPANIONS = {
     },
     **({"companion_horizon": horizon_of(PRECISE[0])} if PRECISE else {}),
     "companion_branches": {
-        "module": "branches",
         "method": f"continuation of fixed points and exact 1:1 responses; attractors by {SIMULATED}",
         "system": REGIMES["branches"]["case"],
         "settings": keys_of("regimes.branches", "case") | OBSERVED,
@@ -54,7 +53,6 @@ COMPANIONS = {
         "tables": {"special_points": "results/regimes/special_points.csv"},
     },
     "companion_regime_map": {
-        "module": "regime_map",
         "method": "the cells of all tiles, with the cases",
         "systems": True,
         "settings": {"points": "regimes.map.points"},
@@ -63,14 +61,12 @@ COMPANIONS = {
         "before": [step(*STEPS["regime_tile"])],
     },
     "companion_modulation": {
-        "module": "modulation",
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
         "settings": keys_of("regimes.modulation") | OBSERVED,
         "tables": {"measures": "results/regimes/modulation.csv", "windows": "results/regimes/modulation_windows.csv"},
     },
     "companion_basins": {
-        "module": "basins",
         "method": SIMULATED,
         "system": REGIMES["basins"]["case"],
         "settings": keys_of("regimes.basins", "case") | OBSERVED,
@@ -78,7 +74,6 @@ COMPANIONS = {
         "tables": {"shares": "results/regimes/basin_shares.csv"},
     },
     "companion_epsilon": {
-        "module": "epsilon_limit",
         "method": "fixed points and exact symmetric responses at every epsilon",
         "systems": True,
         "settings": keys_of("regimes.epsilon"),
@@ -92,7 +87,7 @@ def companion_outputs(name):
 
 
 def companion_module(name):
-    return f"vibroimpact.figures.{COMPANIONS[name].get('module', name)}"
+    return f"vibroimpact.figures.companions.{name}"
 
 
 def companion_settings(name):

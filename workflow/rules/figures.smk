@@ -17,13 +17,20 @@ MODEL_INPUTS = {
 WITHOUT_TABLE = "drawings"
 SIMULATED_CASES = {scene["case"] for scene in config["figures"].values() if scene.get("model") == "simulation"}
 
-# How each figure is made of them; for the record that goes with it.
-NOTEBOOK_METHODS = {
-    "drawings": "drawn to scale, nothing computed",
-    "closed_form": "closed form: (10.11), (10.16), (10.25), (10.26)",
-    "fixed_points": "manifold in closed form, singular points as real zeros of (10.24)",
-    "theoretical_response": "leading order, (10.9) and (10.10), at a fixed point",
-    "simulation": "motion of the second module as simulated, with its events as corners",
+# How a notebook makes a figure of them, for the record that goes with it, and the module of vibroimpact.figures.chapter
+# that draws it: by default the one of the figure's own name.
+NOTEBOOKS = {
+    "drawings": {"method": "drawn to scale, nothing computed"},
+    "closed_form": {"method": "closed form: (10.11), (10.16), (10.25), (10.26)"},
+    "fixed_points": {
+        "method": "manifold in closed form, singular points as real zeros of (10.24)",
+        "module": "fig10_06",
+    },
+    "theoretical_response": {"method": "leading order, (10.9) and (10.10), at a fixed point"},
+    "simulation": {
+        "method": "motion of the second module as simulated, with its events as corners",
+        "module": "fig10_08",
+    },
 }
 
 
@@ -48,12 +55,15 @@ def figure_settings(scene):
     return {**scene, "system": system}
 
 
+def drawn_by(figure, scene):
+    """The module that draws a figure."""
+    return f"vibroimpact.figures.chapter.{NOTEBOOKS[scene['notebook']].get('module', figure)}"
+
+
 def figure_step(figure, scene):
-    """How the figure itself is made. Its notebook imports the module of the figure by name."""
-    drawn_by = f"vibroimpact.figures.{figure}"
-    modules = [drawn_by] if SOURCES.knows(drawn_by) else []
+    """How the figure itself is made."""
     files = "workflow/scripts/notebook.py", f"notebooks/{scene['notebook']}.ipynb"
-    return step(NOTEBOOK_METHODS[scene["notebook"]], DOUBLE, *files, modules=modules)
+    return step(NOTEBOOKS[scene["notebook"]]["method"], DOUBLE, *files, modules=[drawn_by(figure, scene)])
 
 
 def figure_origin(figure, scene):

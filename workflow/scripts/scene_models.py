@@ -1,6 +1,8 @@
 """For every figure with a model the rungs of the ladder, with error and cost -> scene_models.csv."""
 
 import json
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
@@ -8,34 +10,40 @@ import pandas as pd
 from adapter import logging_to, write_csv
 from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
+from vibroimpact.figures.kit.fixed_point_table import labelled_points
+from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.system import System
 
 
 def main(figures: dict, simulations: dict, folder, seconds: float, output) -> None:
+    """Measure the rungs of every figure: its scene in the config, the settings it is drawn from, the module's name."""
     rows = []
-    for figure, (scene, system) in figures.items():
-        table = tables.read(Path(folder) / f"figures/{figure}.csv")
-        settings = simulations.get(scene.get("case"))
-        rungs = rungs_of(figure, scene, system, settings, table, Path(folder))
+    for figure, (scene, settings, drawn_by) in figures.items():
+        module, table = import_module(drawn_by), tables.read(Path(folder) / f"figures/{figure}.csv")
+        simulation = simulations.get(scene.get("case"))
+        rungs = rungs_of(figure, scene, settings, simulation, module, table, Path(folder))
         print(f"{figure}: {len(rungs)} rungs")
-        in_use = scene_models.in_use(scene, settings)
-        rows += scene_models.rows(figure, scene, table, rungs, in_use, seconds)
+        in_use = scene_models.in_use(scene, simulation)
+        rows += scene_models.rows(figure, smallest_visible_error(module.draw(table)), rungs, in_use, seconds)
     write_csv(pd.DataFrame(rows), output)
 
 
-def rungs_of(figure, scene, system, settings, table, folder):
+def rungs_of(figure, scene, settings, simulation, module, table, folder):
     """The rungs of one figure, from the results that it shows."""
     if scene["model"] == "closed_form":
-        return scene_models.closed_form_rungs(figure, scene, system, table)
+        arguments = {name: value for name, value in settings.items() if name != "system"} | settings["system"]
+        work = partial(module.compute, **arguments)
+        return scene_models.closed_form_rungs(figure, scene, settings["system"], table, work)
     case = scene["case"]
-    system, points = System(**system), tables.read(folder / f"fixed_points/{case}.csv")
+    system = System(**settings["system"])
+    points = labelled_points(tables.read(folder / f"fixed_points/{case}.csv"))
     if scene["model"] == "slow_flow":
-        return scene_models.slow_flow_rungs(figure, scene, system, points, table)
+        return scene_models.slow_flow_rungs(scene, system, points)
     samples = tables.read(folder / f"simulations/{case}/samples.csv")
-    if "digits" not in settings:
-        return scene_models.settled_rungs(system, settings, points, samples)
+    if "digits" not in simulation:
+        return scene_models.settled_rungs(system, simulation, points, samples)
     summary = json.loads((folder / f"simulations/{case}/summary.json").read_text(encoding="utf-8"))
-    return scene_models.modulated_rungs(system, settings, points, samples, summary["trust"]["agreement"])
+    return scene_models.modulated_rungs(system, simulation, points, samples, summary["trust"]["agreement"])
 
 
 if "snakemake" in globals():

@@ -17,8 +17,6 @@ from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.exact.orbits.verdict import floquet
-from vibroimpact.figures.chapter import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
-from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.response import leading_order
@@ -26,10 +24,6 @@ from vibroimpact.theory.response import leading_order
 LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation")
 """Rungs by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""
 
-DRAWN_BY = {
-    "fig10_03": fig10_03, "fig10_04": fig10_04, "fig10_05": fig10_05, "fig10_06": fig10_06, "fig10_07": fig10_07,
-    "fig10_08": fig10_08, "fig10_09": fig10_06, "fig10_10": fig10_10, "fig10_11": fig10_08,
-}  # fmt: skip
 DIGITS = 30
 
 
@@ -43,26 +37,19 @@ class Rung:
     note: str = ""
 
 
-def visible(figure) -> float:
-    """The smallest error that the lines of a figure can show, as a share of an axis: half the thinnest line's width."""
-    figure.draw_without_rendering()
-    shares = []
-    for axes in figure.axes:
-        widths = [line.get_linewidth() for line in axes.lines if line.get_linestyle() != "None"]
-        height = axes.get_window_extent().height * 72.0 / figure.dpi
-        shares += [0.5 * min(widths) / height] if widths else []
-    return min(shares)
-
-
 def in_use(scene: dict, simulation: dict | None = None) -> str:
     """The rung that the config names for a figure; a simulation carried with extra digits is the proven one."""
     proven = scene["model"] == "simulation" and "digits" in (simulation or {})
     return "proven simulation" if proven else scene["model"]
 
 
-def rows(figure: str, scene: dict, table: pd.DataFrame, rungs: list[Rung], rung_in_use: str, seconds: float) -> list:
-    """The rows of the table for one figure: rung, error, tolerance, cost in seconds, whether it is in use."""
-    tolerance = visible(DRAWN_BY[figure].draw(table))
+def rows(figure: str, tolerance: float, rungs: list[Rung], rung_in_use: str, seconds: float) -> list[dict]:
+    """The rows of the table for one figure: rung, error, tolerance, cost in seconds, whether it is in use.
+
+    Args:
+        tolerance: the smallest error that the figure's lines can show, as a share of an axis.
+        seconds: how long the work of a rung is repeated for its time.
+    """
     return [
         {
             "figure": figure,
@@ -94,8 +81,8 @@ def _span(values):
     return float(np.ptp(np.asarray(values, float)))
 
 
-def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFrame) -> list[Rung]:
-    """Figures 10.3 to 10.5: the formula in float64 against the same formula with 30 digits."""
+def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFrame, work: Callable) -> list[Rung]:
+    """Figures 10.3 to 10.5: the formula in float64 against the same formula with 30 digits; work computes the table."""
     with mp.workdps(DIGITS):
         truth = {"fig10_03": _true_sawtooth, "fig10_04": _true_manifold, "fig10_05": _true_limit}[figure](scene, system)
         series, x, y, f = truth
@@ -103,11 +90,6 @@ def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFram
         if figure == "fig10_05":  # the shaded region is a polygon: without its two upper corners it is the limit
             curve = curve[curve[y] < scene["C_range"][1]]
         exact = [float(f(mp.mpf(float(value)))) for value in curve[x]]
-    work = {
-        "fig10_03": lambda: fig10_03.compute(scene["amplitude"], scene["theta"], scene["tau0_max"]),
-        "fig10_04": lambda: fig10_04.compute(system["kappa"], scene["C_max"]),
-        "fig10_05": lambda: fig10_05.compute(scene["C_range"]),
-    }[figure]
     return [Rung("closed_form", _share(curve[y], exact, _span(table[y])), work)]
 
 
@@ -152,11 +134,9 @@ def true_fixed_point(system: System, point):
         return SimpleNamespace(C=(C1, C2), B=B, psi=(psi1, psi2), rho=r)
 
 
-def slow_flow_rungs(figure: str, scene: dict, system: System, points: pd.DataFrame, table: pd.DataFrame) -> list[Rung]:
-    """Figures of fixed points (10.6, 10.9) and of their response (10.7, 10.10)."""
-    known = labelled_points(points)
-    if "fixed_point" in scene:
-        known = [point for point in known if point.label == scene["fixed_point"]]
+def slow_flow_rungs(scene: dict, system: System, points: list) -> list[Rung]:
+    """Figures of fixed points (10.6, 10.9) and of the response of one (10.7, 10.10): label, C, B and psi of each."""
+    known = [point for point in points if point.label == scene.get("fixed_point", point.label)]
     truths = [true_fixed_point(system, point) for point in known]
     if "fixed_point" in scene:
         tau = np.linspace(0.0, system.period, 200)
@@ -190,7 +170,7 @@ def _true_response(system, point, tau, name):
     return values
 
 
-def settled_rungs(system: System, settings: dict, points: pd.DataFrame, samples: pd.DataFrame) -> list[Rung]:
+def settled_rungs(system: System, settings: dict, points: list, samples: pd.DataFrame) -> list[Rung]:
     """Figure 10.8: the motion that is observed, X_2 and W_2 over one forcing period."""
     per_cycle = settings["samples_per_cycle"]
     drawn = samples.iloc[-per_cycle - 1 : -1]
@@ -202,7 +182,7 @@ def settled_rungs(system: System, settings: dict, points: pd.DataFrame, samples:
         return max(_share(X2, truth[:, 0], span), _share(W2, truth[:, 1], 2.0))
 
     theory = []
-    for point in labelled_points(points):
+    for point in points:
         response = leading_order(system, point, phase)
         theory.append(error(response.X[:, 1], response.W[:, 1]))
     stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
@@ -236,7 +216,7 @@ def modulated_rungs(system: System, settings: dict, points, samples: pd.DataFram
     def error(other_X2, other_W2):
         return max(_share(other_X2, X2, _span(X2)), _share(other_W2, W2, 2.0))
 
-    theory = [leading_order(system, point, tau) for point in labelled_points(points)]
+    theory = [leading_order(system, point, tau) for point in points]
     floating = simulate(system, settings["initial_state"], cycles, sample_times=tau).samples
     stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
     digits = settings["digits"]

@@ -9,7 +9,7 @@ from vibroimpact_pipeline.figure_check import pictures as picture_difference
 from vibroimpact_pipeline.figure_check.compare import UNREADABLE, largest, lines
 from vibroimpact_pipeline.figure_check.tables import UNITS
 
-TEMPLATE = Path(__file__).with_name("figure_page.html.j2")
+TEMPLATE = Path(__file__).with_name("page.html.j2")
 SHRINK = 2
 """The page shows squares of 2 by 2 pixels as one: 300 dots per inch of the printed figure."""
 
