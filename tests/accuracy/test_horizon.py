@@ -9,6 +9,7 @@ from chapter import PARAMETERS
 from vibroimpact.accuracy.horizon import departure
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.figures.companions import companion_horizon
+from vibroimpact.system.state import NAMES
 
 WEAK = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
 START = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
@@ -33,7 +34,7 @@ def test_the_certificate_knows_its_error_and_its_horizon(truth):
 
 
 def test_the_figure_shows_both_and_the_window(truth):
-    strobe = pd.DataFrame(truth, columns=companion_horizon.STATE)
+    strobe = pd.DataFrame(truth, columns=list(NAMES))
     table = companion_horizon.compute(WEAK, START, strobe, 40)
     assert set(table["series"]) == {"measured", "expected", "horizon", "window"}
     (axes,) = companion_horizon.draw(table).axes

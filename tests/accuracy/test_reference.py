@@ -11,14 +11,8 @@ from scipy.integrate import solve_ivp
 pytest.importorskip("flint")
 
 from vibroimpact.accuracy.reference.roots import Undecidable
-from vibroimpact.accuracy.reference.run import (
-    IMPACT,
-    RELEASE,
-    STICK,
-    departure,
-    proven_run,
-    reference_run,
-)
+from vibroimpact.accuracy.reference.run import departure, proven_run, reference_run
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 MODULATED = {
     "epsilon": "0.1",

@@ -9,10 +9,10 @@ from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Scene, fitted_order, measure
-from vibroimpact.exact.engine.simulation import EVENT
 from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system import System
+from vibroimpact.system.state import EVENT
 
 SYSTEM = System(
     **PARAMETERS,

@@ -22,6 +22,7 @@ from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
 from vibroimpact.figures.companions import companion_modulation as modulation
 from vibroimpact.figures.companions import companion_regime_map as regime_map
 from vibroimpact.figures.kit import tables
+from vibroimpact.system.state import NAMES
 from vibroimpact_pipeline.figure_check import compare as figure_check
 
 LIMITS = figure_check.tolerances()
@@ -42,7 +43,7 @@ BRANCHES = {
 def truth():
     weak = SYSTEMS["weak"]
     samples = proven_run(weak, START, CYCLES, sample_times=np.arange(CYCLES + 1) * weak.period).run.samples
-    return pd.DataFrame(samples, columns=companion_horizon.STATE)
+    return pd.DataFrame(samples, columns=list(NAMES))
 
 
 def all_systems(change):

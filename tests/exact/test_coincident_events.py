@@ -12,8 +12,8 @@ from scipy.optimize import brentq
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
 from vibroimpact.system.restitution import after_impact
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 DIGITS = 40
 SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 QUIET = dict(alpha12_hat=0.0, gamma12_hat=0.0)
 ALONE = dict(QUIET, gamma1_hat=0.0, gamma2_hat=0.0)

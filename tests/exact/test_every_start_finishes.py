@@ -12,7 +12,7 @@ import pytest
 import vibroimpact as vi
 from hard_starts import departures, faults
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import IMPACT, STICK
+from vibroimpact.system.state import IMPACT, STICK
 
 ALONE = dict(alpha12_hat=0.0, gamma12_hat=0.0, f20_hat=0.0)
 ALMOST_ALONE = dict(ALONE, alpha12_hat=1e-20)

@@ -8,7 +8,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 CYCLES = 5
 SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import STICK
+from vibroimpact.system.state import STICK
 
 UNCOUPLED = dict(alpha12_hat=0.0, gamma12_hat=0.0)
 REST = {

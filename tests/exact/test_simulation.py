@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.simulation import IMPACT, RELEASE, STICK
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 START = np.array([0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2])
 

@@ -19,9 +19,9 @@ from vibroimpact.figures.chapter import (
     fig10_08,
     fig10_10,
 )
+from vibroimpact.system.state import NAMES
 from vibroimpact.theory.fixed_points.labels import labels
 
-STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
 
 
@@ -47,9 +47,9 @@ def tables_of_run(system, start, transient, window, per_cycle):
     """Samples and events of a simulation in the form of the pipeline's tables."""
     times = (transient + np.arange(window * per_cycle + 1) / per_cycle) * system.period
     run = vi.simulate(system, start, transient + window, sample_times=times)
-    samples = pd.DataFrame({"tau": times, **dict(zip(STATE, run.samples.T, strict=True))})
+    samples = pd.DataFrame({"tau": times, **dict(zip(NAMES, run.samples.T, strict=True))})
     events = pd.DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
-    events[STATE] = run.events["state"]
+    events[list(NAMES)] = run.events["state"]
     events["kind"] = np.array(["impact", "stick", "release"])[run.events["kind"]]
     return samples, events
 

@@ -6,8 +6,8 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.exact.engine.simulation import KINDS
 from vibroimpact.figures.companions import animation, travel
+from vibroimpact.system.state import KINDS
 from vibroimpact.theory.manifold import B_of_C, rho
 
 SYSTEM = {

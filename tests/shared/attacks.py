@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.simulation import IMPACT, STICK
+from vibroimpact.system.state import IMPACT, STICK
 
 ROUNDING = 1e-13
 """A ball nearer to a wall than this when it turns was just released there."""

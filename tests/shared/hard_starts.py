@@ -13,8 +13,8 @@ import numpy as np
 from scipy.linalg import expm
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.simulation import IMPACT, STICK
 from vibroimpact.system.matrices import rate_matrix
+from vibroimpact.system.state import IMPACT, STICK
 
 TINY = [0.0, 1e-300, 1e-60, 1e-50, 1e-40, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3]
 BOXES, BALLS = [0, 2, 4, 6], [1, 3, 5, 7]

@@ -11,12 +11,12 @@ import pandas as pd
 
 from adapter import logging_to, write_csv
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.exact.engine.simulation import KINDS, simulate
+from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
+from vibroimpact.system.state import KINDS, NAMES
 
 WINDOW = ("transient_cycles", "window_cycles", "samples_per_cycle")
-STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
 
 
 def main(case: str, parameters: dict, settings: dict, outputs) -> None:
@@ -54,14 +54,14 @@ def window(period: float, transient_cycles: int, window_cycles: int, samples_per
 
 
 def states_table(times: np.ndarray, states: np.ndarray) -> pd.DataFrame:
-    return pd.DataFrame(np.column_stack([times, states]), columns=["tau", *STATE])
+    return pd.DataFrame(np.column_stack([times, states]), columns=["tau", *NAMES])
 
 
 def events_table(events: np.ndarray) -> pd.DataFrame:
     """One row per event, with the state just after it."""
     table = pd.DataFrame({name: events[name] for name in ("tau", "module", "wall")})
     table["kind"] = [KINDS[kind] for kind in events["kind"]]
-    table[STATE] = events["state"]
+    table[list(NAMES)] = events["state"]
     return table
 
 

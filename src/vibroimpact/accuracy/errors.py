@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-IMPACT = 0
+from vibroimpact.system.state import IMPACT
+
 FAINT = 1e-3
 """Rebound speed |W'| at and below which an impact belongs to the tail of a chatter, which every method cuts short
 somewhere: such impacts are neither required nor counted as spurious."""

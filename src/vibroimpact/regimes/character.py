@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import IMPACT, Run, simulate
+from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
 from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
 from vibroimpact.regimes.modulation import bursts
+from vibroimpact.system.state import IMPACT
 
 CERTAIN = 3.0
 """So many standard errors are counted as the uncertainty of an exponent."""

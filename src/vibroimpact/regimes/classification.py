@@ -5,9 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import IMPACT, Run, simulate
+from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.regimes.periodicity import mirror_distance, repeats_after
 from vibroimpact.system.amplitude import sawtooth_amplitude
+from vibroimpact.system.state import IMPACT
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
 STRONGLY_MODULATED, CHAOTIC, HOPPING = "strongly modulated", "chaotic", "hopping"

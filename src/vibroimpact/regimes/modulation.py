@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import IMPACT, STICK, Run, simulate
+from vibroimpact.exact.engine.simulation import Run, simulate
+from vibroimpact.system.state import IMPACT, STICK
 
 PER_CYCLE = 24
 """Samples in a forcing period that amplitudes are taken from."""

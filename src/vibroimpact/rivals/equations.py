@@ -6,9 +6,7 @@ import numpy as np
 from numba import njit
 
 from vibroimpact.system.matrices import damping_matrix, masses, rate_matrix, stiffness_matrix
-
-BOXES, BALLS = (0, 2), (1, 3)
-"""Places of X_i and Y_i in the state; their velocities are 4 further on."""
+from vibroimpact.system.state import BALLS, BOXES
 
 NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
@@ -45,6 +43,6 @@ def jacobian(system, stuck) -> np.ndarray:
     matrix = np.zeros((8, 8))
     matrix[:4, 4:] = np.eye(4)
     for i in range(2):
-        matrix[4 + BOXES[i], [0, 2, 4, 6]] = boxes[i]
-        matrix[4 + BALLS[i]] = (masses(system, stuck)[i] > 1.0) * matrix[4 + BOXES[i]]
+        matrix[BOXES[2 + i], BOXES] = boxes[i]
+        matrix[BALLS[2 + i]] = (masses(system, stuck)[i] > 1.0) * matrix[BOXES[2 + i]]
     return matrix

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import IMPACT as IMPACT_KIND
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
+from vibroimpact.system.state import IMPACT as IMPACT_KIND
 
 
 class Engine(Method):

@@ -10,8 +10,10 @@ from functools import lru_cache
 import numpy as np
 
 from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.equations import BALLS, BOXES, NAMES, coefficients
+from vibroimpact.rivals.equations import NAMES, coefficients
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.state import NAMES as STATE
 
 SLOWEST = 1e-6
 """A slower rebound is not followed: after an event heyoka is blind to the same event for a while, and a shorter hop
@@ -70,7 +72,7 @@ class _Integrator:
 
     def __init__(self, tolerance, stuck):
         self.stuck = stuck
-        s = heyoka.make_vars("X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2")
+        s = heyoka.make_vars(*STATE)
         sine, cosine = heyoka.make_vars("sine", "cosine")
         q = dict(zip(NAMES, (heyoka.par[k] for k in range(len(NAMES))), strict=True))
         force = [

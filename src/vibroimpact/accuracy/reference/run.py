@@ -13,11 +13,8 @@ from flint import arb, ctx
 
 from vibroimpact.accuracy.reference.flow import ExactSystem, exact
 from vibroimpact.accuracy.reference.roots import Undecidable
-from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, IMPACT, RELEASE, STICK, Trajectory
-
-__all__ = ["IMPACT", "RELEASE", "STICK", "ProvenRun", "ReferenceRun", "departure", "proven_run", "reference_run"]
-
-EVENT = np.dtype([("tau", float), ("module", np.int8), ("wall", np.int8), ("kind", np.int8), ("state", float, (8,))])
+from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
+from vibroimpact.system.state import EVENT
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,8 @@ from flint import arb, arb_poly, ctx
 from vibroimpact.accuracy.reference.chatter import Chatter
 from vibroimpact.accuracy.reference.flow import ExactSystem, Flow, exact, to_ball
 from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-IMPACT, STICK, RELEASE = 0, 1, 2
 # Of the infinitely many impacts of a completed chatter those with a slower rebound |W'| are not listed.
 LISTED_SPEED = Fraction(1, 10**12)
 GUARD_BITS = 64  # carried beyond the digits asked for

@@ -9,19 +9,12 @@ from vibroimpact.exact.engine.constraints import (
     module_time,
     remainder,
 )
-from vibroimpact.exact.engine.event_log import (
-    CHATTERS,
-    IMPACT,
-    NEGLECTED,
-    RELEASE,
-    RESIDUAL,
-    STICK,
-    record,
-)
+from vibroimpact.exact.engine.event_log import CHATTERS, NEGLECTED, RESIDUAL, record
 from vibroimpact.exact.engine.exclusion import spread
 from vibroimpact.exact.engine.flow import acceleration, inverse_masses, jet
 from vibroimpact.exact.engine.motion import glide, mode_of, pair, with_position, with_velocity
 from vibroimpact.system.restitution import after_impact
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # change of the state by what completing a chatter neglects
 LOW = 1e-12  # height of a hop, the wall being at 1, below which its impacts are not listed one by one

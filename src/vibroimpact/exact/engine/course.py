@@ -5,10 +5,11 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined
-from vibroimpact.exact.engine.event_log import APPROACH, IMPACT, PHASE, RELEASE, STICK
+from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import advance
 from vibroimpact.exact.engine.motion import carry, mode_of, pair
 from vibroimpact.exact.engine.phase import TWO_PI, ahead
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 LENGTH, WALLS, FORCING, BEFORE, AFTER, COLUMNS = 0, 1, 3, 4, 12, 20
 """Places in a flight's row: its length, the wall (or 0) each ball sticks to, the forcing phase and the state (8,) at

@@ -8,8 +8,8 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.course import AFTER, BEFORE, LENGTH
-from vibroimpact.exact.engine.event_log import IMPACT
 from vibroimpact.exact.engine.variation import fill_event, fill_flight
+from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 

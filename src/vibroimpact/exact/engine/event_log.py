@@ -6,7 +6,6 @@ that completes a chatter is noted at the chatter's last simulated impact.
 
 from vibroimpact.exact.engine.compiled import inlined
 
-IMPACT, STICK, RELEASE = 0, 1, 2
 FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = range(6)
 """Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
 neglect."""

@@ -10,10 +10,11 @@ from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import box_accelerations
 from vibroimpact.exact.engine.course import completes_chatter, end_of, start_of
-from vibroimpact.exact.engine.event_log import IMPACT, PHASE, RELEASE
+from vibroimpact.exact.engine.event_log import PHASE
 from vibroimpact.exact.engine.flow import acceleration, inverse_masses
 from vibroimpact.exact.engine.motion import mode_of
 from vibroimpact.exact.engine.turns import FORCE, GAP
+from vibroimpact.system.state import IMPACT, RELEASE
 
 DEPTH, DOUBT = 0, 1
 

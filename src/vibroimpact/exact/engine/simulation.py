@@ -18,11 +18,8 @@ from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
+from vibroimpact.system.state import EVENT
 
-EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
-"""One event: time, module 1 or 2, wall +1 or -1, kind (IMPACT, STICK, RELEASE), state just after it."""
-
-IMPACT, STICK, RELEASE = books.IMPACT, books.STICK, books.RELEASE
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
 FAILURES = {
@@ -37,7 +34,6 @@ LATEST = 2.0**43
 MOST_CYCLES = 2**53
 ROUNDED = 1e-12
 """So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
-KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,9 +12,10 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.contact import impact
 from vibroimpact.exact.engine.course import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
-from vibroimpact.exact.engine.event_log import APPROACH, IMPACT, PHASE, STICK
+from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses, jet
 from vibroimpact.exact.engine.motion import mode_of
+from vibroimpact.system.state import IMPACT, STICK
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""

@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
-from vibroimpact.exact.orbits.saltation import BALLS, BOXES, impact_matrix, impact_saltation
+from vibroimpact.exact.orbits.saltation import impact_matrix, impact_saltation
 from vibroimpact.system.matrices import damping_matrix, rate_matrix
+from vibroimpact.system.state import BALLS, BOXES
 
 
 class Passage(NamedTuple):

@@ -4,11 +4,7 @@ import numpy as np
 
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
-
-BOXES = np.array([0, 2, 4, 6])
-"""Places of X1, X2, X1', X2' in the state."""
-BALLS = np.array([1, 3, 5, 7])
-"""Places of Y1, Y2, Y1', Y2' in the state."""
+from vibroimpact.system.state import BALLS, BOXES
 
 
 def vector_field(system, state: np.ndarray, tau: float) -> np.ndarray:

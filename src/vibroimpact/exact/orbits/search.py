@@ -9,11 +9,11 @@ from scipy.linalg import expm
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
 from vibroimpact.exact.orbits.floquet import follow, multipliers
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response, powers
-from vibroimpact.exact.orbits.saltation import BALLS, BOXES
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
+from vibroimpact.system.state import BALLS, BOXES
 
 _MODULES = np.array([1, 1, 2, 2])
 _WALLS = np.array([1, -1, 1, -1])

@@ -8,18 +8,17 @@ from vibroimpact.accuracy.horizon import departure
 from vibroimpact.figures.kit.style import BLACK, GREY, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.system import System
-
-STATE = ["X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2"]
+from vibroimpact.system.state import NAMES
 
 
 def compute(system: System, state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
     """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.
 
-    strobe: the true states there (columns tau and STATE). Returns columns panel ("error"), series ("measured",
+    strobe: the true states there (columns tau and those of system.state.NAMES). Returns columns panel ("error"), series ("measured",
     "expected": curves; "horizon", "window": the cycle at which the expected error passes 1e-3, and those at which the
     window of figure 10.11 starts and ends), cycle, error.
     """
-    difference, expected, horizon = departure(system, state, strobe[STATE].to_numpy(float))
+    difference, expected, horizon = departure(system, state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))
     known = np.isfinite(expected)
     return join(
