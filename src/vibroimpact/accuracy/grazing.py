@@ -2,9 +2,12 @@
 
 from fractions import Fraction
 
-from flint import arb, arb_mat, ctx
-
 from vibroimpact.accuracy.reference.flow import ExactSystem, to_ball
+from vibroimpact.system.extras import need
+
+need("reference", "flint")
+
+from flint import arb, arb_mat, ctx  # noqa: E402 (after the word on what is missing)
 
 BITS = 256
 NEWTON_STEPS = 12

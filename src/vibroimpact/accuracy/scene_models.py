@@ -8,9 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-import mpmath as mp
 import numpy as np
-import pandas as pd
 
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.timing import shortest_time
@@ -18,8 +16,15 @@ from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.exact.orbits.verdict import floquet
 from vibroimpact.system import System
+from vibroimpact.system.extras import need
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.response import leading_order
+
+need("figures", "pandas")
+need("reference", "mpmath")
+
+import mpmath as mp  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation")
 """Rungs by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""

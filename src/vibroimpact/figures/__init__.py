@@ -1,1 +1,5 @@
 """The figures: compute(...) -> tables, draw(tables) -> Figure."""
+
+from vibroimpact.system.extras import need
+
+need("figures", "matplotlib", "pandas")

@@ -21,10 +21,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series
 
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
+from vibroimpact.system.extras import need
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
+
+need("reference", "flint")
+
+from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series  # noqa: E402 (after the word on what is missing)
 
 _NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
 _FIRST = 8

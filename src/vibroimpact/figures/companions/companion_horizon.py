@@ -14,7 +14,7 @@ from vibroimpact.system.state import NAMES
 def compute(system: System, state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
     """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.
 
-    strobe: the true states there (columns tau and those of system.state.NAMES). Returns columns panel ("error"), series ("measured",
+    strobe: the true states there (columns tau and `NAMES`). Returns columns panel ("error"), series ("measured",
     "expected": curves; "horizon", "window": the cycle at which the expected error passes 1e-3, and those at which the
     window of figure 10.11 starts and ends), cycle, error.
     """

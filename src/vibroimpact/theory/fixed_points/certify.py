@@ -13,9 +13,13 @@ import sys
 from dataclasses import dataclass
 
 import numpy as np
-from flint import acb, arb, ctx
 
+from vibroimpact.system.extras import need
 from vibroimpact.theory.fixed_points.search import search
+
+need("reference", "flint")
+
+from flint import acb, arb, ctx  # noqa: E402 (after the word on what is missing)
 
 _BITS = 128
 _REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
