@@ -16,22 +16,21 @@ SECONDS = 0.5
 
 def main(config: dict, output) -> None:
     from scenes import scene_of
-    from vibroimpact.accuracy.benchmark import judgements, measure, unavoidable_error
+    from vibroimpact.accuracy.benchmark import comparison, measure, unavoidable_error
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.rivals import METHODS
 
     settings = config["accuracy"]["benchmark"]
     scene = scene_of("benchmark", case_parameters(config, settings["case"]), settings)
     rows = measure(scene, METHODS, SECONDS)
-    table, wanted = pd.DataFrame(rows), pd.DataFrame(judgements(rows, unavoidable_error(scene)))
+    table = pd.DataFrame(rows)
+    compared = [f"{name}: {value:.3g}" for name, value in comparison(rows, unavoidable_error(scene)).items()]
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
     print(table.to_string(index=False, float_format="{:.3g}".format))
-    print(wanted.to_string(index=False, float_format="{:.3g}".format))
-    print(footer)
+    print(*compared, footer, sep="\n")
     with replacing(output) as partial:
-        lines = table.to_csv(index=False, lineterminator="\n")
-        verdicts = "".join(f"# {line}\n" for line in wanted.to_csv(index=False).splitlines())
-        partial.write_text(f"{lines}{verdicts}# {footer}\n", encoding="utf-8")
+        notes = "".join(f"# {line}\n" for line in (*compared, footer))
+        partial.write_text(table.to_csv(index=False, lineterminator="\n") + notes, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -4,17 +4,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import proven_run, reference_run
-from vibroimpact.accuracy.timing import shortest_time
-from vibroimpact.accuracy.work_precision import Scene
+from vibroimpact.accuracy.work_precision import Scene, climb
 
 OURS, TAYLOR, EXPLICIT = "this engine", "heyoka", "DOP853"
-TIME_WANTED, TAYLOR_WANTED, EXPLICIT_WANTED = 0.5, 8.0, 1000.0
-"""Microseconds per impact; times faster than heyoka at its most accurate, and than DOP853 at EXPLICIT_ACCURACY."""
 EXPLICIT_ACCURACY = 1e-8
-ERROR_WANTED = 10.0
-"""Times the error that the conditioning of the motion makes unavoidable."""
+SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
 def measure(scene: Scene, methods, seconds: float) -> list[dict]:
@@ -24,32 +19,15 @@ def measure(scene: Scene, methods, seconds: float) -> list[dict]:
         seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
     """
     reference = proven_run(scene.system, scene.state, scene.cycles).run
-    impacts = len(reference.events)
-    rows = []
-    for method in methods:
-        if method.available():
-            continue
-        for setting in method.ladder:
-
-            def work(method=method, setting=setting):
-                return method.run(scene.system, scene.state, scene.cycles, 0.0, setting)
-
-            run = work()
-            errors = compare(run, reference, scene.system.period)
-            rows.append(
-                {
-                    "method": method.name,
-                    "setting": str(setting),
-                    "us_per_impact": 1e6 * shortest_time(work, seconds) / impacts,
-                    "error_state": errors.final,
-                    "error_time": errors.times,
-                    "missed": errors.missed,
-                    "spurious": errors.spurious,
-                    "reason": run.failure.reason if run.failure else "",
-                }
-            )
+    per_impact = 1e6 * scene.cycles / len(reference.events)
+    available = [method for method in methods if not method.available()]
+    rows = [
+        {**row, "us_per_impact": row["seconds_per_cycle"] * per_impact}
+        for method in available
+        for row in climb(scene, method, method.ladder, reference, seconds)
+    ]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
-    return [{**row, "ratio": row["us_per_impact"] / ours} for row in rows]
+    return [{**{name: row[name] for name in SHOWN}, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
 def unavoidable_error(scene: Scene, digits: int = 40) -> float:
@@ -73,27 +51,17 @@ def _after_one_cycle(system, state, digits):
     return [Fraction(text) for text in reference_run(system, state, 1, digits).final_text]
 
 
-def judgements(rows: list[dict], unavoidable: float) -> list[dict]:
-    """What was wanted and what was measured: rows (wanted, target, measured, met)."""
+def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
+    """The rows of `measure` in a few numbers, by name; those of rivals that are not there are left out."""
     ours = _fastest(rows, OURS, np.inf)
     taylor = min(_of(rows, TAYLOR), key=lambda row: row["error_state"], default=None)
     explicit = _fastest(rows, EXPLICIT, EXPLICIT_ACCURACY)
-    measured = [
-        ("us per impact", TIME_WANTED, ours["us_per_impact"], ours["us_per_impact"] <= TIME_WANTED),
-        *_faster("times faster than heyoka at its most accurate", TAYLOR_WANTED, taylor),
-        *_faster(f"times faster than DOP853 at {EXPLICIT_ACCURACY:g}", EXPLICIT_WANTED, explicit),
-        (
-            f"error over the unavoidable {unavoidable:.2g}",
-            ERROR_WANTED,
-            ours["error_state"] / unavoidable,
-            ours["error_state"] <= ERROR_WANTED * unavoidable,
-        ),
-    ]
-    return [dict(zip(("quantity", "wanted", "measured", "met"), entry, strict=True)) for entry in measured]
-
-
-def _faster(what, wanted, row):
-    return [(what, wanted, row["ratio"], row["ratio"] >= wanted)] if row else []
+    times = {"heyoka at its most accurate": taylor, f"DOP853 at {EXPLICIT_ACCURACY:g}": explicit}
+    return {
+        "us per impact": ours["us_per_impact"],
+        **{f"times faster than {rival}": row["ratio"] for rival, row in times.items() if row},
+        f"error over the unavoidable {unavoidable:.2g}": ours["error_state"] / unavoidable,
+    }
 
 
 def _of(rows, method):

@@ -35,12 +35,12 @@ def measure(scene: Scene, methods: list[Method], seconds: float, short: bool = F
     rows = []
     for method in methods:
         ladder = method.ladder[::-2][::-1] if short else method.ladder
-        rows += _climb(scene, method, ladder, reference, seconds)
+        rows += climb(scene, method, ladder, reference, seconds)
     return rows
 
 
-def _climb(scene, method, ladder, reference, seconds):
-    """The rows of one method."""
+def climb(scene: Scene, method: Method, ladder, reference, seconds: float) -> list[dict]:
+    """The rows of one method, one per setting of the ladder, against the reference run of the scene."""
     missing = method.available()
     if missing:
         return [_row(scene, method, None, outcome="unavailable", reason=missing)]
