@@ -1,13 +1,13 @@
 """The report as a reader's browser shows it."""
 
 from itertools import pairwise
-from pathlib import Path
 
 import pandas as pd
 import pytest
 import yaml
 
-ROOT = Path(__file__).parents[2]
+from pipeline_trees import ROOT
+
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 PAGES = [page["name"] for page in SETTINGS["pages"]]
 WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]

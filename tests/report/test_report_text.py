@@ -3,17 +3,16 @@
 import json
 import math
 import re
-from pathlib import Path
 
 import pytest
 import yaml
 from math_core import LatexError
 
+from pipeline_trees import ROOT
 from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, setting
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import convert
 
-ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "report"
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 SETTINGS = yaml.safe_load((SOURCES / "report.yaml").read_text(encoding="utf-8"))

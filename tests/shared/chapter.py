@@ -1,4 +1,4 @@
-"""The chapter's numbers as section 10.4 prints them; `tests/checks/test_chapter.py` holds the config to them."""
+"""The chapter's numbers as section 10.4 prints them; `tests/pipeline/test_chapter.py` holds the config to them."""
 
 PARAMETERS = {
     "epsilon": 0.1,

@@ -2,14 +2,14 @@
 
 import json
 import re
-from pathlib import Path
 
 import pandas as pd
 import pytest
 import yaml
 
-ROOT = Path(__file__).parents[2]
-EXPECTED = yaml.safe_load((ROOT / "tests/checks/expected_verdicts.yaml").read_text(encoding="utf-8"))
+from pipeline_trees import ROOT
+
+EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
 SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", FINDINGS)
 """Numbers of the findings with the place that each is taken from."""

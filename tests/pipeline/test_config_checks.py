@@ -1,14 +1,13 @@
 """Bad configs, one per row, each with the line that the user reads."""
 
 import copy
-from pathlib import Path
 
 import pytest
 import yaml
 
+from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import case_parameters, complaints, parse, problems, typed
 
-ROOT = Path(__file__).parents[2]
 GOOD = parse((ROOT / "config/config.yaml").read_text())
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 REST = [0.0] * 8

@@ -1,12 +1,11 @@
 """The config holds the chapter's numbers."""
 
-from pathlib import Path
-
 from chapter import FORCES, PARAMETERS
+from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import parse
 
 
 def test_the_config_is_the_chapters():
-    config = parse((Path(__file__).parents[2] / "config/config.yaml").read_text(encoding="utf-8"))
+    config = parse((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
     assert config["system"] == PARAMETERS
     assert {case: (values["f10_hat"], values["f20_hat"]) for case, values in config["cases"].items()} == FORCES

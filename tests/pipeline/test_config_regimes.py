@@ -2,15 +2,13 @@
 
 import copy
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 import yaml
 
+from pipeline_trees import ROOT
 from vibroimpact.system import System
 from vibroimpact_pipeline.config import parse, problems
-
-ROOT = Path(__file__).parents[2]
 
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from pipeline_trees import ROOT
 
 
 def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_matplotlib():

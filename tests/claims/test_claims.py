@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from claims import evidence as evidence_of
+from pipeline_trees import ROOT
 from vibroimpact.claims import equations as claims_equations
 from vibroimpact.claims import manifold as claims_manifold
 from vibroimpact.claims import points as claims_points
@@ -16,7 +17,6 @@ from vibroimpact.claims.finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, m
 from vibroimpact.claims.judge import CHECKS, judge, problems, to_markdown
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 
-ROOT = Path(__file__).parents[2]
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))

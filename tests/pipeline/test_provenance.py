@@ -11,12 +11,11 @@ from pathlib import Path
 import pytest
 
 import vibroimpact
-from pipeline_trees import run_module
+from pipeline_trees import ROOT, run_module
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.provenance import verify as provenance
 from vibroimpact_pipeline.sources import Sources
 
-ROOT = Path(__file__).parents[2]
 FIG10_05 = {"notebook": "closed_form", "model": "closed_form", "C_range": [0.5, 1.1]}
 AWKWARD = {"method": r"all zeros of (10.24) \ by 'Newton' & \"more\" <κ> )", "digits": 15}
 
