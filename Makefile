@@ -31,7 +31,7 @@ check-bytes: set-up  ## build the commit twice from nothing and compare the byte
 	CORES=$(CORES) workflow/build_twice.sh
 
 attack: set-up  ## attack what the certificates of runs say, 20 000 runs of each kind (RUNS=20000; a core for a quarter of an hour)
-	.venv/bin/pytest tests/exact/test_attack.py --attack=$(RUNS)
+	.venv/bin/pytest tests/exact/engine/test_attack.py --attack=$(RUNS)
 
 test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check

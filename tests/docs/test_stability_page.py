@@ -2,7 +2,6 @@
 
 import re
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,13 +9,14 @@ from scipy.optimize import brentq
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from pipeline_trees import ROOT
 from verdict_tables import verdicts_of
 from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.masri import impact_multipliers
 from vibroimpact.theory.penetration import largest_C
 
-PAGE = (Path(__file__).parents[2] / "docs/stability.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/stability.md").read_text(encoding="utf-8")
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 BREAKING = np.pi**2 / (np.pi**2 - 4)
 ALONE = {**PARAMETERS, "alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0}
