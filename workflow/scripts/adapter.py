@@ -1,13 +1,9 @@
-"""What the adapters share: a log file for each job, and CSV files."""
+"""What the adapters share: a log file for each job."""
 
 import contextlib
 import os
 import sys
 from pathlib import Path
-
-import pandas as pd
-
-from vibroimpact.figures.kit.files import replacing
 
 
 @contextlib.contextmanager
@@ -19,9 +15,3 @@ def logging_to(path):
             stream.flush()
             os.dup2(log.fileno(), stream.fileno())
         yield
-
-
-def write_csv(table: pd.DataFrame, path) -> None:
-    """Write a table with as many digits as tell its numbers apart, at once or not at all."""
-    with replacing(path) as partial:
-        table.to_csv(partial, index=False, lineterminator="\n")

@@ -1,6 +1,6 @@
 """Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.system import System
 
@@ -10,7 +10,7 @@ def main(parameters: dict, lifetimes: dict, tori: dict, observation: dict, outpu
     system = System(**parameters)
     tables = {"lifetimes": compute_lifetimes(system, observation=observation, **lifetimes)}
     for name, table in (tables | compute_tori(system, **tori)).items():
-        write_csv(table, outputs[name])
+        tables.write(table, outputs[name])
 
 
 if "snakemake" in globals():

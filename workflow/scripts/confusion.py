@@ -4,7 +4,8 @@ from collections import Counter
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
+from vibroimpact.figures.kit import tables
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.regimes.confusion import confusion
 from vibroimpact.regimes.regime_map import tile
@@ -20,7 +21,7 @@ def main(parameters: dict, settings: dict, observation: dict, output) -> None:
         cell = system.with_(f10_hat=f10, f20_hat=f20)
         counts += confusion(cell, states, Observation(**observation), settings["times"])
     rows = [(name, later, counts[name, later]) for name in REGIMES for later in REGIMES if counts[name, later]]
-    write_csv(pd.DataFrame(rows, columns=["name", "later", "starts"]), output)
+    tables.write(pd.DataFrame(rows, columns=["name", "later", "starts"]), output)
 
 
 if "snakemake" in globals():

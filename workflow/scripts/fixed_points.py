@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
+from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.search import fixed_points
@@ -17,7 +18,7 @@ def main(case: str, parameters: dict, output) -> None:
         [case, label, *point.C, *point.B, *point.psi]
         for label, point in zip(labels(system, points), points, strict=True)
     ]
-    write_csv(pd.DataFrame(rows, columns=COLUMNS).sort_values("label"), output)
+    tables.write(pd.DataFrame(rows, columns=COLUMNS).sort_values("label"), output)
 
 
 if "snakemake" in globals():

@@ -2,11 +2,12 @@
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
+from vibroimpact.figures.kit import tables
 
 
 def main(inputs, output) -> None:
-    write_csv(pd.concat([pd.read_csv(path) for path in inputs], ignore_index=True), output)
+    tables.write(pd.concat([pd.read_csv(path) for path in inputs], ignore_index=True), output)
 
 
 if "snakemake" in globals():

@@ -2,9 +2,10 @@
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.accuracy.hazards import hazards, judge
 from vibroimpact.figures.companions.hazards import draw
+from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS
 from vibroimpact_pipeline.provenance.record import recorded
@@ -13,7 +14,7 @@ from vibroimpact_pipeline.provenance.record import recorded
 def main(all_of_them: bool, outputs: dict, provenance: dict) -> None:
     chosen = [hazard for hazard in hazards() if all_of_them or hazard.quick]
     table = pd.DataFrame([row for hazard in chosen for row in judge(hazard, METHODS)])
-    write_csv(table, outputs["csv"])
+    tables.write(table, outputs["csv"])
     save(draw(table), outputs, provenance)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
@@ -25,7 +25,7 @@ def main(figures: dict, simulations: dict, folder, seconds: float, output) -> No
         print(f"{figure}: {len(rungs)} rungs")
         in_use = scene_models.in_use(scene, simulation)
         rows += scene_models.rows(figure, smallest_visible_error(module.draw(table)), rungs, in_use, seconds)
-    write_csv(pd.DataFrame(rows), output)
+    tables.write(pd.DataFrame(rows), output)
 
 
 def rungs_of(figure, scene, settings, simulation, module, table, folder):

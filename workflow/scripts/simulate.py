@@ -9,9 +9,10 @@ import json
 import numpy as np
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 from vibroimpact.system.state import KINDS, NAMES
@@ -27,10 +28,10 @@ def main(case: str, parameters: dict, settings: dict, outputs) -> None:
     run, trust = integrate(system, settings, cycles, np.concatenate([strobe, times]))
     samples, events = run.samples[len(strobe) :], run.events[run.events["tau"] >= times[0]]
     every = slice(None, None, settings["samples_per_cycle"])
-    write_csv(states_table(times, samples), outputs["samples"])
-    write_csv(events_table(events), outputs["events"])
+    tables.write(states_table(times, samples), outputs["samples"])
+    tables.write(events_table(events), outputs["events"])
     starts = np.concatenate([run.samples[: len(strobe)], samples[every]])
-    write_csv(states_table(np.concatenate([strobe, times[every]]), starts), outputs["strobe"])
+    tables.write(states_table(np.concatenate([strobe, times[every]]), starts), outputs["strobe"])
     with replacing(outputs["summary"]) as partial:
         numbers = summarise(times, samples, events, settings)
         summary = {"case": case, "system": parameters, "settings": settings, **numbers, "trust": trust}

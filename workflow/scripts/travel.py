@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.figures.companions.travel import compute, draw
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
@@ -17,7 +17,7 @@ def main(parameters: dict, settings: dict, outputs: dict) -> None:
     values = np.round(np.linspace(low, high, settings["values"]), 6).tolist()
     systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
     tables = compute(systems, settings["C_max"])
-    write_csv(tables["points"], outputs["csv"])
+    tables.write(tables["points"], outputs["csv"])
     with replacing(outputs["json"]) as partial:
         partial.write_text(json.dumps(for_page(tables, values), separators=(",", ":")) + "\n", encoding="utf-8")
     save(draw(tables, r"\hat f_{20}"), outputs)

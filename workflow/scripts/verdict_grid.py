@@ -1,12 +1,13 @@
 """Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.figures.companions.verdict_grid import compute
+from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 
 
 def main(parameters: dict, settings: dict, output) -> None:
-    write_csv(compute(System(**parameters), **settings), output)
+    tables.write(compute(System(**parameters), **settings), output)
 
 
 if "snakemake" in globals():

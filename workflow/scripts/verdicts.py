@@ -2,8 +2,9 @@
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from vibroimpact.claims.verdict_table import CRITERIA, fixed_point_rows
+from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.search import fixed_points
@@ -16,7 +17,7 @@ def main(case: str, parameters: dict, inputs: dict, output) -> None:
     listed = fixed_points(system)
     judged = fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), orbits)
     verdicts = judged[["label", "admissible", "orbit", *CRITERIA]]
-    write_csv(points.merge(verdicts, on="label", validate="one_to_one"), output)
+    tables.write(points.merge(verdicts, on="label", validate="one_to_one"), output)
 
 
 if "snakemake" in globals():

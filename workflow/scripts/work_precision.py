@@ -2,11 +2,12 @@
 
 import pandas as pd
 
-from adapter import logging_to, write_csv
+from adapter import logging_to
 from scenes import scene_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
 from vibroimpact.figures.companions.work_precision import draw
+from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS
 from vibroimpact_pipeline.provenance.record import recorded
@@ -17,7 +18,7 @@ def main(scenes: dict, seconds: float, short: bool, outputs: dict, provenance: d
     for name, scene in scenes.items():
         rows += measure(scene_of(name, scene["system"], scene["settings"]), METHODS, seconds, short)
     table = pd.DataFrame(rows)
-    write_csv(table, outputs["csv"])
+    tables.write(table, outputs["csv"])
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
     save(draw(table, footer), outputs, provenance)
 

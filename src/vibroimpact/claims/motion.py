@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.claims.points import theory
 from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
@@ -12,6 +11,7 @@ from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.penetration import stays_within_walls
 
@@ -142,7 +142,7 @@ def beating(evidence, case):
 def lower_amplitudes_end_stable_responses(evidence, sequence):
     """From case to case: fixed points stable by the theory and in truth, and where the last motion ends."""
     points = [evidence.points(case) for case in sequence]
-    by_theory = [sum(theory(row) == STABLE for _, row in rows.iterrows()) for rows in points]
+    by_theory = [sum(fast_and_slow(row) == STABLE for _, row in rows.iterrows()) for rows in points]
     in_truth = [int((rows["floquet"] == STABLE).sum()) for rows in points]
     others = [int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in sequence]
     share = _modulated_share(evidence, sequence[-1])
@@ -207,7 +207,7 @@ def assesses_stability(evidence):
 
     Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable.
     """
-    grid = evidence.verdict_grid.assign(theory=[theory(row) for _, row in evidence.verdict_grid.iterrows()])
+    grid = evidence.verdict_grid.assign(theory=[fast_and_slow(row) for _, row in evidence.verdict_grid.iterrows()])
     judged = grid[grid["floquet"].isin(SAYINGS)]
     parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["floquet"] == NO_ORBIT).sum())}
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
@@ -222,7 +222,7 @@ def assesses_stability(evidence):
     points = evidence.fixed_points
     numbers["of the chapter's points"] = len(points)
     numbers["right by (10.26)"] = int((points["printed_10_26"] == points["floquet"]).sum())
-    both = np.array([theory(row) for _, row in points.iterrows()])
+    both = np.array([fast_and_slow(row) for _, row in points.iterrows()])
     numbers["right by fast and slow"] = int((both == points["floquet"]).sum())
     return Finding(parts, numbers)
 

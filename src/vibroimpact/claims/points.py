@@ -6,7 +6,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.polynomials import Balance
 from vibroimpact.theory.fixed_points.search import fixed_points, search
@@ -50,7 +51,7 @@ def phases_can_be_eliminated(evidence):
 def label_of_a_point(evidence, case, label, says):
     """What a caption calls a point: against the theory with both time scales, and against its exact orbit."""
     row = evidence.points(case).loc[label]
-    said = theory(row)
+    said = fast_and_slow(row)
     parts = {
         f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
         f"{says} in truth": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
@@ -59,18 +60,12 @@ def label_of_a_point(evidence, case, label, says):
     return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
 
 
-def theory(row):
-    """Verdict of both time scales together."""
-    says = {row["masri_derived"], row["slow_flow"]}
-    return UNSTABLE if UNSTABLE in says else STABLE if says == {STABLE} else UNDECIDED
-
-
 def stable_points(evidence, case, number):
     """How many fixed points of a case are stable: by (10.26), by the theory carried through, in truth."""
     points = evidence.points(case)
     counts = {
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
-        "by theory, fast and slow": sum(theory(row) == STABLE for _, row in points.iterrows()),
+        "by theory, fast and slow": sum(fast_and_slow(row) == STABLE for _, row in points.iterrows()),
         "in truth": int((points["floquet"] == STABLE).sum()),
     }
     return Finding({f"{number} {name}": count == number for name, count in counts.items()}, counts)

@@ -20,4 +20,4 @@ def all_stable(verdicts) -> str:
     found = set(verdicts)
     if UNSTABLE in found:
         return UNSTABLE
-    return UNDECIDED if UNDECIDED in found else STABLE
+    return STABLE if found <= {STABLE} else UNDECIDED

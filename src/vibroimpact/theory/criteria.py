@@ -54,6 +54,11 @@ def of_orbit(orbit) -> dict[str, str]:
     return _of(orbit.system, psi, C, error)
 
 
+def fast_and_slow(says) -> str:
+    """The theory's verdict on both time scales, from verdicts by criterion: Masri's analysis and the slow flow."""
+    return all_stable(says[name] for name in ("masri_derived", "slow_flow"))
+
+
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
     """(psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
 

@@ -10,18 +10,38 @@ from vibroimpact.exact.orbits.saltation import impact_matrix, impact_saltation
 from vibroimpact.system.matrices import damping_matrix, rate_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
+_MODULES = np.array([1, 1, 2, 2])
+_WALLS = np.array([1, -1, 1, -1])
+
 
 class Passage(NamedTuple):
     """A motion followed through its impacts.
 
-    before (n, 8), after (n, 8): states around each impact; final (8,): state at the end; jacobian (8, 8): derivative of
-    the final state by the first one.
+    first (8,), final (8,): states at tau = 0 and at the end; times (n,): of the impacts; before (n, 8), after (n, 8):
+    states around each; end: time of the end; jacobian (8, 8): derivative of the final state by the first one.
     """
 
+    first: np.ndarray
+    times: np.ndarray
     before: np.ndarray
     after: np.ndarray
     final: np.ndarray
+    end: float
     jacobian: np.ndarray
+
+    def flights(self):
+        """State at the start, time of the start and time of the end of every free flight."""
+        return zip([self.first, *self.after], [0.0, *self.times], [*self.times, self.end], strict=True)
+
+
+def impact_sequence(times: np.ndarray, period: float):
+    """Times, modules and walls, each (4,), of impacts at times (2, 2) [module, wall +1 / wall -1] in [0, T), in order.
+
+    One at 0 comes last, at T: the state at tau = 0 is the one after it.
+    """
+    within = np.where(times == 0, period, times).ravel()
+    order = np.argsort(within, kind="stable")
+    return within[order], _MODULES[order], _WALLS[order]
 
 
 def free_flight(system, state: np.ndarray, tau: float, duration: float):
@@ -48,7 +68,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     Raises:
         ValueError: an impact without relative velocity (see impact_saltation).
     """
-    tau, jacobian = 0.0, np.eye(8)
+    first, tau, jacobian = state, 0.0, np.eye(8)
     before, after = np.empty((len(times), 8)), np.empty((len(times), 8))
     for k, (time, module) in enumerate(zip(times, modules, strict=True)):
         before[k], flight = free_flight(system, state, tau, time - tau)
@@ -56,7 +76,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
         jacobian = impact_saltation(system, before[k], time, module) @ flight @ jacobian
         state, tau = after[k], time
     final, flight = free_flight(system, state, tau, end - tau)
-    return Passage(before, after, final, flight @ jacobian)
+    return Passage(first, times, before, after, final, end, flight @ jacobian)
 
 
 def multipliers(jacobian: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
-from vibroimpact.exact.orbits.floquet import follow, multipliers
+from vibroimpact.exact.orbits.floquet import Passage, follow, impact_sequence, multipliers
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response, powers
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
@@ -15,8 +15,6 @@ from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
-_MODULES = np.array([1, 1, 2, 2])
-_WALLS = np.array([1, -1, 1, -1])
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
 _SAMPLES = 4096  # of one flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
@@ -53,6 +51,12 @@ class Orbit:
         # Both flights cover the same path in one period: plus t = minus (T - t).
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
+
+    @property
+    def passage(self) -> Passage:
+        """The motion followed once round, from `state` through its four impacts."""
+        times, modules, _ = impact_sequence(self.impact_phases * self.system.period, self.system.period)
+        return follow(self.system, self.state, times, modules, self.system.period)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,15 +116,8 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
     if not orbit.symmetric:
         raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
     system = orbit.system
-    impacts = _after_zero(orbit.impact_phases * system.period, system.period)
-    order = np.argsort(impacts, kind="stable")[:2]
-    passage = follow(system, orbit.state, impacts[order], _MODULES[order], system.period / 2)
-    return multipliers(-passage.jacobian)
-
-
-def _after_zero(times, period):
-    """Impact times (4,) in (0, T]: the state at tau = 0 is the one after an impact there."""
-    return np.where(times == 0, period, times).ravel()
+    times, modules, _ = impact_sequence(orbit.impact_phases * system.period, system.period)
+    return multipliers(-follow(system, orbit.state, times[:2], modules[:2], system.period / 2).jacobian)
 
 
 def _order(orbit):
@@ -151,11 +148,10 @@ def _orbit(system, times, changes, fractions, sign):
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)
-    impacts = _after_zero(times, system.period)
-    order = np.argsort(impacts, kind="stable")
-    passage = follow(system, state, impacts[order], _MODULES[order], system.period)
+    in_order, modules, walls = impact_sequence(times, system.period)
+    passage = follow(system, state, in_order, modules, system.period)
     gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
-    at_wall = gaps[range(4), _MODULES[order] - 1] - _WALLS[order]
+    at_wall = gaps[range(4), modules - 1] - walls
     return Orbit(
         system=system,
         symmetric=sign == -1,
@@ -163,7 +159,7 @@ def _orbit(system, times, changes, fractions, sign):
         ball_speeds=speeds,
         multipliers=multipliers(passage.jacobian),
         state=state,
-        admissible=bool((speeds > 0).all() and _within_walls(system, state, impacts[order], passage)),
+        admissible=bool((speeds > 0).all() and _within_walls(system, passage)),
         residual=float(max(abs(at_wall).max(), abs(passage.final - state).max())),
     )
 
@@ -190,11 +186,9 @@ def _state(system, times, changes, speeds, sign):
     return state
 
 
-def _within_walls(system, state, impacts, passage):
+def _within_walls(system, passage):
     """Whether |W_i| <= 1 throughout; it is 1 at the impacts themselves, so only the extrema inside flights matter."""
-    starts, ends = [0.0, *impacts], [*impacts, system.period]
-    flights = zip([state, *passage.after], starts, ends, strict=True)
-    return all(extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in flights)
+    return all(extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in passage.flights())
 
 
 def extremes(system, state, start, end):

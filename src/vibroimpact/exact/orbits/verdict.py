@@ -3,10 +3,8 @@
 import numpy as np
 from scipy.linalg import eig
 
-from vibroimpact.exact.orbits.floquet import follow
 from vibroimpact.system.verdict import all_stable, verdict
 
-_MODULES = np.array([1, 1, 2, 2])
 _ROUNDING = 100 * np.finfo(float).eps
 
 
@@ -17,11 +15,7 @@ def floquet(orbit) -> str:
     condition number of the eigenvalue times the error of the monodromy matrix. That is rounding and the error of the
     orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
     """
-    system = orbit.system
-    times = (orbit.impact_phases * system.period).ravel()
-    times = np.where(times == 0, system.period, times)
-    order = np.argsort(times, kind="stable")
-    jacobian = follow(system, orbit.state, times[order], _MODULES[order], system.period).jacobian
+    jacobian = orbit.passage.jacobian
     values, left, right = eig(jacobian, left=True, right=True)
     size = np.linalg.norm(jacobian)
     condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))

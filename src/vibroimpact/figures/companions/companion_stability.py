@@ -18,6 +18,7 @@ from vibroimpact.figures.kit.style import (
 )
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import lower_limit, upper_limit
 from vibroimpact.theory.stability import printed_limit
@@ -113,8 +114,7 @@ def overall(motion) -> str:
     """What is true of an orbit (its multipliers); what the theory says of a fixed point: both time scales stable."""
     if motion["series"] != "fixed point":
         return motion["floquet"]
-    says = {motion["masri_derived"], motion["slow_flow"]}
-    return UNSTABLE if UNSTABLE in says else UNDECIDED if UNDECIDED in says else STABLE
+    return fast_and_slow(motion)
 
 
 def _draw_matrix(axes, motions, most):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from vibroimpact.system.verdict import all_stable
 from vibroimpact.theory.manifold import C_min, overshoot, rho
 from vibroimpact.theory.stability import printed_limit
 
@@ -65,5 +66,4 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
     """The chapter's verdict on each fixed point, by label: stable where both projections are on the stable branch."""
-    stable = (places["branch"] == "stable").groupby(places["label"]).all()
-    return stable.map({True: "stable", False: "unstable"}).rename("verdict")
+    return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
