@@ -11,12 +11,13 @@ configfile: CONFIG_FILE
 check_config()
 
 
-include: "workflow/rules/origin.smk"
+include: "workflow/rules/provenance.smk"
 include: "workflow/rules/fixed_points.smk"
 include: "workflow/rules/simulations.smk"
+include: "workflow/rules/stability.smk"
 include: "workflow/rules/regimes.smk"
 include: "workflow/rules/companions.smk"
-include: "workflow/rules/stability.smk"
+include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/checks.smk"

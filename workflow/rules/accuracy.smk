@@ -15,11 +15,11 @@ def accuracy_scenes():
     return {name: {"system": system_of(scene["case"]), "settings": scene} for name, scene in scenes.items()}
 
 
-def accuracy_origin(name, seconds):
+def accuracy_provenance(name, seconds):
     scenes = config["accuracy"]["scenes"]
     cases = sorted({scene["case"] for scene in scenes.values()})
     own = step(f"{COMPARED}; run times measured", DOUBLE, "workflow/scripts/work_precision.py")
-    return origin(name, ["accuracy.scenes", f"accuracy.{seconds}"], cases, [own])
+    return provenance(name, ["accuracy.scenes", f"accuracy.{seconds}"], cases, [own])
 
 
 for name, (short, seconds) in TIMED.items():
@@ -33,7 +33,7 @@ for name, (short, seconds) in TIMED.items():
             scenes=accuracy_scenes(),
             seconds=config["accuracy"][seconds],
             short=short,
-            origin=accuracy_origin(name, seconds),
+            provenance=accuracy_provenance(name, seconds),
         threads: workflow.cores
         log:
             f"results/logs/accuracy/{name}.log",
@@ -52,7 +52,7 @@ for name, all_of_them in JUDGED.items():
             **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
         params:
             all_of_them=all_of_them,
-            origin=origin(name, [], [], [step(COMPARED, DOUBLE, "workflow/scripts/hazards.py")]),
+            provenance=provenance(name, [], [], [step(COMPARED, DOUBLE, "workflow/scripts/hazards.py")]),
         log:
             f"results/logs/accuracy/{name}.log",
         benchmark:

@@ -98,12 +98,12 @@ def companion_settings(name):
     return system | systems | {key: config_at(path) for key, path in companion.get("settings", {}).items()}
 
 
-def companion_origin(name):
+def companion_provenance(name):
     companion = COMPANIONS[name]
     cases = [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
     keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
     own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])
-    return origin(name, keys, cases, [*companion.get("before", []), own])
+    return provenance(name, keys, cases, [*companion.get("before", []), own])
 
 
 for name, companion in COMPANIONS.items():
@@ -118,7 +118,7 @@ for name, companion in COMPANIONS.items():
         params:
             module=companion_module(name),
             settings=companion_settings(name),
-            origin=companion_origin(name),
+            provenance=companion_provenance(name),
         log:
             f"results/logs/companions/{name}.log",
         benchmark:

@@ -66,7 +66,7 @@ def figure_step(figure, scene):
     return step(NOTEBOOKS[scene["notebook"]]["method"], DOUBLE, *files, modules=[drawn_by(figure, scene)])
 
 
-def figure_origin(figure, scene):
+def figure_provenance(figure, scene):
     """What decides on a figure: its scene, the parameters it depends on, the integration of its case if it shows that."""
     read = MODEL_INPUTS[scene.get("model")]
     cases = [scene["case"]] if "case" in scene else []
@@ -74,7 +74,7 @@ def figure_origin(figure, scene):
     keys += [f"cases.{case}.simulation" for case in cases if "samples" in read]
     before = [step(*STEPS["fixed_points"])] if "fixed_points" in read else []
     before += [simulation_step(scene["case"])] if "samples" in read else []
-    return origin(figure, keys, cases, [*before, figure_step(figure, scene)])
+    return provenance(figure, keys, cases, [*before, figure_step(figure, scene)])
 
 
 for figure, scene in config["figures"].items():
@@ -91,7 +91,7 @@ for figure, scene in config["figures"].items():
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),
-            origin=figure_origin(figure, scene),
+            provenance=figure_provenance(figure, scene),
         log:
             f"results/logs/figures/{figure}.log",
         benchmark:

@@ -1,12 +1,12 @@
 """Results -> the report: a site that reads offline, and a PDF."""
 
 import shutil
-import subprocess
 from pathlib import Path
 
 import yaml
 
 from adapter import logging_to
+from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.report.pages import Pages
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import write
@@ -51,10 +51,8 @@ def copy(path, folder: Path) -> None:
 
 def version(root) -> str:
     """The commit of the checkout, as far as git tells."""
-    run = subprocess.run(
-        ["git", "describe", "--always", "--dirty=, with changes"], cwd=root, capture_output=True, text=True, check=False
-    )
-    return f"commit {run.stdout.strip()}" if run.returncode == 0 else "a copy without its history"
+    described = git("describe", "--always", "--dirty=, with changes", root=root)
+    return "a copy without its history" if described is None else f"commit {described}"
 
 
 if "snakemake" in globals():

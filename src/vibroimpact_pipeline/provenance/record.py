@@ -3,7 +3,6 @@
 import hashlib
 import json
 import platform
-import subprocess
 import time
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy
 
 from vibroimpact.figures.kit.artists import drawn_with
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.git import git
 
 LOCK = "environment.lock"
 
@@ -21,16 +21,16 @@ def recorded(job):
     """Give the record of a job's figure and its outputs by name; write the sidecar, with the run time, at the end."""
     start, outputs = time.monotonic(), dict(job.output.items())
     sidecar = outputs.pop("provenance")
-    provenance = record(job.params.origin, job.input)
+    provenance = record(job.params.provenance, job.input)
     yield provenance, outputs
     write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)
 
 
-def record(origin: dict, inputs) -> dict:
-    """What decides on a figure, the same in every build of one commit: config slice, steps, lock, inputs, versions."""
+def record(decided: dict, inputs) -> dict:
+    """What decides on a figure, the same in every build of one commit: `decided` by the rules, lock, inputs, versions."""
     versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
     return {
-        **origin,
+        **decided,
         "lock": digest(LOCK),
         "inputs": {str(path): digest(path) for path in inputs},
         "versions": versions,
@@ -52,12 +52,3 @@ def write_sidecar(path, provenance: dict, outputs, seconds: float) -> None:
 
 def digest(path) -> str:
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
-
-
-def git(*arguments) -> str | None:
-    """What git says, or None where there is no repository or no git."""
-    try:
-        run = subprocess.run(["git", *arguments], capture_output=True, text=True, check=True)
-    except (OSError, subprocess.CalledProcessError):
-        return None
-    return run.stdout.strip()

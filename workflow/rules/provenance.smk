@@ -57,7 +57,7 @@ def config_at(path):
     return value
 
 
-def origin(figure, keys, cases, steps):
+def provenance(figure, keys, cases, steps):
     """What decides on a figure: entries of the config by their paths, the parameters of cases, the steps to its files."""
     paths = [*keys, *(f"system.{name}" for name in config["system"] if cases)]
     paths += [f"cases.{case}.{name}" for case in cases for name in ("f10_hat", "f20_hat")]
