@@ -27,7 +27,7 @@ def recorded(job):
 
 
 def record(decided: dict, inputs) -> dict:
-    """What decides on a figure, the same in every build of one commit: `decided` by the rules, lock, inputs, versions."""
+    """What decides on a figure, the same in every build of one commit: by the rules, lock, inputs, versions."""
     versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
     return {
         **decided,
