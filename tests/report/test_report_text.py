@@ -9,6 +9,7 @@ import yaml
 from math_core import LatexError
 
 from pipeline_trees import ROOT
+from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, setting
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import convert
@@ -61,12 +62,12 @@ def test_on_paper_columns_share_the_width_by_what_they_hold():
     assert "%" not in convert("# Here\n\n" + markdown_table(["a", "b"], [["x", "y"]]), "typst", SOURCES, KNOWN)
 
 
-@pytest.mark.parametrize("caption", sorted(path.stem for path in (SOURCES / "captions").glob("*.rst")))
+@pytest.mark.parametrize("caption", figure_texts(ROOT, CONFIG["cases"]))
 def test_captions_fill_from_the_config(caption):
     pages = Pages(ROOT, None, SETTINGS, CONFIG, {})
     text = pages.caption(caption)
     assert len(text) > 20
-    assert "{{" not in text
+    assert "hat}" not in text
     assert ":math:" not in text
 
 

@@ -28,7 +28,7 @@ for name, (short, seconds) in TIMED.items():
         name:
             name
         output:
-            **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
+            **in_report(accuracy_outputs(name), "Accuracy and speed"),
         params:
             scenes=accuracy_scenes(),
             seconds=config["accuracy"][seconds],
@@ -49,7 +49,7 @@ for name, all_of_them in JUDGED.items():
         name:
             name
         output:
-            **in_report(accuracy_outputs(name), "Accuracy and speed", name.removesuffix("_full")),
+            **in_report(accuracy_outputs(name), "Accuracy and speed"),
         params:
             all_of_them=all_of_them,
             provenance=provenance(name, [], [], [step(COMPARED, DOUBLE, "workflow/scripts/hazards.py")]),
@@ -69,7 +69,7 @@ rule scene_models:
         [path for scene in MODELLED.values() for path in figure_inputs(scene).values()],
         tables=[figure_outputs(figure, scene)["csv"] for figure, scene in MODELLED.items()],
     output:
-        **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed", "scene_models"),
+        **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
         figures={
             figure: [scene, figure_settings(scene), drawn_by(figure, scene)] for figure, scene in MODELLED.items()

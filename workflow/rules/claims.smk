@@ -28,7 +28,7 @@ rule claims:
             for name in ("samples.csv", "events.csv", "summary.json")
         },
     output:
-        **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", "claims", ("json",)),
+        **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
     params:
         systems=all_systems(),
         code=code("workflow/scripts/claims.py"),

@@ -9,11 +9,13 @@ from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
 from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
 
 ROOT = Path(workflow.basedir)
 CONFIG_FILE = "config/config.yaml"
 OVERRIDES = config_checks.typed(config)
+CAPTION = str(ROOT / "report/caption.rst")
 SOURCES = Sources()
 settle(ROOT, SOURCES)
 
@@ -42,6 +44,7 @@ def check_config():
     found = config_checks.problems(config, schema)
     if found:
         refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
+    config["figure_texts"] = figure_texts(ROOT, config["cases"])
 
 
 def code(*files, modules=()):
@@ -58,11 +61,10 @@ def all_systems():
     return {case: system_of(case) for case in sorted(config["cases"])}
 
 
-def in_report(outputs, category, caption, kinds=("svg", "csv")):
+def in_report(outputs, category, kinds=("svg", "csv")):
     """The outputs of a figure by kind, its picture and its numbers marked for `snakemake --report`."""
-    text = str(ROOT / f"report/captions/{caption}.rst")
     marked = {
-        kind: report(path, caption=text, category=category, labels={"name": Path(path).stem, "kind": kind})
+        kind: report(path, caption=CAPTION, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
         if kind in kinds
     }

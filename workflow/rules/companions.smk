@@ -114,7 +114,7 @@ for name, companion in COMPANIONS.items():
         input:
             **companion.get("inputs", {}),
         output:
-            **in_report(companion_outputs(name), "Companion figures", name),
+            **in_report(companion_outputs(name), "Companion figures"),
         params:
             module=companion_module(name),
             settings=companion_settings(name),

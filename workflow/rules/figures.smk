@@ -86,9 +86,10 @@ for figure, scene in config["figures"].items():
             **figure_inputs(scene),
         output:
             html=f"results/notebooks/{figure}.html",
-            **in_report(figure_outputs(figure, scene), "Figures of the chapter", figure),
+            **in_report(figure_outputs(figure, scene), "Figures of the chapter"),
         params:
             notebook=f"notebooks/{scene['notebook']}.ipynb",
+            alt=config["figure_texts"][figure]["alt"],
             executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),
             provenance=figure_provenance(figure, scene),

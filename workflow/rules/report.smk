@@ -28,7 +28,7 @@ for name, scene in REPORT_SETTINGS["animations"].items():
             events=CASE_FILES["events"].format(case=scene["case"]),
         output:
             json=f"results/animations/{name}.json",
-            **in_report({kind: f"results/animations/{name}.{kind}" for kind in PICTURES}, "The motion", name),
+            **in_report({kind: f"results/animations/{name}.{kind}" for kind in PICTURES}, "The motion"),
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
@@ -44,7 +44,7 @@ for name, scene in REPORT_SETTINGS["animations"].items():
 rule travel:
     output:
         json="results/travel/travel.json",
-        **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points", "travel"),
+        **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
     params:
         system=system_of(REPORT_SETTINGS["travel"]["case"]),
         settings=REPORT_SETTINGS["travel"],

@@ -44,7 +44,7 @@ for name, per_case in GATHERED.items():
         input:
             expand(per_case, case=all_systems()),
         output:
-            **in_report({"csv": f"results/{name}.csv"}, "Tables", name),
+            **in_report({"csv": f"results/{name}.csv"}, "Tables"),
         params:
             code=code("workflow/scripts/gather.py"),
         log:
@@ -71,7 +71,7 @@ rule certificates:
 
 rule verdict_grid:
     output:
-        **in_report({"csv": "results/verdict_grid.csv"}, "Tables", "verdict_grid"),
+        **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
     params:
         system=next(iter(all_systems().values())),
         settings=config["stability"]["verdict_grid"],

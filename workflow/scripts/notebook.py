@@ -15,7 +15,7 @@ from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.provenance.record import recorded
 from vibroimpact_pipeline.report.offline import page
 
-PARAMETERS = {"figure", "settings", "inputs", "outputs", "provenance"}
+PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
 
 
 def main(notebook, executed, html, parameters: dict) -> None:
@@ -53,6 +53,7 @@ if "snakemake" in globals():
         html = outputs.pop("html")
         parameters = {
             "figure": provenance["figure"],
+            "alt": snakemake.params.alt,
             "settings": snakemake.params.settings,
             "inputs": dict(snakemake.input.items()),
             "outputs": outputs,

@@ -4,11 +4,11 @@ import re
 from collections import Counter
 from functools import lru_cache
 from pathlib import Path
-from types import SimpleNamespace
 
 import jinja2
 import pypandoc
-import yaml
+
+from vibroimpact_pipeline.report.figure_texts import figure_texts
 
 
 class Pages:
@@ -25,7 +25,7 @@ class Pages:
 
     def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=()):
         self.root, self.results, self.settings, self.config = Path(root), results, settings, config
-        self.about = yaml.safe_load((self.root / "report/figures.yaml").read_text(encoding="utf-8"))
+        self.about = figure_texts(self.root, config["cases"])
         self.environment = jinja2.Environment(
             loader=jinja2.FileSystemLoader(self.root),
             undefined=jinja2.StrictUndefined,
@@ -56,11 +56,8 @@ class Pages:
 
     def caption(self, figure: str) -> str:
         """The caption of a figure, written for `snakemake --report` too, as Markdown in one line."""
-        source = (self.root / f"report/captions/{figure}.rst").read_text(encoding="utf-8")
-        filled = jinja2.Template(source, undefined=jinja2.StrictUndefined).render(
-            snakemake=SimpleNamespace(config=self.config)
-        )
-        return pypandoc.convert_text(filled, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
+        text = self.about[figure]["caption"]
+        return pypandoc.convert_text(text, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
 
 
 def digits(value, number: int = 3) -> str:
