@@ -6,7 +6,7 @@ from pathlib import Path
 from vibroimpact_pipeline.sources import Sources
 
 
-def settle(root: Path, sources: Sources) -> None:
+def prepare(root: Path, sources: Sources) -> None:
     """Set the environment of this process and of all that it starts; every cache lies in the checkout at `root`.
 
     Compiled code is kept apart by the content of its sources, since Numba itself looks at one file at a time and

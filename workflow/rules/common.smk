@@ -8,7 +8,7 @@ import yaml
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
-from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
 
@@ -17,7 +17,7 @@ CONFIG_FILE = "config/config.yaml"
 OVERRIDES = config_checks.typed(config)
 CAPTION = str(ROOT / "report/caption.rst")
 SOURCES = Sources()
-settle(ROOT, SOURCES)
+prepare(ROOT, SOURCES)
 
 
 def refuse(lines):

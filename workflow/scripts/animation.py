@@ -2,7 +2,7 @@
 
 import json
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.companions.animation import PLACES, compute, draw
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save

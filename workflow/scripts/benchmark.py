@@ -6,9 +6,9 @@ from pathlib import Path
 import pandas as pd
 import yaml
 
-from adapter import replacing
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.config import case_parameters
-from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
 SECONDS = 0.5
@@ -38,5 +38,5 @@ if __name__ == "__main__":
     parser.add_argument("--config", type=Path, default=Path("config/config.yaml"))
     parser.add_argument("--output", type=Path, default=Path("results/accuracy/benchmark.csv"))
     arguments = parser.parse_args()
-    settle(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
+    prepare(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
     main(yaml.safe_load(arguments.config.read_text(encoding="utf-8")), arguments.output)

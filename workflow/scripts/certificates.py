@@ -7,7 +7,7 @@ of Newton starts that led to the one that was met least says how likely another 
 import dataclasses
 import json
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.exact.orbits import certify as symmetric_orbits
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.kit.files import replacing

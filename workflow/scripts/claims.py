@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 import yaml
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.claims.evidence import Evidence, Simulation
 from vibroimpact.claims.judge import judge, to_markdown
 from vibroimpact.figures.kit.files import replacing

@@ -1,6 +1,6 @@
 """Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.system import System
 

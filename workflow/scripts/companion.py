@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.kit.style import save
 from vibroimpact.figures.kit.tables import read, write
 from vibroimpact.system import System

@@ -2,7 +2,7 @@
 
 import json
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.figure_check.compare import check_all, lines, tolerances
 from vibroimpact_pipeline.figure_check.page import page

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from vibroimpact_pipeline.config import case_parameters, parse
-from vibroimpact_pipeline.environment import settle
+from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
-settle(Path.cwd(), Sources())
+prepare(Path.cwd(), Sources())
 
 from vibroimpact.exact.engine.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
 from vibroimpact.rivals import METHODS  # noqa: E402

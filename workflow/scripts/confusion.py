@@ -4,7 +4,7 @@ from collections import Counter
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.kit import tables
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.regimes.confusion import confusion

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.labels import labels

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.accuracy.hazards import hazards, judge
 from vibroimpact.figures.companions.hazards import draw
 from vibroimpact.figures.kit import tables

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import papermill
 from traitlets.config import Config
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.provenance.record import recorded
 from vibroimpact_pipeline.report.offline import page

@@ -1,6 +1,6 @@
 """All exact 1:1 responses of one case with the verdicts on them -> CSV, a row per orbit."""
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.claims.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.kit import tables

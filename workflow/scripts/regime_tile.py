@@ -1,6 +1,6 @@
 """One tile of the map of regimes -> CSV: a row per pair of forcing amplitudes."""
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.companions.companion_regime_map import compute_tile
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.report.pages import Pages
 from vibroimpact_pipeline.report.results import Results

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points

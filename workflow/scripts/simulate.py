@@ -9,7 +9,7 @@ import json
 import numpy as np
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.figures.kit import tables

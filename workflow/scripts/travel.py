@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.companions.travel import compute, draw
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save

@@ -1,6 +1,6 @@
 """Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.figures.companions.verdict_grid import compute
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System

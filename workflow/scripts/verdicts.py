@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from vibroimpact.claims.verdict_table import CRITERIA, fixed_point_rows
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System

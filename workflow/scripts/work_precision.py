@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from adapter import logging_to
+from job_log import logging_to
 from scenes import scene_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure

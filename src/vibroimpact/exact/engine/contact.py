@@ -117,7 +117,7 @@ def _joined(q, boxes, balls, i):
 
 
 @inlined
-def settle(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
+def resolve(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
     """Everything that happens now: (boxes, balls, walls, touching, number of events).
 
     due: the module whose constraint is just met, or -1. The forces on balls at rest are looked at after all impacts,
@@ -175,7 +175,7 @@ def _rest(q, boxes, balls, walls, touching, i, pulled, sine, cosine, elapsed, ev
 
 @compiled
 def _complete_both(flow, boxes, balls, walls, touching, sine, cosine, chatters, elapsed, events, count, ledger):
-    """Complete what may be completed of the chatters of the two balls, where they have one: what `settle` returns.
+    """Complete what may be completed of the chatters of the two balls, where they have one: what `resolve` returns.
 
     Their ends are noted last, in the order of their times and with the states at these times.
     """

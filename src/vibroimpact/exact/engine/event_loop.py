@@ -1,7 +1,7 @@
 """The event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
 
 Between events the flow is linear and evaluated in closed form (flow.advance). The next event is approached from the
-safe side (flight.fly), so nothing before it is missed. Events (contact.settle):
+safe side (flight.fly), so nothing before it is missed. Events (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution, momentum conserved;
 stick     the end of a chatter: infinitely many impacts in a finite time, completed at once when what that neglects is
@@ -17,7 +17,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.constraints import gap_rounding
-from vibroimpact.exact.engine.contact import settle
+from vibroimpact.exact.engine.contact import resolve
 from vibroimpact.exact.engine.event_log import NEGLECTED, PHASE, ROW, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.engine.motion import glide
@@ -55,7 +55,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
         noted = count
-        boxes, balls, walls, touching, count = settle(
+        boxes, balls, walls, touching, count = resolve(
             flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
         )
         for k in range(noted, count):
