@@ -52,11 +52,11 @@ def test_a_case_without_responses_goes_through_all_stages(tmp_path, changes):
     system = SYSTEM | changes
     paths = {name: tmp_path / f"{name}.csv" for name in ("fixed_points", "orbits", "verdicts", "verdict_grid")}
     fixed_points.main("still", system, paths["fixed_points"])
-    orbits.main("still", system, paths["orbits"])
+    orbits.main("still", system, {"csv": paths["orbits"], "search": tmp_path / "search.json"})
     verdicts.main("still", system, paths, paths["verdicts"])
     tables = {name: pd.read_csv(paths[name]) for name in ("verdicts", "orbits")}
     assert [len(table) for table in tables.values()] == [0, 0]
-    certificates.main({"still": system}, tmp_path / "certificates.json")
+    certificates.main({"still": system}, {"still": tmp_path / "search.json"}, tmp_path / "certificates.json")
     proofs = json.loads((tmp_path / "certificates.json").read_text())["still"]
     assert proofs["fixed_points"]["complete"]
     assert proofs["symmetric_orbits"]["complete"]

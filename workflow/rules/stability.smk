@@ -7,7 +7,8 @@ GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/or
 
 rule orbits:
     output:
-        "results/orbits/{case}.csv",
+        csv="results/orbits/{case}.csv",
+        search="results/orbits/{case}.search.json",
     params:
         system=lambda wildcards: system_of(wildcards.case),
         code=code("workflow/scripts/orbits.py"),
@@ -56,6 +57,8 @@ for name, per_case in GATHERED.items():
 
 
 rule certificates:
+    input:
+        **{case: f"results/orbits/{case}.search.json" for case in all_systems()},
     output:
         "results/certificates.json",
     params:

@@ -1,18 +1,24 @@
-"""All exact 1:1 responses of one case with the verdicts on them -> CSV, a row per orbit."""
+"""All exact 1:1 responses of one case with the verdicts on them -> CSV, a row per orbit, and JSON: the effort spent."""
+
+import json
 
 from job_log import logging_to
 from vibroimpact.claims.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.kit import tables
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 
 
-def main(case: str, parameters: dict, output) -> None:
+def main(case: str, parameters: dict, outputs: dict) -> None:
     found = search(System(**parameters))
-    print(f"{found.starts} starts for the asymmetric orbits; the one hit least was hit {found.fewest_hits} times")
-    tables.write(orbit_rows(case, found.orbits), output)
+    tables.write(orbit_rows(case, found.orbits), outputs["csv"])
+    listed = sum(not orbit.symmetric for orbit in found.orbits)
+    effort = {"listed": listed, "starts": found.starts, "fewest_hits": found.fewest_hits}
+    with replacing(outputs["search"]) as partial:
+        partial.write_text(json.dumps(effort) + "\n", encoding="utf-8")
 
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        main(snakemake.wildcards.case, snakemake.params.system, snakemake.output[0])
+        main(snakemake.wildcards.case, snakemake.params.system, dict(snakemake.output.items()))

@@ -1,4 +1,4 @@
-"""Fixed points as the pipeline's table holds them: columns label, C1, C2, B1, B2, psi1, psi2, one row per point."""
+"""Fixed points as the pipeline's table holds them, one row per point: label, C1, C2, B1, B2, psi1, psi2, multiple."""
 
 from dataclasses import dataclass
 
@@ -12,18 +12,23 @@ from vibroimpact.theory.stability import printed_limit
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
-    """A fixed point of the slow flow under its label: C, B and psi [rad], each shape (2,)."""
+    """A fixed point of the slow flow under its label: C, B and psi [rad], each (2,), and whether it is multiple."""
 
     label: str
     C: np.ndarray
     B: np.ndarray
     psi: np.ndarray
+    multiple: bool
 
 
 def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
     """The points of a table, in its order."""
     return [
-        LabelledPoint(row["label"], *(row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B", "psi")))
+        LabelledPoint(
+            row["label"],
+            *(row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B", "psi")),
+            bool(row.get("multiple", False)),
+        )
         for _, row in table.iterrows()
     ]
 
