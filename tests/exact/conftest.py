@@ -5,6 +5,7 @@ import pytest
 from scipy.linalg import expm
 
 import vibroimpact as vi
+from by_hand import BoxesByHand
 from chapter import FORCES, PARAMETERS
 
 
@@ -25,27 +26,8 @@ def case(request):
     return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
-class Auditor:
+class Auditor(BoxesByHand):
     """Flows states with scipy's matrix exponential, in the full coordinates of (10.2) written out by hand."""
-
-    def __init__(self, system):
-        self.system = system
-        e, a = system.epsilon, system.epsilon * system.alpha12_hat
-        c1, c2, c12 = (e * g for g in (system.gamma1_hat, system.gamma2_hat, system.gamma12_hat))
-        self.stiff = np.array([[1 + a, -a], [-a, 1 + e * system.sigma20_hat + a]])
-        self.damp = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
-        self.force = e * np.array([system.f10_hat, system.f20_hat])
-        self.omega = 1 + e * system.sigma_e_hat
-
-    def rate(self, stuck):
-        mass = np.array([1 + self.system.epsilon if s else 1.0 for s in stuck])
-        rate = np.zeros((6, 6))
-        rate[:2, 2:4] = np.eye(2)
-        rate[2:4, :2] = -self.stiff / mass[:, None]
-        rate[2:4, 2:4] = -self.damp / mass[:, None]
-        rate[2:4, 4] = self.force / mass
-        rate[4, 5], rate[5, 4] = self.omega, -self.omega
-        return rate
 
     def lifted(self, state, tau):
         x = state[[0, 2, 4, 6]]

@@ -8,6 +8,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 import vibroimpact as vi
+from by_hand import BoxesByHand
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.system.state import IMPACT, STICK
 
@@ -39,37 +40,22 @@ def random_start(rng):
 # -- turns ------------------------------------------------------------------------------------------------------------
 
 
-class Observer:
+class Observer(BoxesByHand):
     """Sees the gaps of a system's motions on a grid, denser where a flight starts, by matrix exponentials of the
     equations written out.
     """
 
     def __init__(self, system):
-        e, a = system.epsilon, system.epsilon * system.alpha12_hat
-        c1, c2, c12 = (e * g for g in (system.gamma1_hat, system.gamma2_hat, system.gamma12_hat))
-        self.stiffness = np.array([[1 + a, -a], [-a, 1 + e * system.sigma20_hat + a]])
-        self.damping = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
-        self.force = e * np.array([system.f10_hat, system.f20_hat])
-        self.omega, self.epsilon = 1 + e * system.sigma_e_hat, e
+        super().__init__(system)
         self.step = 0.03 / max(self.omega, np.sqrt(np.linalg.norm(self.stiffness, 2)))
         even = self.step * np.arange(int(7 / self.omega / self.step) + 2)
         self.times = np.concatenate([[0.0], self.step * 2.0 ** np.arange(-20, 0), even[1:]])
         self._powers = {}
 
-    def _rate(self, stuck):
-        mass = 1 + self.epsilon * np.array(stuck)
-        rate = np.zeros((6, 6))
-        rate[:2, 2:4] = np.eye(2)
-        rate[2:4, :2] = -self.stiffness / mass[:, None]
-        rate[2:4, 2:4] = -self.damping / mass[:, None]
-        rate[2:4, 4] = self.force / mass
-        rate[4, 5], rate[5, 4] = self.omega, -self.omega
-        return rate
-
     def _flow(self, stuck, count):
         """The boxes' rows (count, 4, 6) of the exponentials over the first times of the grid."""
         if stuck not in self._powers:
-            fine, rate = int((self.times < self.step).sum()), self._rate(stuck)
+            fine, rate = int((self.times < self.step).sum()), self.rate(stuck)
             power = np.eye(6)[None]
             while len(power) < len(self.times):
                 power = np.concatenate([power, power @ expm(rate * self.step * len(power))])
@@ -122,7 +108,7 @@ class Observer:
 
     def _gap(self, i, around, length, state, tau, stuck):
         """The gap of the turn of module i between two times of a flight; None if it would be after its end."""
-        rate, z = self._rate(stuck), self._lifted(state, tau)
+        rate, z = self.rate(stuck), self._lifted(state, tau)
         t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
         if t >= length:
             return None
@@ -130,7 +116,7 @@ class Observer:
 
     def _at(self, state, tau, stuck, t, walls):
         """The state a time t later."""
-        boxes, later = expm(self._rate(stuck) * t)[:4] @ self._lifted(state, tau), state.copy()
+        boxes, later = expm(self.rate(stuck) * t)[:4] @ self._lifted(state, tau), state.copy()
         later[[0, 2, 4, 6]] = boxes
         for i in range(2):
             later[2 * i + 1] = boxes[i] - walls[i] if walls[i] else state[2 * i + 1] + t * state[2 * i + 5]

@@ -6,27 +6,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import jacobian, rates
 
-CHAPTER = dict(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-)
 CASES = {"equal": (1, 1), "unequal": (1, 0.89), "weak": (0.5, 0.5)}
 PRINTED, FOLD, BREAKING = 3.3 / 3.65, 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
 
 
 def case(name):
-    return vi.System(**CHAPTER, f10_hat=CASES[name][0], f20_hat=CASES[name][1])
+    return vi.System(**PARAMETERS, f10_hat=CASES[name][0], f20_hat=CASES[name][1])
 
 
 @pytest.mark.parametrize(

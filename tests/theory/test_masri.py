@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory import masri
@@ -266,9 +267,6 @@ def test_at_a_limit_rounding_leaves_it_undecided(limit):
 
 # The exact system as epsilon tends to 0
 
-CHAPTER = dict(
-    kappa=0.65, alpha12_hat=1, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2, sigma20_hat=0.5, sigma_e_hat=0.2
-)
 FORCING = [(1.0, 1.0), (1.0, 0.89), (0.5, 0.5)]
 
 
@@ -276,11 +274,11 @@ FORCING = [(1.0, 1.0), (1.0, 0.89), (0.5, 0.5)]
 def test_fast_multipliers_of_exact_orbits_tend_to_masri_s(forcing):
     """Linearly in epsilon, for every fixed point of the chapter's cases."""
     f = dict(zip(("f10_hat", "f20_hat"), forcing, strict=True))
-    for point in vi.fixed_points(vi.System(epsilon=0.1, **CHAPTER, **f)):
+    for point in vi.fixed_points(vi.System(**PARAMETERS, **f)):
         expected = np.concatenate([masri.multipliers(C, 0.65) for C in point.C])
         gaps = []
         for epsilon in (2e-5, 1e-5):
-            listed = [o for o in orbits(vi.System(epsilon=epsilon, **CHAPTER, **f)) if o.symmetric]
+            listed = [o for o in orbits(vi.System(**PARAMETERS | dict(epsilon=epsilon), **f)) if o.symmetric]
             orbit = min(listed, key=lambda o: np.abs(o.C - point.C).max())
             assert np.abs(orbit.C - point.C).max() < 10 * epsilon
             fast = np.array([orbit.multipliers[np.abs(orbit.multipliers - m).argmin()] for m in expected])
@@ -291,10 +289,10 @@ def test_fast_multipliers_of_exact_orbits_tend_to_masri_s(forcing):
 
 def test_symmetry_breaks_at_the_upper_limit_as_epsilon_tends_to_0():
     """One module alone, the forcing raised until the half-period multiplier is -1."""
-    alone = CHAPTER | dict(alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
+    alone = PARAMETERS | dict(alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
 
     def upper(epsilon, f):
-        system = vi.System(epsilon=epsilon, **alone, f10_hat=f, f20_hat=f)
+        system = vi.System(**alone | dict(epsilon=epsilon), f10_hat=f, f20_hat=f)
         return symmetric_orbit(system, max(symmetric_solutions(system), key=lambda root: root[2:].min()))
 
     def above(f, epsilon):

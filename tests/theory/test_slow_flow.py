@@ -7,21 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.theory import manifold
 from vibroimpact.theory.slow_flow import jacobian, linearisation, rates, slow_eigenvalues
 
-CHAPTER = vi.System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.3,
-    gamma12_hat=0.1,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-    f10_hat=1.0,
-    f20_hat=0.89,
-)
+CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.1), f10_hat=1.0, f20_hat=0.89)
 C_values = st.floats(0.02, 4)
 angles = st.floats(-3, 3)
 

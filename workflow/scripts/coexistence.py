@@ -2,14 +2,15 @@
 
 from job_log import logging_to
 from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
+from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 
 
 def main(parameters: dict, lifetimes: dict, tori: dict, observation: dict, outputs: dict) -> None:
     """Compute and write the tables, each to the output of its name."""
     system = System(**parameters)
-    tables = {"lifetimes": compute_lifetimes(system, observation=observation, **lifetimes)}
-    for name, table in (tables | compute_tori(system, **tori)).items():
+    found = {"lifetimes": compute_lifetimes(system, observation=observation, **lifetimes)}
+    for name, table in (found | compute_tori(system, **tori)).items():
         tables.write(table, outputs[name])
 
 

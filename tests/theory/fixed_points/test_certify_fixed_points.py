@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
+from chapter import PARAMETERS
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points import certify as certify_fixed_points
 from vibroimpact.theory.fixed_points.certify import certify
@@ -14,18 +15,7 @@ from vibroimpact.theory.fixed_points.search import FixedPointSearch, search
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import rates
 
-CHAPTER = System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-    f10_hat=1,
-    f20_hat=1,
-)
+CHAPTER = System(**PARAMETERS, f10_hat=1, f20_hat=1)
 FOLD = 0.6977803686883265  # f20_hat at which two fixed points of the chapter's system merge
 
 

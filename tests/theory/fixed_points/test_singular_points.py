@@ -7,21 +7,11 @@ import pytest
 import sympy as sp
 
 import vibroimpact as vi
+from chapter import PARAMETERS
 from vibroimpact.theory import manifold
 from vibroimpact.theory.fixed_points.singular_points import determinant, singular_everywhere, singular_points
 
-CHAPTER = vi.System(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.3,
-    gamma12_hat=0.15,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
+CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.15), f10_hat=1.0, f20_hat=1.0)
 
 
 def eliminated():
