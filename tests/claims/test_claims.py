@@ -16,6 +16,7 @@ from vibroimpact.claims import points as claims_points
 from vibroimpact.claims.finding import HOLDS, IN_PART, OPEN, REFUTED, Finding, misprint
 from vibroimpact.claims.judge import CHECKS, judge, problems, to_markdown
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.system.chapter import CASES, PARAMETERS
 
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
@@ -27,7 +28,6 @@ REGIMES = ("modulation", "special_points", "epsilon_orders")
 @pytest.fixture(scope="module")
 def evidence(built):
     """What the pipeline has found."""
-    shared, cases = DOCUMENT["parameters"]["system"], DOCUMENT["parameters"]["cases"]
     results = built / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
@@ -35,7 +35,7 @@ def evidence(built):
     for case in ("equal", "weak"):
         files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
         inputs |= {f"{case}_{file.stem}": file for file in files}
-    return evidence_of({case: {**shared, **forces} for case, forces in cases.items()}, inputs)
+    return evidence_of({case: {**PARAMETERS, **forces} for case, forces in CASES.items()}, inputs)
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,8 @@
-"""The config holds the chapter's numbers."""
+"""The config and the library hold the chapter's numbers."""
 
 from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
+from vibroimpact.system import chapter
 from vibroimpact_pipeline.config import parse
 
 
@@ -9,3 +10,8 @@ def test_the_config_is_the_chapters():
     config = parse((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
     assert config["system"] == PARAMETERS
     assert {case: (values["f10_hat"], values["f20_hat"]) for case, values in config["cases"].items()} == FORCES
+
+
+def test_the_library_has_the_chapters():
+    assert chapter.PARAMETERS == PARAMETERS
+    assert {case: tuple(forces.values()) for case, forces in chapter.CASES.items()} == FORCES

@@ -6,6 +6,7 @@ import numpy as np
 
 from job_log import logging_to
 from vibroimpact.figures.companions.travel import compute, draw
+from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
 from vibroimpact.system import System
@@ -16,20 +17,20 @@ def main(parameters: dict, settings: dict, outputs: dict) -> None:
     low, high = settings["range"]
     values = np.round(np.linspace(low, high, settings["values"]), 6).tolist()
     systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
-    tables = compute(systems, settings["C_max"])
-    tables.write(tables["points"], outputs["csv"])
+    found = compute(systems, settings["C_max"])
+    tables.write(found["points"], outputs["csv"])
     with replacing(outputs["json"]) as partial:
-        partial.write_text(json.dumps(for_page(tables, values), separators=(",", ":")) + "\n", encoding="utf-8")
-    save(draw(tables, r"\hat f_{20}"), outputs)
+        partial.write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
+    save(draw(found, r"\hat f_{20}"), outputs)
 
 
-def for_page(tables: dict, values: list) -> dict:
+def for_page(found: dict, values: list) -> dict:
     """What the control shows: both branches of the manifold, and the points at each value."""
     manifold = {
-        series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in tables["manifold"].groupby("series")
+        series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in found["manifold"].groupby("series")
     }
     points = {value: [] for value in values}
-    for row in tables["points"].round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4)).to_dict("records"):
+    for row in found["points"].round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4)).to_dict("records"):
         said = {name: row[name] for name in CRITERIA}
         place = {"track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
         points[row["value"]].append(place | {"verdicts": said})

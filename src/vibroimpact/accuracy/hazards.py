@@ -10,6 +10,7 @@ from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
 from vibroimpact.system import System
+from vibroimpact.system.chapter import CASES, PARAMETERS
 
 VISIBLE = 1e-2
 """Error of the final state that a reader of a figure would see: half a percent of the gap."""
@@ -27,19 +28,7 @@ RIGHT, UNDECIDABLE, ERROR, ENDLESS, WRONG, UNAVAILABLE = (
 )
 FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}
 
-CHAPTER = dict(
-    epsilon=0.1,
-    kappa=0.65,
-    alpha12_hat=1.0,
-    gamma1_hat=0.2,
-    gamma2_hat=0.2,
-    gamma12_hat=0.2,
-    sigma20_hat=0.5,
-    sigma_e_hat=0.2,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
-"""Section 10.4 with equal forces."""
+CHAPTER = PARAMETERS | CASES["equal"]
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from vibroimpact.claims.verdict_grid import compute
 from vibroimpact.claims.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.companions.verdict_grid import compute
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 
