@@ -34,11 +34,12 @@ def test_stripped(notebook):
             assert cell.execution_count is None
 
 
-def test_parameters_are_the_five_that_the_pipeline_sets(notebook):
+def test_parameters_are_those_that_the_pipeline_sets(notebook):
     (cell,) = (cell for cell in notebook.cells if "parameters" in cell.metadata.get("tags", []))
     assignments = ast.parse(cell.source).body
     assert [statement.targets[0].id for statement in assignments] == [
         "figure",
+        "alt",
         "settings",
         "inputs",
         "outputs",

@@ -6,11 +6,9 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-import vibroimpact
 from pipeline_trees import ROOT, run_module
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.provenance import verify as provenance
@@ -78,7 +76,7 @@ def tree(figures, tmp_path):
     for name in ("config/config.yaml", "environment.lock", "notebooks/closed_form.ipynb"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, root / name)
-    shutil.copytree(Path(vibroimpact.__file__).parent, root / "src/vibroimpact")
+    shutil.copytree(ROOT / "src", root / "src")
     (root / "results/figures").mkdir(parents=True)
     (root / "results/input.csv").write_text("x\n1\n")
     step = {"files": ["notebooks/closed_form.ipynb"], "modules": ["vibroimpact.figures.chapter.fig10_04"]}

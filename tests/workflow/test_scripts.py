@@ -95,7 +95,7 @@ def write(path, names, *code):
     return path
 
 
-AGREED = ["figure", "settings", "inputs", "outputs", "provenance"]
+AGREED = ["figure", "alt", "settings", "inputs", "outputs", "provenance"]
 
 
 def parameters(**settings):
