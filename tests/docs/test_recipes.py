@@ -34,7 +34,7 @@ def project(built, tmp_path):
     tree = Tree(tmp_path / "project")
     shutil.copytree(built.path, tree.path, symlinks=True)
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
-    for source in (ROOT / "src/vibroimpact").glob("*/__init__.py"):
+    for source in (ROOT / "src/vibroimpact").rglob("__init__.py"):
         compiled = compiled_code(os.environ["NUMBA_CACHE_DIR"], source)
         if compiled.exists():
             shutil.copytree(compiled, compiled_code(tree / COMPILED, tree / source.relative_to(ROOT)))
