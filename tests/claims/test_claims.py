@@ -31,7 +31,7 @@ def evidence(built):
     results = built / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
-    inputs["certificates"] = results / "certificates.json"
+    inputs["proofs"] = results / "proofs.json"
     for case in ("equal", "weak"):
         files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
         inputs |= {f"{case}_{file.stem}": file for file in files}
@@ -181,8 +181,8 @@ def test_a_small_restitution_is_looked_at(evidence):
 
 
 def test_a_list_not_proved_complete_counts_nothing(evidence):
-    certificates = evidence.certificates | {"weak": {"fixed_points": {"proved": 1, "complete": False}}}
-    doubtful = dataclasses.replace(evidence, certificates=certificates)
+    proofs = evidence.proofs | {"weak": {"fixed_points": {"proved": 1, "complete": False}}}
+    doubtful = dataclasses.replace(evidence, proofs=proofs)
     assert verdict("points-weak", doubtful) == REFUTED
     assert verdict("phases-can-be-eliminated", doubtful) == IN_PART
 

@@ -82,7 +82,7 @@ def test_every_job_leaves_a_log_and_a_benchmark(built):
         f"fixed_points/{case}" for case in ("equal", "unequal", "weak")
     }
     jobs |= {f"{stage}/{case}" for stage in ("orbits", "verdicts") for case in ("equal", "unequal", "weak")}
-    jobs |= {"simulations/equal", "simulations/weak", "gather_fixed_points", "gather_orbits", "certificates", "claims"}
+    jobs |= {"simulations/equal", "simulations/weak", "gather_fixed_points", "gather_orbits", "proofs", "claims"}
     found = {}
     for folder, suffix in (("logs", ".log"), ("benchmarks", ".tsv")):
         files = (built / f"results/{folder}").rglob(f"*{suffix}")

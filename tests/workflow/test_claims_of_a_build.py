@@ -1,4 +1,4 @@
-"""Stability and claims as a build leaves them: orbits, certificates, verdicts as pinned, numbers of the findings."""
+"""Stability and claims as a build leaves them: orbits, proofs, verdicts as pinned, numbers of the findings."""
 
 import json
 import re
@@ -27,12 +27,12 @@ def test_orbits_of_all_cases_are_gathered(built):
 
 
 def test_fixed_points_and_symmetric_orbits_are_proved_complete(built):
-    certificates = json.loads((built / "results/certificates.json").read_text())
-    assert set(certificates) == {"equal", "unequal", "weak"}
-    for proofs in certificates.values():
-        assert proofs["fixed_points"]["complete"]
-        assert proofs["symmetric_orbits"]["complete"]
-        assert proofs["fixed_points"]["undecided"] == proofs["symmetric_orbits"]["undecided"] == []
+    proofs = json.loads((built / "results/proofs.json").read_text())
+    assert set(proofs) == {"equal", "unequal", "weak"}
+    for found in proofs.values():
+        assert found["fixed_points"]["complete"]
+        assert found["symmetric_orbits"]["complete"]
+        assert found["fixed_points"]["undecided"] == found["symmetric_orbits"]["undecided"] == []
 
 
 def test_verdicts_are_those_expected(built):

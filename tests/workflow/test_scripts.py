@@ -8,10 +8,10 @@ import pandas as pd
 import pytest
 from papermill import PapermillExecutionError
 
-import certificates
 import fixed_points
 import gather
 import orbits
+import proofs
 import simulate
 import verdict_grid
 import verdicts
@@ -56,11 +56,11 @@ def test_a_case_without_responses_goes_through_all_stages(tmp_path, changes):
     verdicts.main("still", system, paths, paths["verdicts"])
     tables = {name: pd.read_csv(paths[name]) for name in ("verdicts", "orbits")}
     assert [len(table) for table in tables.values()] == [0, 0]
-    certificates.main({"still": system}, {"still": tmp_path / "search.json"}, tmp_path / "certificates.json")
-    proofs = json.loads((tmp_path / "certificates.json").read_text())["still"]
-    assert proofs["fixed_points"]["complete"]
-    assert proofs["symmetric_orbits"]["complete"]
-    assert proofs["fixed_points"]["proved"] == proofs["symmetric_orbits"]["proved"] == 0
+    proofs.main({"still": system}, {"still": tmp_path / "search.json"}, tmp_path / "proofs.json")
+    found = json.loads((tmp_path / "proofs.json").read_text())["still"]
+    assert found["fixed_points"]["complete"]
+    assert found["symmetric_orbits"]["complete"]
+    assert found["fixed_points"]["proved"] == found["symmetric_orbits"]["proved"] == 0
     table = companion_stability.compute({"still": System(**system)}, tables["verdicts"], tables["orbits"])
     companion_stability.draw(table)
     verdict_grid.main(

@@ -18,7 +18,7 @@ rule claims:
         claims=CLAIMS,
         fixed_points="results/fixed_points.csv",
         orbits="results/orbits.csv",
-        certificates="results/certificates.json",
+        proofs="results/proofs.json",
         verdict_grid="results/verdict_grid.csv",
         modulation="results/regimes/modulation.csv",
         special_points="results/regimes/special_points.csv",

@@ -56,20 +56,20 @@ for name, per_case in GATHERED.items():
             "../scripts/gather.py"
 
 
-rule certificates:
+rule proofs:
     input:
         **{case: f"results/orbits/{case}.search.json" for case in all_systems()},
     output:
-        "results/certificates.json",
+        "results/proofs.json",
     params:
         systems=all_systems(),
-        code=code("workflow/scripts/certificates.py"),
+        code=code("workflow/scripts/proofs.py"),
     log:
-        "results/logs/certificates.log",
+        "results/logs/proofs.log",
     benchmark:
-        "results/benchmarks/certificates.tsv"
+        "results/benchmarks/proofs.tsv"
     script:
-        "../scripts/certificates.py"
+        "../scripts/proofs.py"
 
 
 rule verdict_grid:
@@ -90,5 +90,5 @@ rule verdict_grid:
 rule stability:
     input:
         [f"results/{name}.csv" for name in GATHERED],
-        rules.certificates.output,
+        rules.proofs.output,
         rules.verdict_grid.output,

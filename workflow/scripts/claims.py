@@ -29,7 +29,7 @@ def evidence(systems: dict, inputs: dict) -> Evidence:
     simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
     return Evidence(
         systems={case: System(**parameters) for case, parameters in systems.items()},
-        certificates=json.loads(Path(inputs["certificates"]).read_text(encoding="utf-8")),
+        proofs=json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8")),
         simulations={case: simulation(case, inputs) for case in sorted(simulated)},
         **{name: pd.read_csv(inputs[name]) for name in TABLES},
     )

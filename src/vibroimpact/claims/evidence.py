@@ -21,13 +21,13 @@ class Evidence:
     """Results of a build.
 
     systems: case -> system. fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the tables
-    of these names. certificates: case -> what is proved of the lists. simulations: case -> Simulation.
+    of these names. proofs: case -> what is proved of the lists. simulations: case -> Simulation.
     """
 
     systems: dict[str, System]
     fixed_points: pd.DataFrame
     orbits: pd.DataFrame
-    certificates: dict
+    proofs: dict
     verdict_grid: pd.DataFrame
     modulation: pd.DataFrame
     special_points: pd.DataFrame

@@ -31,7 +31,7 @@ NAMES = ("C1", "C2")
 
 def number_of_fixed_points(evidence, case, number):
     """The list, proved complete in interval arithmetic."""
-    proof = evidence.certificates[case]["fixed_points"]
+    proof = evidence.proofs[case]["fixed_points"]
     listed = len(evidence.points(case))
     parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
     return Finding(parts, {"listed": listed, "proved, of either sign": proof["proved"], "complete": proof["complete"]})
@@ -41,7 +41,7 @@ def phases_can_be_eliminated(evidence):
     """Equations in B_i and C_i alone lead to all fixed points: each solves (10.23), and none is missing."""
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
-        complete &= evidence.certificates[case]["fixed_points"]["complete"]
+        complete &= evidence.proofs[case]["fixed_points"]["complete"]
         for point in search(system).points:
             worst = max(worst, np.abs(rates(system, point.B, point.psi, point.C)).max())
     parts = {"all solve (10.23)": worst < 1e-12, "proved complete": complete}

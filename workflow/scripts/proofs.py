@@ -17,9 +17,9 @@ from vibroimpact.theory.fixed_points import certify as fixed_points
 
 def main(systems: dict, searches: dict, output) -> None:
     """Prove of every case what can be proved; `searches` are the files that tell how its orbits were sought."""
-    certificates = {case: of_case(System(**parameters), Path(searches[case])) for case, parameters in systems.items()}
+    proofs = {case: of_case(System(**parameters), Path(searches[case])) for case, parameters in systems.items()}
     with replacing(output) as partial:
-        partial.write_text(json.dumps(certificates, indent=1) + "\n", encoding="utf-8")
+        partial.write_text(json.dumps(proofs, indent=1) + "\n", encoding="utf-8")
 
 
 def of_case(system, search: Path) -> dict:
