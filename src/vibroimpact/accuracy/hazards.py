@@ -23,7 +23,7 @@ RIGHT, UNDECIDABLE, ERROR, ENDLESS, WRONG, UNAVAILABLE = (
     "reported undecidable",
     "refused with an error",
     "did not finish",
-    "wrong without a word",
+    "silently wrong",
     "unavailable",
 )
 FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}

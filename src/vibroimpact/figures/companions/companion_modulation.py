@@ -122,7 +122,7 @@ def _windows(case, system, states, windows):
 
 
 def _survival(case, system, states, cycles, module):
-    """Part of the bursts that are at least so long, over all starts."""
+    """Fraction of the bursts that are at least this long, over all starts."""
     lengths = np.sort(np.concatenate([burst_lengths(system, state, cycles, module) for state in states]))
     longer = 1 - np.arange(len(lengths)) / len(lengths)
     return curve("bursts", f"{case}, module {module}", length=lengths, longer=longer)
@@ -147,7 +147,7 @@ def draw(tables: dict) -> Figure:
         axes.legend(fontsize=8.5)
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
-    grid[0].set_ylabel("part of bursts at least so long")
+    grid[0].set_ylabel("fraction of bursts at least this long")
     _exponents(grid[-1], exponents, cases)
     letter_panel(grid[-1], "abcdefgh"[len(modulated)])
     return figure

@@ -12,7 +12,7 @@ VERDICTS = {
     "reported undecidable": ("?", "#CFE3F5"),
     "refused with an error": ("!", "#F6ECC4"),
     "did not finish": ("∞", "#E6E0EE"),
-    "wrong without a word": ("×", "#E8A090"),
+    "silently wrong": ("×", "#E8A090"),
     "unavailable": ("–", "#EEEEEE"),
 }
 """Mark and colour of each verdict: the mark says the same as the colour."""
