@@ -44,7 +44,7 @@ def C_min(rho):
 
 
 def impact_phase(C, rho):
-    """theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1, (10.17)."""
+    """theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1: U = 1 - C, (10.12), by (10.17)."""
     return np.arctan2(1 - C, rho * C)
 
 

@@ -1,5 +1,7 @@
 """Masri's perturbation analysis of two impacts per cycle, B and phi held: multipliers, limits, verdict.
 
+What the chapter prints of it, (10.26), is in printed_limit.py and does not agree.
+
 Derived in docs/stability.md. Perturbations of impact time and ball speed pass from each impact to the next by a map
 with determinant kappa^2 and trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), seen mirrored. A multiplier leaves the
 unit circle through +1 at C_min, where the two arms of the manifold merge, and through -1 at pi^2 / (pi^2 - 4), where

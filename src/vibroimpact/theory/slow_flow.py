@@ -21,7 +21,7 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """(D_1 B_i, D_1 psi_i), each shape (2,), by (10.22).
+    """(D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); where both vanish, (10.23), is a fixed point.
 
     Args:
         B, psi, C: amplitudes, phases [rad] and saw-tooth amplitudes of the modules, each shape (2,).

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.engine import event_log as books
+from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine.errors import errors_of
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, hits_of, margins_of
@@ -57,15 +57,15 @@ class Certificate:
         errors, error = errors_of(flow, flights, rows, KNOWN)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
-            flights=int(ledger[books.FLIGHTS]),
-            exclusions=int(ledger[books.EVALUATIONS]),
-            chatters=int(ledger[books.CHATTERS]),
-            neglected=float(ledger[books.NEGLECTED]),
-            wall_residual=float(ledger[books.RESIDUAL]),
+            flights=int(ledger[event_log.FLIGHTS]),
+            exclusions=int(ledger[event_log.EVALUATIONS]),
+            chatters=int(ledger[event_log.CHATTERS]),
+            neglected=float(ledger[event_log.NEGLECTED]),
+            wall_residual=float(ledger[event_log.RESIDUAL]),
             nearest_miss=float(turns[:, GAP].min()),
             shallowest_hit=float(hits[:, DEPTH].min(initial=np.inf)),
             clearance=_least_ratio(margins, errors),
-            undecided=int(ledger[books.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
+            undecided=int(ledger[event_log.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
             error=error,
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )

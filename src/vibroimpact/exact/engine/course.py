@@ -18,7 +18,7 @@ its start, the state (8,) at its end. States are ordered [boxes, balls]."""
 
 @compiled
 def course_of(flow, start, events, start_phase, duration):
-    """The flights of a run, rows (m + 1, COLUMNS): one before each of its events (rows of the books), one to its end.
+    """The flights of a run, rows (m + 1, COLUMNS): one before each of its events (rows of the log), one to its end.
 
     start (8,) in public order. The flight before the stick that completes a chatter is empty: it is carried out at the
     chatter's last impact, ahead of the time it ends.

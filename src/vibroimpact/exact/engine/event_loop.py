@@ -36,7 +36,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
 
     start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
     when the run starts; samples (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns
-    the boxes and balls at the end, the events (m, ROW) as rows (books), the status and the ledger of the run.
+    the boxes and balls at the end, the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
     """
     q = flow.coefficients
     events, count = np.empty((64, ROW)), 0

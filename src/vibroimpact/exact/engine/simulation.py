@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vibroimpact.exact.engine import event_log as books
+from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine.certificate import Certificate
 from vibroimpact.exact.engine.course import course_of
@@ -42,7 +42,7 @@ class Run:
 
     begin: time of the start, exactly; events: (m,) structured array (EVENT) in the order of time; samples: (n, 8)
     states at the sample times, at an event the state after it; final: (8,) state at the end. States are
-    [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. ledger: the kernel's (books).
+    [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. ledger: the kernel's (`event_log`).
     """
 
     system: System
@@ -77,7 +77,7 @@ class Run:
 
     @cached_property
     def course(self) -> tuple:
-        """The flow, the flights between the events and the events as `course_of` and `books` tell them."""
+        """The flow, the flights between the events and the events as `course_of` and `event_log` tell them."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, course_of(flow, self.start, self._rows, phase, duration), self._rows
@@ -165,12 +165,12 @@ def _run(system, state, cycles, begin, times):
 
 
 def _table(rows, tau0):
-    """Rows of the kernel (books) as a structured array."""
+    """Rows of the kernel (`event_log`) as a structured array."""
     table = np.empty(len(rows), EVENT)
     table["tau"] = tau0 + rows[:, 0]
     for column, name in enumerate(("module", "wall", "kind"), start=1):
         table[name] = rows[:, column]
-    table["state"] = rows[:, 4 : books.PHASE]
+    table["state"] = rows[:, 4 : event_log.PHASE]
     return table
 
 

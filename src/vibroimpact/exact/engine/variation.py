@@ -24,7 +24,7 @@ PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 @compiled
 def jacobian(flow, flights, events):
     """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (course_of)
-    and its events (books).
+    and its events (`event_log`).
     """
     total, matrix = np.eye(8), np.empty((8, 8))
     for n in range(len(flights)):

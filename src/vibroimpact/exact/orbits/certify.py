@@ -1,6 +1,6 @@
 """Proof that the list of symmetric 1:1 responses is complete, in interval arithmetic (python-flint's arb).
 
-The equations of exact.symmetric, P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), are reduced
+The equations of symmetric.py, P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), are reduced
 once more. Eliminating the phase leaves one complex equation linear in the real C_1, C_2,
 
     (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),

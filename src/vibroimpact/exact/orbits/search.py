@@ -63,8 +63,8 @@ class Orbit:
 class OrbitSearch:
     """What a search found and how far it can be trusted.
 
-    orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.symmetric and
-        exact.certify_symmetric_orbits).
+    orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.orbits.symmetric and
+        exact.orbits.certify).
     starts: Newton starts spent on the asymmetric ones, which may be incomplete.
     fewest_hits: how many of these starts led to the asymmetric orbit (mirror images counted as one) that was hit least,
         0 if there is none. A small number warns that others may have been missed.

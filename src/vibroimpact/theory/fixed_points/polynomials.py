@@ -1,4 +1,4 @@
-"""The fixed-point conditions (10.23) on the manifold, as polynomials in C_1 and C_2.
+"""The fixed-point conditions (10.23) without the phases, which is (10.24), as polynomials in C_1 and C_2.
 
 On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
 linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):

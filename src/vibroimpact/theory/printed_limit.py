@@ -1,4 +1,4 @@
-"""Stability of two impacts per cycle as the chapter prints it; the derivation it leaves out is in masri.py."""
+"""The limit of stability (10.26) as the chapter prints it; its derivation, which is left out there, is in masri.py."""
 
 import numpy as np
 
