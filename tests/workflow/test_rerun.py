@@ -94,7 +94,7 @@ def test_the_amplitude_of_a_case_rebuilds_its_orbits_and_what_shows_all_cases(re
         "verdicts",
         "gather_fixed_points",
         "gather_orbits",
-        "certificates",
+        "proofs",
         "companion_stability",
     }
 
