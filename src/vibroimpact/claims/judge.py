@@ -5,14 +5,11 @@ of that function) and refuted_by (what would refute it); docs/claims.yaml holds 
 the arguments, and returns a Finding.
 """
 
-from vibroimpact.claims import equations as claims_equations
-from vibroimpact.claims import manifold as claims_manifold
-from vibroimpact.claims import motion as claims_motion
-from vibroimpact.claims import points as claims_points
+from vibroimpact.claims import equations, manifold, motion, points
 from vibroimpact.claims.evidence import Evidence
 from vibroimpact.claims.finding import VERDICTS
 
-MODULES = (claims_equations, claims_manifold, claims_points, claims_motion)
+MODULES = (equations, manifold, points, motion)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 

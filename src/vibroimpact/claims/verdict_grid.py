@@ -7,7 +7,7 @@ from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.exact.orbits.verdict import floquet
 from vibroimpact.regimes.regime_map import tile
-from vibroimpact.theory import criteria as verdicts
+from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 NO_MOTION = {"admissible": False, "floquet": NO_ORBIT}
@@ -24,7 +24,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     for f10, f20 in tile(f10_range, f20_range, points, 0, 1):
         here = system.with_(f10_hat=f10, f20_hat=f20)
         listed = fixed_points(here)
-        says = [verdicts.of_fixed_point(here, point) for point in listed]
+        says = [criteria.of_fixed_point(here, point) for point in listed]
         for value in epsilon if listed else ():
             exact = _exact(here.with_(epsilon=value), [point.C for point in listed])
             place = {"epsilon": value, "f10_hat": f10, "f20_hat": f20}
@@ -32,7 +32,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
                 {**place, "C1": point.C[0], "C2": point.C[1], **said, **found}
                 for point, said, found in zip(listed, says, exact, strict=True)
             ]
-    columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *verdicts.CRITERIA, *NO_MOTION]
+    columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
     return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.exact.orbits.verdict import floquet
-from vibroimpact.theory import criteria as verdicts
+from vibroimpact.theory import criteria
 from vibroimpact.theory.penetration import stays_within_walls
 
-CRITERIA = (*verdicts.CRITERIA, "floquet")
+CRITERIA = (*criteria.CRITERIA, "floquet")
 NO_ORBIT = "no orbit"
 REACH = 1.0
 """An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
@@ -44,7 +44,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     for orbit in orbits:
         counts[orbit.symmetric] += 1
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
-        says = {**verdicts.of_orbit(orbit), "floquet": floquet(orbit)}
+        says = {**criteria.of_orbit(orbit), "floquet": floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
         numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
@@ -69,7 +69,7 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         partner = None if place is None else symmetric.iloc[place]
         exact = NO_ORBIT if partner is None else partner["floquet"]
         within = all(stays_within_walls(C, system.kappa) for C in point.C)
-        says = {**verdicts.of_fixed_point(system, point), "floquet": exact}
+        says = {**criteria.of_fixed_point(system, point), "floquet": exact}
         known_as = "" if partner is None else partner["label"]
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
         rows.append({**row, "orbit": known_as, **says})

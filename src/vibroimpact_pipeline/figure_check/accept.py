@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.figure_check import pictures as picture_difference
+from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.compare import PASSED, files_of, shown
 
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
@@ -77,7 +77,7 @@ def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.dat
 def _keep(path, target):
     """A copy; of a picture the grey that is compared, in half the bytes."""
     if path.suffix == ".png":
-        target.write_bytes(picture_difference.png(picture_difference.grey(path)))
+        target.write_bytes(pictures.png(pictures.grey(path)))
     else:
         shutil.copyfile(path, target)
 

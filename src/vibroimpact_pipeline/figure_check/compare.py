@@ -12,7 +12,7 @@ from pathlib import Path
 import yaml
 
 from vibroimpact.figures.kit import tables
-from vibroimpact_pipeline.figure_check import pictures as picture_difference
+from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.artists import differences, without_places
 from vibroimpact_pipeline.figure_check.tables import UNITS, Rules, differences_in_structure, distances
 
@@ -141,15 +141,15 @@ def _compare_artists(verdict, old, new, limit):
 
 
 def _compare_pictures(verdict, old, new, measure, limit):
-    old, new = (picture_difference.grey(path) for path in (old, new))
+    old, new = (pictures.grey(path) for path in (old, new))
     if old.shape != new.shape:
         sizes = ["{1} x {0} pixels".format(*picture.shape) for picture in (new, old)]
         verdict["reasons"].append(f"picture: {sizes[0]} instead of {sizes[1]}")
         return
-    far = picture_difference.MEASURES[measure](old, new)
+    far = pictures.MEASURES[measure](old, new)
     verdict["picture"] |= {"status": PASSED if far <= limit else FAILED, "distance": far}
     if far > limit:
-        verdict["reasons"].append(f"picture: {picture_difference.SAID[measure].format(far)}, limit {limit:g}")
+        verdict["reasons"].append(f"picture: {pictures.SAID[measure].format(far)}, limit {limit:g}")
 
 
 def _finite(value):

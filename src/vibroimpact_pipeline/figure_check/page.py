@@ -5,7 +5,7 @@ from pathlib import Path
 
 from jinja2 import Environment
 
-from vibroimpact_pipeline.figure_check import pictures as picture_difference
+from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.compare import UNREADABLE, largest, lines
 from vibroimpact_pipeline.figure_check.tables import UNITS
 
@@ -34,14 +34,14 @@ def _pictures(figure, reference, new):
     found = {}
     for name, folder in (("reference", reference), ("new", new)):
         try:
-            found[name] = picture_difference.grey(Path(folder) / f"{figure}.png")
+            found[name] = pictures.grey(Path(folder) / f"{figure}.png")
         except UNREADABLE:
             continue  # the verdict says so
-    shown = {name: picture_difference.squares(picture, SHRINK) for name, picture in found.items()}
+    shown = {name: pictures.squares(picture, SHRINK) for name, picture in found.items()}
     if len(found) == 2 and found["reference"].shape == found["new"].shape:
-        shown["difference"] = picture_difference.overlay(found["reference"], found["new"], SHRINK)
+        shown["difference"] = pictures.overlay(found["reference"], found["new"], SHRINK)
     return {name: _address(picture) for name, picture in shown.items()}
 
 
 def _address(picture):
-    return "data:image/png;base64," + base64.b64encode(picture_difference.png(picture)).decode()
+    return "data:image/png;base64," + base64.b64encode(pictures.png(picture)).decode()

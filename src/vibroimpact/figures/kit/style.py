@@ -52,6 +52,8 @@ def letter_panel(axes, letter: str) -> None:
 def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
     """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all.
 
+    The layout is that of the first file, for all of them, and stays with the figure.
+
     Args:
         outputs: also ["artists"], if present: what the figure shows, as JSON (see `artists.describe`), with the
             versions that drew it.
