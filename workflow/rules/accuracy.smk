@@ -67,6 +67,7 @@ MODELLED = {figure: scene for figure, scene in config["figures"].items() if "mod
 rule scene_models:
     input:
         [path for scene in MODELLED.values() for path in figure_inputs(scene).values()],
+        expand(rules.orbits.output.csv, case=sorted(SIMULATED_CASES)),
         tables=[figure_outputs(figure, scene)["csv"] for figure, scene in MODELLED.items()],
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),

@@ -1,37 +1,33 @@
-# The chapter's claims: each verdict follows from the results of the stages before.
-
-from vibroimpact.system.chapter import CASES, PARAMETERS
+# The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
+# parameters: with others none is judged, and the files say why.
 
 CLAIMS = "docs/claims.yaml"
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
-
-
-def claims_apply():
-    """Whether the config has the chapter's parameters, which the claims are about."""
-    forced = all(forces.items() <= config["cases"].get(case, {}).items() for case, forces in CASES.items())
-    return forced and config["system"] == PARAMETERS
+EVIDENCE = {
+    "fixed_points": "results/fixed_points.csv",
+    "orbits": "results/orbits.csv",
+    "proofs": "results/proofs.json",
+    "verdict_grid": "results/verdict_grid.csv",
+    "modulation": "results/regimes/modulation.csv",
+    "special_points": "results/regimes/special_points.csv",
+    "epsilon_orders": "results/regimes/epsilon_orders.csv",
+} | {
+    f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
+    for case in CLAIMED_SIMULATIONS
+    for name in ("samples.csv", "events.csv", "summary.json")
+}
 
 
 rule claims:
     input:
         claims=CLAIMS,
-        fixed_points="results/fixed_points.csv",
-        orbits="results/orbits.csv",
-        proofs="results/proofs.json",
-        verdict_grid="results/verdict_grid.csv",
-        modulation="results/regimes/modulation.csv",
-        special_points="results/regimes/special_points.csv",
-        epsilon_orders="results/regimes/epsilon_orders.csv",
-        **{
-            f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
-            for case in CLAIMED_SIMULATIONS
-            for name in ("samples.csv", "events.csv", "summary.json")
-        },
+        **({} if DEPARTURES else EVIDENCE),
     output:
         **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
     params:
         systems=all_systems(),
+        departures=DEPARTURES,
         code=code("workflow/scripts/claims.py"),
     log:
         "results/logs/claims.log",

@@ -8,6 +8,7 @@ import yaml
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
@@ -44,7 +45,7 @@ def check_config():
     found = config_checks.problems(config, schema)
     if found:
         refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
-    config["figure_texts"] = figure_texts(ROOT, config["cases"])
+    config["figure_texts"] = figure_texts(ROOT, config)
 
 
 def code(*files, modules=()):

@@ -15,22 +15,22 @@ MODEL_INPUTS = {
     "simulation": ["fixed_points", "samples", "events", "summary"],
 }
 WITHOUT_TABLE = "drawings"
-SIMULATED_CASES = {scene["case"] for scene in config["figures"].values() if scene.get("model") == "simulation"}
 
-# How a notebook makes a figure of them, for the record that goes with it, and the module of vibroimpact.figures.chapter
-# that draws it: by default the one of the figure's own name.
-NOTEBOOKS = {
-    "drawings": {"method": "drawn to scale, nothing computed"},
-    "closed_form": {"method": "closed form: (10.11), (10.16), (10.25), (10.26)"},
-    "fixed_points": {
-        "method": "manifold in closed form, singular points as real zeros of (10.24)",
-        "module": "fig10_06",
-    },
-    "theoretical_response": {"method": "leading order, (10.9) and (10.10), at a fixed point"},
-    "simulation": {
-        "method": "motion of the second module as simulated, with its events as corners",
-        "module": "fig10_08",
-    },
+
+def simulated(scene):
+    """Whether a figure shows a direct integration."""
+    return scene.get("model") == "simulation"
+
+
+SIMULATED_CASES = {scene["case"] for scene in config["figures"].values() if simulated(scene)}
+
+# How a notebook makes a figure of them, for the record that goes with it.
+METHODS = {
+    "drawings": "drawn to scale, nothing computed",
+    "closed_form": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "fixed_points": "manifold in closed form, singular points as real zeros of (10.24)",
+    "theoretical_response": "leading order, (10.9) and (10.10), at a fixed point",
+    "simulation": "motion of the second module as simulated, with its events as corners",
 }
 
 
@@ -48,22 +48,32 @@ def figure_outputs(figure, scene):
 
 def figure_settings(scene):
     """The figure's own slice of the config: its scene and the system parameters that it depends on."""
-    scene = dict(scene)
-    scene.pop("notebook"), scene.pop("model", None)
-    used = scene.pop("parameters", [])
+    used = scene.get("parameters", [])
     system = system_of(scene["case"]) if "case" in scene else {name: config["system"][name] for name in used}
-    return {**scene, "system": system}
+    observed = {"observation": config["regimes"]["observation"]} if simulated(scene) else {}
+    own = {name: value for name, value in scene.items() if name not in ("notebook", "model", "parameters")}
+    return {**own, "system": system, **observed}
+
+
+def drawn_like(figure, scene):
+    """The figure of the chapter that a figure is drawn like; those of one notebook share a module."""
+    shared = {
+        "fixed_points": "fig10_06",
+        "theoretical_response": "fig10_10" if "C_max" in scene else "fig10_07",
+        "simulation": "fig10_08",
+    }
+    return shared.get(scene["notebook"], figure)
 
 
 def drawn_by(figure, scene):
     """The module that draws a figure."""
-    return f"vibroimpact.figures.chapter.{NOTEBOOKS[scene['notebook']].get('module', figure)}"
+    return f"vibroimpact.figures.chapter.{drawn_like(figure, scene)}"
 
 
 def figure_step(figure, scene):
     """How the figure itself is made."""
     files = "workflow/scripts/notebook.py", f"notebooks/{scene['notebook']}.ipynb"
-    return step(NOTEBOOKS[scene["notebook"]]["method"], DOUBLE, *files, modules=[drawn_by(figure, scene)])
+    return step(METHODS[scene["notebook"]], DOUBLE, *files, modules=[drawn_by(figure, scene)])
 
 
 def figure_provenance(figure, scene):
@@ -71,9 +81,10 @@ def figure_provenance(figure, scene):
     read = MODEL_INPUTS[scene.get("model")]
     cases = [scene["case"]] if "case" in scene else []
     keys = [f"figures.{figure}", *(f"system.{name}" for name in scene.get("parameters", []))]
-    keys += [f"cases.{case}.simulation" for case in cases if "samples" in read]
+    keys += [f"cases.{case}.simulation" for case in cases if simulated(scene)]
+    keys += ["regimes.observation"] if simulated(scene) else []
     before = [step(*STEPS["fixed_points"])] if "fixed_points" in read else []
-    before += [simulation_step(scene["case"])] if "samples" in read else []
+    before += [simulation_step(scene["case"])] if simulated(scene) else []
     return provenance(figure, keys, cases, [*before, figure_step(figure, scene)])
 
 

@@ -1,24 +1,24 @@
 # The report: one site that reads offline and one PDF, from the results of all stages.
 
-REPORT_SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+PAGES = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))["pages"]
 REPORT_SHOWS = {
     "chapter": list(config["figures"]),
     "companions": list(COMPANIONS),
     "accuracy": ["work_precision", "hazards"],
     "models": ["scene_models"],
-    "animations": list(REPORT_SETTINGS["animations"]),
+    "animations": list(config["report"]["animations"]),
     "travel": ["travel"],
 }
 REPORT_TABLES = [
     "results/fixed_points.csv",
     "results/orbits.csv",
-    *["results/claims.json"] * claims_apply(),
+    "results/claims.json",
     *(path for companion in COMPANIONS.values() for path in companion.get("tables", {}).values()),
 ]
 PICTURES = "png", "pdf", "svg"
 
 
-for name, scene in REPORT_SETTINGS["animations"].items():
+for name, scene in config["report"]["animations"].items():
 
     rule:
         name:
@@ -46,8 +46,8 @@ rule travel:
         json="results/travel/travel.json",
         **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
     params:
-        system=system_of(REPORT_SETTINGS["travel"]["case"]),
-        settings=REPORT_SETTINGS["travel"],
+        system=system_of(config["report"]["travel"]["case"]),
+        settings=config["report"]["travel"],
         code=code("workflow/scripts/travel.py"),
     log:
         "results/logs/report/travel.log",
@@ -64,16 +64,17 @@ rule report:
         rules.stability.input,
         rules.accuracy.input,
         rules.travel.output,
-        [path for name in REPORT_SETTINGS["animations"] for path in getattr(rules, name).output],
+        [path for name in config["report"]["animations"] for path in getattr(rules, name).output],
         REPORT_TABLES,
-        [page["source"] for page in REPORT_SETTINGS["pages"]],
+        [page["source"] for page in PAGES],
         sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
     output:
         directory("results/report"),
     params:
         shown=REPORT_SHOWS,
         tables=REPORT_TABLES,
-        config={name: config[name] for name in ("system", "cases")},
+        config={name: config[name] for name in ("system", "cases", "figures", "report")},
+        departures=DEPARTURES,
         code=code("workflow/scripts/report.py"),
     log:
         "results/logs/report/report.log",

@@ -14,7 +14,7 @@ from vibroimpact_pipeline.report.site import write
 SETTINGS = "report/report.yaml"
 
 
-def main(root, results, shown: dict, tables, config: dict, folder) -> None:
+def main(root, results, shown: dict, tables, config: dict, departures: list[str], folder) -> None:
     """Write the report into a new folder.
 
     Args:
@@ -23,16 +23,16 @@ def main(root, results, shown: dict, tables, config: dict, folder) -> None:
         shown: names of figures by group.
         tables: paths of further results to download.
         config: of the pipeline.
+        departures: where it departs from the chapter's parameters, a line each.
     """
     settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
-    judged = any(Path(table).name == "claims.json" for table in tables)
-    results, folder = Results(results, judged), Path(folder)
+    results, folder = Results(results, judged=not departures), Path(folder)
     for group in shown.values():
         for figure in group:
             collect(results, figure, folder)
     for table in tables:
         copy(table, folder / "data")
-    pages = Pages(root, results, settings, config, shown, tables)
+    pages = Pages(root, results, settings, config, shown, tables, departures)
     write(folder, root, pages, settings, f"Built from {version(root)}.")
 
 
@@ -58,4 +58,4 @@ def version(root) -> str:
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
         given = snakemake.params
-        main(".", "results", given.shown, given.tables, given.config, snakemake.output[0])
+        main(".", "results", given.shown, given.tables, given.config, given.departures, snakemake.output[0])

@@ -13,6 +13,7 @@ from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.system import System
+from vibroimpact.system.state import NAMES
 
 
 def main(figures: dict, simulations: dict, folder, seconds: float, output) -> None:
@@ -40,10 +41,10 @@ def rungs_of(figure, scene, settings, simulation, module, table, folder):
     if scene["model"] == "slow_flow":
         return scene_models.slow_flow_rungs(scene, system, points)
     samples = tables.read(folder / f"simulations/{case}/samples.csv")
-    if "digits" not in simulation:
-        return scene_models.settled_rungs(system, simulation, points, samples)
+    orbits = tables.read(folder / f"orbits/{case}.csv")
+    stable = orbits[orbits["admissible"] & (orbits["floquet"] == "stable")][list(NAMES)].to_numpy(float)
     summary = json.loads((folder / f"simulations/{case}/summary.json").read_text(encoding="utf-8"))
-    return scene_models.modulated_rungs(system, simulation, points, samples, summary["trust"]["agreement"])
+    return scene_models.motion_rungs(system, simulation, summary, points, stable, samples)
 
 
 if "snakemake" in globals():

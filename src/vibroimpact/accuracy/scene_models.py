@@ -14,7 +14,6 @@ from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.exact.orbits.verdict import floquet
 from vibroimpact.system import System
 from vibroimpact.system.extras import need
 from vibroimpact.theory.fixed_points.search import fixed_points
@@ -30,6 +29,8 @@ LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation"
 """Rungs by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""
 
 DIGITS = 30
+SETTLED = 1e-6
+"""Largest change after a forcing period of a motion that has settled: one step of Newton's method then squares it away."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,7 @@ def slow_flow_rungs(scene: dict, system: System, points: list) -> list[Rung]:
         ]
     return [
         Rung("closed_form", np.inf, note="gives the manifold, not the points on it"),
-        Rung("slow_flow", max(errors), lambda: fixed_points(system)),
+        Rung("slow_flow", max(errors, default=0.0), lambda: fixed_points(system)),
     ]
 
 
@@ -175,8 +176,23 @@ def _true_response(system, point, tau, name):
     return values
 
 
-def settled_rungs(system: System, settings: dict, points: list, samples: pd.DataFrame) -> list[Rung]:
-    """Figure 10.8: the motion that is observed, X_2 and W_2 over one forcing period."""
+def motion_rungs(system: System, settings: dict, summary: dict, points: list, stable, samples: pd.DataFrame):
+    """Figures of a simulated motion (10.8, 10.11): settled on a 1:1 response, proved with many digits, or neither.
+
+    Args:
+        settings: of the simulation, as in the config. summary: what it says of itself (summary.json).
+        points: fixed points of the case. stable: states (n, 8) at tau = 0 of its stable 1:1 orbits.
+        samples: of the window, columns tau and those of the state.
+    """
+    if "digits" in settings:
+        return _proved_rungs(system, settings, points, len(stable), samples, summary["trust"]["agreement"])
+    if summary["largest_change_after_cycles"]["1"] <= SETTLED:
+        return _settled_rungs(system, settings, points, stable, samples)
+    return _unproved_rungs(system, settings, points, len(stable), samples, summary["trust"]["certificate"])
+
+
+def _settled_rungs(system, settings, points, stable, samples):
+    """X_2 and W_2 over one forcing period against the periodic motion that the simulation has settled on."""
     per_cycle = settings["samples_per_cycle"]
     drawn = samples.iloc[-per_cycle - 1 : -1]
     phase = np.arange(per_cycle) / per_cycle * system.period
@@ -190,15 +206,12 @@ def settled_rungs(system: System, settings: dict, points: list, samples: pd.Data
     for point in points:
         response = leading_order(system, point, phase)
         theory.append(error(response.X[:, 1], response.W[:, 1]))
-    stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
     drawn_error = error(drawn["X2"], drawn["X2"] - drawn["Y2"])
-    cycles = settings["transient_cycles"] + settings["window_cycles"]
-    followed = [simulate(system, orbit.state, 1, sample_times=phase).samples for orbit in stable]
+    followed = [simulate(system, state, 1, sample_times=phase).samples for state in stable]
     orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
     return [
-        Rung("closed_form", np.inf, note="gives no motion of this system"),
-        Rung("slow_flow", min(theory), lambda: fixed_points(system), "nearest fixed point, leading order"),
-        Rung("simulation", drawn_error, lambda: simulate(system, settings["initial_state"], cycles)),
+        *_theory(system, theory),
+        Rung("simulation", drawn_error, _integration(system, settings)),
         Rung("orbit", orbit_error, lambda: orbits(system), "the stable one; an unstable one is never drawn"),
     ]
 
@@ -212,8 +225,8 @@ def _settled_truth(system, state, phase, digits=40):
     return np.column_stack([samples[:, 2], samples[:, 2] - samples[:, 3]])
 
 
-def modulated_rungs(system: System, settings: dict, points, samples: pd.DataFrame, agreement: float) -> list[Rung]:
-    """Figure 10.11: X_2 and W_2 over the window, against the proved trajectory that the figure shows."""
+def _proved_rungs(system, settings, points, stable, samples, agreement):
+    """X_2 and W_2 over the window, against the proved trajectory that the figure shows."""
     tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
     W2 = X2 - samples["Y2"].to_numpy()
     cycles = settings["transient_cycles"] + settings["window_cycles"]
@@ -222,19 +235,13 @@ def modulated_rungs(system: System, settings: dict, points, samples: pd.DataFram
         return max(_share(other_X2, X2, _span(X2)), _share(other_W2, W2, 2.0))
 
     theory = [leading_order(system, point, tau) for point in points]
-    floating = simulate(system, settings["initial_state"], cycles, sample_times=tau).samples
-    stable = [orbit for orbit in orbits(system) if orbit.admissible and floquet(orbit) == "stable"]
+    floating = simulate(system, settings["initial_state"], cycles, sample_times=tau)
+    away = error(floating.samples[:, 2], floating.samples[:, 2] - floating.samples[:, 3])
     digits = settings["digits"]
     return [
-        Rung("closed_form", np.inf, note="gives no motion of this system"),
-        Rung("slow_flow", min(error(r.X[:, 1], r.W[:, 1]) for r in theory), lambda: fixed_points(system)),
-        Rung(
-            "simulation",
-            error(floating[:, 2], floating[:, 2] - floating[:, 3]),
-            lambda: simulate(system, settings["initial_state"], cycles),
-            "float64: beyond its horizon",
-        ),
-        Rung("orbit", np.inf, lambda: orbits(system), f"{len(stable)} stable orbits"),
+        *_theory(system, [error(r.X[:, 1], r.W[:, 1]) for r in theory]),
+        Rung("simulation", away, _integration(system, settings), _trust(floating.certificate.horizon)),
+        Rung("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
         Rung(
             "proven simulation",
             agreement,
@@ -242,3 +249,40 @@ def modulated_rungs(system: System, settings: dict, points, samples: pd.DataFram
             f"{digits} digits, proved by doubling them",
         ),
     ]
+
+
+def _unproved_rungs(system, settings, points, stable, samples, certificate):
+    """A motion that neither repeats nor is proved: its error is what its certificate expects, inf past its horizon."""
+    tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
+    W2, span = X2 - samples["Y2"].to_numpy(), min(_span(X2), 2.0)
+    theory = [leading_order(system, point, tau) for point in points]
+    horizon = certificate.get("horizon", np.inf)
+    expected = certificate.get("error", np.inf) / span
+    return [
+        *_theory(system, [max(_share(r.X[:, 1], X2, _span(X2)), _share(r.W[:, 1], W2, 2.0)) for r in theory]),
+        Rung("simulation", expected, _integration(system, settings), _trust(horizon)),
+        Rung("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
+    ]
+
+
+def _theory(system, errors):
+    """The rungs of the theory, from the error of every fixed point's response."""
+    return [
+        Rung("closed_form", np.inf, note="gives no motion of this system"),
+        Rung(
+            "slow_flow",
+            min(errors, default=np.inf),
+            lambda: fixed_points(system),
+            "nearest fixed point, leading order" if errors else "there is no fixed point",
+        ),
+    ]
+
+
+def _integration(system, settings):
+    cycles = settings["transient_cycles"] + settings["window_cycles"]
+    return lambda: simulate(system, settings["initial_state"], cycles)
+
+
+def _trust(horizon):
+    """What is to be known of a simulation that has not settled."""
+    return "float64" if np.isinf(horizon) else "float64: beyond its horizon; `digits` in the config proves it"

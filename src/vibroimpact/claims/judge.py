@@ -11,6 +11,8 @@ from vibroimpact.claims.finding import VERDICTS
 
 MODULES = (equations, manifold, points, motion)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
+NOT_JUDGED = "not judged"
+NOT_ABOUT = "Not judged: the claims are about the chapter's parameters, and this build has others."
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 
 
@@ -45,8 +47,16 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
     return judged
 
 
-def to_markdown(judged: list[dict]) -> str:
-    """A readable table of judged claims, after a count of verdicts."""
+def leave_open(claims: list[dict]) -> list[dict]:
+    """The claims in a build that they are not about: each not judged, without parts or numbers."""
+    return [{**claim, "verdict": NOT_JUDGED, "parts": {}, "numbers": {}} for claim in claims]
+
+
+def to_markdown(judged: list[dict], departures=()) -> str:
+    """A readable table of judged claims, after a count of verdicts; or why they were not judged, a line each."""
+    if departures:
+        lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in departures)]
+        return "\n".join(lines) + "\n"
     counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in VERDICTS}
     lines = [
         "# The claims of the chapter",

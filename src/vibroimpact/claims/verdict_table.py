@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.exact.orbits.verdict import floquet
+from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
 from vibroimpact.theory.penetration import stays_within_walls
 
@@ -26,6 +27,7 @@ _OF_ORBIT = [
     *_PHASES,
     *_SPEEDS,
     *_MODULI,
+    *NAMES,
     "residual",
     *CRITERIA,
 ]
@@ -36,8 +38,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
     of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
-    (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, residual, one column per
-    criterion.
+    (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, the state at tau = 0,
+    residual, one column per criterion.
     """
     counts = {True: 0, False: 0}
     rows = []
@@ -46,7 +48,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
         says = {**criteria.of_orbit(orbit), "floquet": floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
-        numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel(), *np.abs(orbit.multipliers)]
+        numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
+        numbers += [*np.abs(orbit.multipliers), *orbit.state]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
     return pd.DataFrame(rows, columns=_OF_ORBIT)
 

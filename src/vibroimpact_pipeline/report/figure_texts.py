@@ -5,12 +5,37 @@ from pathlib import Path
 
 import yaml
 
+from vibroimpact_pipeline.chapter import as_in_the_chapter
 
-def figure_texts(root, cases: dict) -> dict[str, dict]:
-    """The entries by name; captions (reStructuredText) with the numbers of cases they ask for: {equal.f10_hat}, say."""
+SAID = ("title", "caption", "alt")
+
+
+def figure_texts(root, config: dict) -> dict[str, dict]:
+    """The entries by name, with the numbers they ask for: {f10_hat}, say, of the case that the figure shows.
+
+    A figure of the config without an entry of its own has that of its notebook, an animation the one for animations; so
+    has a figure of the chapter in a config where it shows other parameters than there.
+    """
     texts = yaml.safe_load((Path(root) / "report/figures.yaml").read_text(encoding="utf-8"))
-    for entry in texts.values():
-        entry["caption"] = re.sub(
-            r"\{(\w+)\.(\w+)\}", lambda number: str(cases[number[1]][number[2]]), entry["caption"]
-        )
+    scenes = config["figures"] | config["report"]["animations"] | {"travel": config["report"]["travel"]}
+    for figure, scene in scenes.items():
+        entry, heading = texts.get(figure), ""
+        if figure.startswith("fig10_"):
+            heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
+            if not as_in_the_chapter(config, figure, scene):
+                entry, heading = None, heading.replace(". ", " for other parameters. ")
+        entry = entry or texts[scene.get("notebook", "animation")]
+        known = scene | _parameters(config, scene)
+        texts[figure] = entry | {name: _filled(entry[name], known) for name in SAID}
+        texts[figure]["title"] = heading + texts[figure]["title"]
     return texts
+
+
+def _parameters(config, scene):
+    case = config["cases"].get(scene.get("case"), {})
+    return config["system"] | {name: value for name, value in case.items() if name != "simulation"}
+
+
+def _filled(text, known):
+    """The text with {name} replaced where the name is known; other braces belong to formulas."""
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), text)

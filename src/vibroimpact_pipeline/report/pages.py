@@ -10,6 +10,12 @@ import pypandoc
 
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 
+HEADING = re.compile(r"^# .*$", re.MULTILINE)
+NOTICE = (
+    "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, and "
+    "what documents, findings and errata say is about the chapter's parameters. What differs:"
+)
+
 
 class Pages:
     """Pages of the report, filled from results.
@@ -21,11 +27,13 @@ class Pages:
         config: the config of the pipeline.
         shown: names of figures by group, in the order in which they are shown.
         tables: paths of further results to download.
+        departures: where the config departs from the chapter's parameters, a line each; every page then says so.
     """
 
-    def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=()):
+    def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=(), departures=()):
         self.root, self.results, self.settings, self.config = Path(root), results, settings, config
-        self.about = figure_texts(self.root, config["cases"])
+        self.departures = departures
+        self.about = figure_texts(self.root, config)
         self.environment = jinja2.Environment(
             loader=jinja2.FileSystemLoader(self.root),
             undefined=jinja2.StrictUndefined,
@@ -51,8 +59,14 @@ class Pages:
     def markdown(self, page: dict, target: str) -> str:
         """One page for a target, "html" or "pdf". Documents are taken as they are, templates are filled."""
         if page["source"].startswith("docs/"):
-            return (self.root / page["source"]).read_text(encoding="utf-8")
-        return self.environment.get_template(page["source"]).render(target=target)
+            text = (self.root / page["source"]).read_text(encoding="utf-8")
+        else:
+            text = self.environment.get_template(page["source"]).render(target=target)
+        return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
+
+    def _notice(self):
+        """What a page begins with where the config has other parameters than the chapter."""
+        return f"\n\n::: notice\n{NOTICE} {'; '.join(self.departures)}.\n:::\n"
 
     def caption(self, figure: str) -> str:
         """The caption of a figure, written for `snakemake --report` too, as Markdown in one line."""

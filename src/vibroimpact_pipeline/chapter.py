@@ -1,0 +1,37 @@
+"""What the figures, claims and pages of the chapter need of a config: its parameters and its cases."""
+
+from vibroimpact.system.chapter import CASES, PARAMETERS
+
+CASE_OF = {
+    "fig10_06": "equal",
+    "fig10_07": "equal",
+    "fig10_08": "equal",
+    "fig10_09": "unequal",
+    "fig10_10": "weak",
+    "fig10_11": "weak",
+}
+"""Whose results each figure of the chapter shows."""
+
+
+def departures(config: dict) -> list[str]:
+    """Where a config departs from section 10.4, a line each; what it has beside the chapter's cases is no departure."""
+    found = _differences("system", config["system"], PARAMETERS)
+    for case, forces in CASES.items():
+        if case in config["cases"]:
+            found += _differences(f"cases.{case}", config["cases"][case], forces)
+        else:
+            found.append(f"there is no case {case}")
+    return found
+
+
+def _differences(place, given, printed):
+    return [f"{place}.{name} is {given[name]}, not {value}" for name, value in printed.items() if given[name] != value]
+
+
+def as_in_the_chapter(config: dict, figure: str, scene: dict) -> bool:
+    """Whether a figure shows what the figure of its name shows in the chapter: the same parameters, under any name."""
+    if figure not in CASE_OF:
+        return figure.startswith("fig10_")
+    forces = CASES[CASE_OF[figure]]
+    shown = config["cases"][scene["case"]]
+    return config["system"] == PARAMETERS and all(shown[name] == value for name, value in forces.items())
