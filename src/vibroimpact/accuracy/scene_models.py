@@ -30,7 +30,7 @@ LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation"
 
 DIGITS = 30
 SETTLED = 1e-6
-"""Largest change after a forcing period of a motion that has settled: one step of Newton's method then squares it away."""
+"""Largest change after a forcing period of a motion that has settled: one step of Newton's method squares it away."""
 
 
 @dataclass(frozen=True)
@@ -285,4 +285,4 @@ def _integration(system, settings):
 
 def _trust(horizon):
     """What is to be known of a simulation that has not settled."""
-    return "float64" if np.isinf(horizon) else "float64: beyond its horizon; `digits` in the config proves it"
+    return "float64" if np.isinf(horizon) else "float64: beyond its horizon"

@@ -12,8 +12,8 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
 NOTICE = (
-    "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, and "
-    "what documents, findings and errata say is about the chapter's parameters. What differs:"
+    "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, "
+    "and what documents, findings and errata say is about the chapter's parameters. What differs:"
 )
 
 

@@ -54,7 +54,7 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
     overshoot (how far W leaves the walls at leading order, 0 where |W| <= 1).
     """
     r = rho(system.kappa)
-    return pd.DataFrame(
+    rows = [
         {
             "label": point.label,
             "module": module,
@@ -66,7 +66,8 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
         }
         for point in labelled_points(table)
         for module, C, B in zip((1, 2), point.C, point.B, strict=True)
-    )
+    ]
+    return pd.DataFrame(rows, columns=["label", "module", "C", "B", "arm", "branch", "overshoot"])
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
