@@ -3,13 +3,11 @@
 import copy
 
 import pytest
-import yaml
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import case_parameters, complaints, parse, problems, typed
 
 GOOD = parse((ROOT / "config/config.yaml").read_text())
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 REST = [0.0] * 8
 
 
@@ -28,7 +26,7 @@ def changed(path, value):
 
 
 def test_the_config_of_the_chapter_is_valid():
-    assert problems(GOOD, SCHEMA) == []
+    assert problems(GOOD) == []
 
 
 @pytest.mark.parametrize(
@@ -41,7 +39,7 @@ def test_the_config_of_the_chapter_is_valid():
         ("system.kappa", "6e-1", "system.kappa: '6e-1' is not a number (write 0.6)"),
         ("system.kappa", True, "system.kappa: True is not a number"),
         ("system.kappa", None, "system.kappa: nothing is not a number"),
-        ("system.epsilon", -0.1, "system.epsilon: -0.1 is not above 0"),
+        ("system.epsilon", -0.1, "system.epsilon: -0.1 is below 1e-06"),
         ("system.epsilon", float("nan"), "system.epsilon: nan is not finite"),
         ("system.sigma_e_hat", float("inf"), "system.sigma_e_hat: inf is not finite"),
         ("system.gamma1_hat", -0.2, "system.gamma1_hat: -0.2 is below 0"),
@@ -54,7 +52,11 @@ def test_the_config_of_the_chapter_is_valid():
         ("system.colour", "red", "system.colour: unknown key"),
         ("caes", {}, "caes: unknown key, did you mean 'cases'?"),
         ("cases", {}, "cases: is empty"),
-        ("cases.Strong", GOOD["cases"]["equal"], "cases: 'Strong' does not match ^[a-z][a-z0-9_]+$"),
+        (
+            "cases.Strong",
+            GOOD["cases"]["equal"],
+            "cases.Strong: 'Strong' is not a name: a small letter, then 1 to 39 small letters, digits and _",
+        ),
         ("cases.equal.f10_hat", "1", "cases.equal.f10_hat: '1' is not a number (write 1.0)"),
         ("cases.equal.f20_hat", ..., "cases.equal.f20_hat: missing"),
         ("cases.weak.simulation.window_cycles", 0, "cases.weak.simulation.window_cycles: 0 is below 1"),
@@ -68,7 +70,7 @@ def test_the_config_of_the_chapter_is_valid():
         (
             "cases.weak.simulation.initial_state",
             REST[:7],
-            "cases.weak.simulation.initial_state: has 7 entries, not 8",
+            "cases.weak.simulation.initial_state: has 7 entries, fewer than 8",
         ),
         (
             "cases.weak.simulation.initial_state",
@@ -83,27 +85,27 @@ def test_the_config_of_the_chapter_is_valid():
         ("figures.fig10_06.case", "equl", "figures.fig10_06.case: unknown case 'equl', did you mean 'equal'?"),
         ("figures.fig10_06.notebook", "drawings", "figures.fig10_06.notebook: 'drawings' is not 'fixed_points'"),
         ("figures.fig10_06.C_max", [4.0, 0.5], "figures.fig10_06.C_max[1]: 0.5 is not above 1"),
-        ("figures.fig10_07.fixed_point", "C", "figures.fig10_07.fixed_point: 'C' does not match ^[a-z]$"),
+        ("figures.fig10_07.fixed_point", "C", "figures.fig10_07.fixed_point: 'C' is not one small letter"),
         ("figures.fig10_05.C_range", [0.9, 1.1], "figures.fig10_05.C_range[0]: 0.9 is above 0.6"),
         ("figures.fig10_03.tau0_max", 1.0, "figures.fig10_03.tau0_max: 1.0 is below 3.15"),
-        ("figures.fig10_12", {}, "figures.fig10_12: unknown key, did you mean 'fig10_11'?"),
+        ("figures.fig10_12", {}, "figures.fig10_12.notebook: missing"),
     ],
 )
 def test_a_bad_value_is_reported_in_one_line(path, value, message):
-    found = problems(changed(path, value), SCHEMA)
+    found = problems(changed(path, value))
     assert [f"{place}: {what}" for place, what in found] == [message]
 
 
 def test_a_misspelt_key_is_one_problem_not_two():
     config = changed("system.kappa", ...)
     config["system"]["kapa"] = 0.65
-    assert problems(config, SCHEMA) == [("system.kapa", "unknown key, did you mean 'kappa'?")]
+    assert problems(config) == [("system.kapa", "unknown key, did you mean 'kappa'?")]
 
 
 def test_every_problem_is_reported_at_once():
     config = changed("system.kappa", 1.2)
     config["cases"]["weak"]["f10_hat"] = None
-    assert problems(config, SCHEMA) == [
+    assert problems(config) == [
         ("cases.weak.f10_hat", "nothing is not a number"),
         ("system.kappa", "1.2 is not below 1"),
     ]
@@ -112,18 +114,18 @@ def test_every_problem_is_reported_at_once():
 def test_an_undamped_system_driven_at_its_resonance_is_refused():
     config = copy.deepcopy(GOOD)
     config["system"] |= {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0, "sigma_e_hat": 0}
-    [(path, what)] = problems(config, SCHEMA)
+    [(path, what)] = problems(config)
     assert path == "system.sigma_e_hat"
     assert "resonance" in what
     config["system"]["sigma_e_hat"] = 0.2
-    assert problems(config, SCHEMA) == []
+    assert problems(config) == []
 
 
 @pytest.mark.parametrize(
     ("parameters", "path"),
     [
         ({"sigma_e_hat": 0, "sigma20_hat": 0, "alpha12_hat": 0}, "system.sigma_e_hat"),
-        ({"sigma20_hat": (3 * 1.02) ** 2 * 10 - 10, "alpha12_hat": 0}, "cases.weak.system"),
+        ({"sigma20_hat": (3 * 1.02) ** 2 * 10 - 10, "alpha12_hat": 0}, "cases.weak"),
     ],
 )
 def test_an_undamped_system_without_isolated_responses_is_refused(parameters, path):
@@ -132,7 +134,7 @@ def test_an_undamped_system_without_isolated_responses_is_refused(parameters, pa
     config["system"] |= {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0} | parameters
     unforced = {"f10_hat": 0.0, "f20_hat": 0.0} if path == "system.sigma_e_hat" else {}
     config["cases"] = {"weak": config["cases"]["weak"] | unforced}
-    found = [(place, what) for place, what in problems(config, SCHEMA) if "unknown case" not in what]
+    found = [(place, what) for place, what in problems(config) if "unknown case" not in what]
     assert [place for place, _ in found] == [path]
     assert "resonance" in found[0][1]
 
@@ -140,10 +142,10 @@ def test_an_undamped_system_without_isolated_responses_is_refused(parameters, pa
 def test_no_force_and_an_unforced_uncoupled_module_are_right():
     config = copy.deepcopy(GOOD)
     config["cases"]["weak"] |= {"f10_hat": 0.0, "f20_hat": 0.0}
-    assert problems(config, SCHEMA) == []
+    assert problems(config) == []
     config["system"] |= {"alpha12_hat": 0, "gamma12_hat": 0}
     config["cases"]["weak"] |= {"f10_hat": 1.0}
-    assert problems(config, SCHEMA) == []
+    assert problems(config) == []
 
 
 @pytest.mark.parametrize(

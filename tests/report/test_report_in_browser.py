@@ -7,8 +7,10 @@ import pytest
 import yaml
 
 from pipeline_trees import ROOT
+from vibroimpact_pipeline.config import read
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
 PAGES = [page["name"] for page in SETTINGS["pages"]]
 WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]
 NARROW = 400
@@ -180,9 +182,9 @@ SOME_FRAMES = """new Promise(done => {
 """A loaded machine draws them late, but draws them."""
 
 
-@pytest.mark.parametrize("number", range(len(SETTINGS["animations"])))
+@pytest.mark.parametrize("number", range(len(ANIMATIONS)))
 def test_an_animation_plays_pauses_and_obeys_the_keyboard(browser, site, screenshots, number):
-    name, scene = list(SETTINGS["animations"].items())[number]
+    name, scene = list(ANIMATIONS.items())[number]
     browser.open(address(site, "motion"))
     root = f"document.querySelectorAll('[data-animation]')[{number}]"
     ball = f"Number({root}.querySelector('circle').getAttribute('cx'))"

@@ -41,6 +41,6 @@ def test_a_missing_config_is_refused(tree):
 def test_overrides_are_checked_as_well(tree):
     lines = refused(tree, "--config", "system={kappa: 1.2}", "cases={weak: {simulation: {initial_state: [2]}}}")
     assert lines == [
-        "--config: cases.weak.simulation.initial_state: has 1 entries, not 8",
+        "--config: cases.weak.simulation.initial_state: has 1 entries, fewer than 8",
         "--config: system.kappa: 1.2 is not below 1",
     ]

@@ -4,18 +4,18 @@ import fcntl
 import sys
 from pathlib import Path
 
-import yaml
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
 from vibroimpact_pipeline.chapter import departures
+from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
+from vibroimpact_pipeline.config.labels import remembered
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
 
 ROOT = Path(workflow.basedir)
 CONFIG_FILE = "config/config.yaml"
-OVERRIDES = config_checks.typed(config)
 CAPTION = str(ROOT / "report/caption.rst")
 SOURCES = Sources()
 prepare(ROOT, SOURCES)
@@ -41,9 +41,8 @@ def one_build_at_a_time():
 def check_config():
     """Apply what the command line overrides, and go on only with a config that is right."""
     update_config(config, OVERRIDES)
-    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
-    found = config_checks.problems(config, schema)
-    if found:
+    labels = remembered(ROOT / ".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
+    if found := config_checks.problems(config, labels):
         refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
     config["figure_texts"] = figure_texts(ROOT, config)
 
@@ -76,8 +75,12 @@ if workflow.is_main_process:
     BUILD_LOCK = one_build_at_a_time()
 
 try:
-    config_checks.parse(Path(CONFIG_FILE).read_text(encoding="utf-8"))
-except (OSError, ValueError) as error:
+    OVERRIDES = config_checks.typed(config)
+except ValueError as error:
+    refuse([f"--config: {error}"])
+try:
+    config_checks.read(CONFIG_FILE)
+except ValueError as error:
     refuse([f"{CONFIG_FILE}: {error}"])
 
 

@@ -1,12 +1,15 @@
 # The report: one site that reads offline and one PDF, from the results of all stages.
 
+import yaml
+
 PAGES = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))["pages"]
+MOVING = config["report"]
 REPORT_SHOWS = {
     "chapter": list(config["figures"]),
     "companions": list(COMPANIONS),
     "accuracy": ["work_precision", "hazards"],
     "models": ["scene_models"],
-    "animations": list(config["report"]["animations"]),
+    "animations": list(MOVING["animations"]),
     "travel": ["travel"],
 }
 REPORT_TABLES = [
@@ -18,7 +21,7 @@ REPORT_TABLES = [
 PICTURES = "png", "pdf", "svg"
 
 
-for name, scene in config["report"]["animations"].items():
+for name, scene in MOVING["animations"].items():
 
     rule:
         name:
@@ -46,8 +49,8 @@ rule travel:
         json="results/travel/travel.json",
         **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
     params:
-        system=system_of(config["report"]["travel"]["case"]),
-        settings=config["report"]["travel"],
+        system=system_of(MOVING["travel"]["case"]),
+        settings=MOVING["travel"],
         code=code("workflow/scripts/travel.py"),
     log:
         "results/logs/report/travel.log",
@@ -64,7 +67,7 @@ rule report:
         rules.stability.input,
         rules.accuracy.input,
         rules.travel.output,
-        [path for name in config["report"]["animations"] for path in getattr(rules, name).output],
+        [path for name in MOVING["animations"] for path in getattr(rules, name).output],
         REPORT_TABLES,
         [page["source"] for page in PAGES],
         sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),

@@ -4,10 +4,9 @@ import argparse
 from pathlib import Path
 
 import pandas as pd
-import yaml
 
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.config import case_parameters
+from vibroimpact_pipeline.config import case_parameters, read
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -39,4 +38,4 @@ if __name__ == "__main__":
     parser.add_argument("--output", type=Path, default=Path("results/accuracy/benchmark.csv"))
     arguments = parser.parse_args()
     prepare(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
-    main(yaml.safe_load(arguments.config.read_text(encoding="utf-8")), arguments.output)
+    main(read(arguments.config), arguments.output)

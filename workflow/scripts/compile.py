@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from vibroimpact_pipeline.config import case_parameters, parse
+from vibroimpact_pipeline.config import case_parameters, read
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -12,7 +12,7 @@ from vibroimpact.exact.engine.simulation import simulate  # noqa: E402  (Numba r
 from vibroimpact.rivals import METHODS  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
-config = parse(Path("config/config.yaml").read_text(encoding="utf-8"))
+config = read("config/config.yaml")
 case = next(iter(config["cases"]))
 system, start = System(**case_parameters(config, case)), config["cases"][case]["simulation"]["initial_state"]
 run = simulate(system, start, cycles=1, sample_times=[0.0])

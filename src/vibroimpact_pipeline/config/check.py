@@ -1,0 +1,47 @@
+"""A config, checked: everything that is wrong with it, in one line each."""
+
+from collections.abc import Iterable
+
+from pydantic import ValidationError
+
+from vibroimpact_pipeline.config.labels import Labels, labels, unknown_fixed_points
+from vibroimpact_pipeline.config.messages import problems_of
+from vibroimpact_pipeline.config.model import Config
+from vibroimpact_pipeline.config.schema import keys_at
+from vibroimpact_pipeline.config.section import written
+
+MOST = 30
+"""Lines that are shown at once."""
+
+
+def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:
+    """Everything wrong with a config: pairs (path of the key, what is wrong), ("system.kappa", "missing") say.
+
+    Conditions across fields are looked at once each field of a section is right by itself, the fixed points that it
+    names once all else is right.
+    """
+    try:
+        found = unknown_fixed_points(Config.model_validate(config), labels)
+    except ValidationError as error:
+        found = problems_of(error, config, keys_at)
+    return sorted((written(place), what) for place, what in found)
+
+
+def complaints(found: Iterable[tuple[str, str]], source: str, overrides: dict) -> list[str]:
+    """One line per problem, with the place to mend it: the file `source`, or the command line for an override."""
+    lines = [f"{'--config' if _holds(overrides, path) else source}: {path}: {what}" for path, what in found]
+    return lines if len(lines) <= MOST else [*lines[:MOST], f"... and {len(lines) - MOST} more"]
+
+
+def case_parameters(config: dict, case: str) -> dict:
+    """Parameters of System for one case: those shared by all cases and its excitation amplitudes."""
+    excitation = config["cases"][case]
+    return {**config["system"], "f10_hat": excitation["f10_hat"], "f20_hat": excitation["f20_hat"]}
+
+
+def _holds(overrides, path):
+    for key in path.split("[")[0].split("."):
+        if not isinstance(overrides, dict) or key not in overrides:
+            return False
+        overrides = overrides[key]
+    return True

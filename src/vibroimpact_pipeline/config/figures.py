@@ -1,0 +1,109 @@
+"""Section `figures`: which figures are built, each by its notebook.
+
+The chapter's figures keep their notebooks, as their captions do; any other name may be given to a figure of one's own.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field
+
+from vibroimpact_pipeline.config.fields import Amplitude, CaseName, CRange, Label, Name, Planes, unit
+from vibroimpact_pipeline.config.section import Problem, Section
+
+MOST = 100
+"""Figures of a build, a job each."""
+
+
+class Drawing(Section):
+    """A drawing to scale."""
+
+    notebook: Literal["drawings"]
+
+
+class Sawtooth(Section):
+    """Figure 10.3."""
+
+    notebook: Literal["closed_form"]
+    model: Literal["closed_form"]
+    amplitude: Annotated[float, Field(ge=1e-3, le=1000)] = Field(description="C of the saw-tooth")
+    theta: Annotated[float, Field(ge=-100, le=100)] = Field(
+        description="Phase of the impacts", json_schema_extra=unit("rad")
+    )
+    tau0_max: Annotated[float, Field(ge=3.15, le=100)] = Field(
+        description="Right end of the axis; within pi, 3.15, there is an impact", json_schema_extra=unit("rad")
+    )
+
+
+class Manifold(Section):
+    """Figure 10.4."""
+
+    notebook: Literal["closed_form"]
+    model: Literal["closed_form"]
+    parameters: Annotated[list[Literal["kappa"]], Field(min_length=1, max_length=1)] = Field(
+        description="System parameters that the figure depends on"
+    )
+    C_max: Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
+
+
+class Regions(Section):
+    """Figure 10.5."""
+
+    notebook: Literal["closed_form"]
+    model: Literal["closed_form"]
+    C_range: CRange
+
+
+class FixedPoints(Section):
+    """Fixed points and singular points of a case on the slow invariant manifold, as in figures 10.6 and 10.9."""
+
+    notebook: Literal["fixed_points"]
+    model: Literal["slow_flow"]
+    case: CaseName
+    C_max: Planes
+
+
+class Response(Section):
+    """The theoretical response of a fixed point, as in figures 10.7 and, with the planes, 10.10."""
+
+    notebook: Literal["theoretical_response"]
+    model: Literal["slow_flow"]
+    case: CaseName
+    fixed_point: Label
+    periods: Annotated[float, Field(ge=0.5, le=100)] = Field(
+        description="Length of the response", json_schema_extra=unit("forcing periods")
+    )
+    C_max: Planes = Field(default=None, description="Right ends of the planes; without them the response stands alone")
+
+
+class Simulation(Section):
+    """The second module's motion as the direct integration of a case has it, as in figures 10.8 and 10.11."""
+
+    notebook: Literal["simulation"]
+    model: Literal["simulation"]
+    case: CaseName
+
+
+OwnFigure = Annotated[FixedPoints | Response | Simulation, Field(discriminator="notebook")]
+
+
+class Figures(Section):
+    """The figures to build: those of the chapter, each of which may be left out, and one's own under other names."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[Name, OwnFigure]
+
+    fig10_01: Drawing = None
+    fig10_02: Drawing = None
+    fig10_03: Sawtooth = None
+    fig10_04: Manifold = None
+    fig10_05: Regions = None
+    fig10_06: FixedPoints = None
+    fig10_07: Response = None
+    fig10_08: Simulation = None
+    fig10_09: FixedPoints = None
+    fig10_10: Response = None
+    fig10_11: Simulation = None
+
+    def conditions(self):
+        if len(self.model_fields_set) > MOST:
+            yield Problem((), f"are {len(self.model_fields_set)}, above {MOST}")

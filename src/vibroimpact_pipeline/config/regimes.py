@@ -1,0 +1,278 @@
+"""Section `regimes`: what the exact system does beside its 1:1 responses, and how finely it is asked."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from vibroimpact_pipeline.config.cost import CYCLES, HELD, above
+from vibroimpact_pipeline.config.fields import (
+    CaseName,
+    Epsilon,
+    ForceRange,
+    Label,
+    Number,
+    Points,
+    Seed,
+    Starts,
+    not_ascending,
+    over_forces,
+    repeated,
+    unit,
+)
+from vibroimpact_pipeline.config.section import Problem, Section, Sweep
+from vibroimpact_pipeline.config.system import NAMES
+
+FINEST = 200
+"""Steps of a continuation over its range: it gives up after 2000 points, and a branch is longer than its range."""
+FIT = 2
+"""Values of epsilon that an order needs."""
+
+Cycles = Annotated[int, Field(ge=1, le=1_000_000, json_schema_extra=unit("forcing periods"))]
+WatchedCycles = Annotated[int, Field(ge=1, le=100_000, json_schema_extra=unit("forcing periods"))]
+Count = Annotated[int, Field(ge=1, le=10_000)]
+Blocks = Annotated[int, Field(ge=2, le=10_000, description="Blocks of a Lyapunov exponent; their spread is its error")]
+Along = Annotated[list[Literal[NAMES]], Field(min_length=1, max_length=len(NAMES))]
+Values = Annotated[int, Field(ge=2, le=1000)]
+
+
+class Observation(Section):
+    """How long a start is looked at."""
+
+    cycles: Cycles = Field(description="A start is simulated for so many cycles before it is looked at")
+    rounds: Annotated[int, Field(ge=1, le=1000)] = Field(description="At most so many times, until it repeats")
+    window: Annotated[int, Field(ge=4, le=10_000)] = Field(
+        description="Cycles that it is looked at", json_schema_extra=unit("forcing periods")
+    )
+    nearness: Annotated[float, Field(ge=1e-6, le=0.5)] = Field(
+        description="How near a start comes to repeating before Newton's method takes over; half a cavity is 1"
+    )
+    blocks: Blocks
+    block: Count = Field(description="Cycles of a block", json_schema_extra=unit("forcing periods"))
+    retest: Cycles = Field(description="Cycles over which the name of a motion that does not repeat is tried")
+
+    def longest(self) -> int:
+        """Most cycles that one start may take."""
+        exponent = self.blocks * self.block
+        return self.cycles * self.rounds + self.window + 2 * (self.retest + self.window + exponent)
+
+    def conditions(self):
+        yield from above(("cycles",), CYCLES, "forcing cycles of a start", cycles=self.cycles, rounds=self.rounds)
+
+
+class BranchPath(Section):
+    """A line through the parameters."""
+
+    along: Along = Field(description="The parameters that move together")
+    range: Annotated[list[Number], Field(min_length=2, max_length=2)] = Field(description="Where they begin and end")
+
+    def conditions(self):
+        yield from repeated("along", self.along)
+        yield from not_ascending("range", self.range)
+
+    def sweep(self, case):
+        return Sweep(("range",), case, self.along, self.range)
+
+
+class Attractors(Section):
+    """What starts end in along the paths of the branches."""
+
+    values: Values = Field(description="Values along each path")
+    starts: Starts
+    seed: Seed
+
+
+class Branches(Section):
+    """Branches of 1:1 responses along paths through the parameters."""
+
+    case: CaseName
+    paths: Annotated[list[BranchPath], Field(min_length=1, max_length=4)]
+    longest_step: Annotated[float, Field(gt=0, le=1000)] = Field(description="Longest step along a branch")
+    seeds: Annotated[int, Field(ge=1, le=100)] = Field(description="Values of a path at which branches are looked for")
+    attractors: Attractors
+
+    def conditions(self):
+        finest = max(path.range[1] - path.range[0] for path in self.paths) / FINEST
+        if self.longest_step < finest:
+            yield Problem(("longest_step",), f"{self.longest_step} is below {finest:g}, a part in {FINEST} of a path")
+        directions = [tuple(path.along) for path in self.paths]
+        yield from (problem.below() for problem in repeated("paths", directions))
+
+    def sweeps(self):
+        for number, path in enumerate(self.paths):
+            yield path.sweep(self.case).below("paths", number)
+
+
+class Lifetimes(Section):
+    """The mean life of the chaos."""
+
+    along: Along = Field(description="The parameters that move together")
+    values: Annotated[list[Number], Field(min_length=1, max_length=1000)] = Field(description="What they are set to")
+    starts: Starts
+    seed: Seed
+    step: WatchedCycles = Field(description="Starts are looked at every so many cycles")
+    longest: Cycles = Field(description="A start is given up after so many, two steps at least: one is not counted")
+
+    def conditions(self):
+        yield from repeated("along", self.along)
+        yield from repeated("values", self.values)
+        if self.longest < 2 * self.step:
+            yield Problem(("longest",), f"{self.longest} is below {2 * self.step}, twice `step`")
+        factors = {"values": len(self.values), "starts": self.starts, "longest": self.longest}
+        yield from above(("longest",), CYCLES, "forcing cycles", **factors)
+        yield from above(("step",), HELD, "forcing cycles in memory", starts=self.starts, step=self.step)
+
+
+class TorusPath(Section):
+    """Values on both sides of a Neimark-Sacker point."""
+
+    along: Along = Field(description="The parameters that move together")
+    values: Annotated[list[Number], Field(min_length=2, max_length=1000)] = Field(description="What they are set to")
+
+    def conditions(self):
+        yield from repeated("along", self.along)
+        yield from repeated("values", self.values)
+
+
+class Tori(Section):
+    """The size of the tori next to Neimark-Sacker points."""
+
+    paths: Annotated[list[TorusPath], Field(min_length=1, max_length=10)]
+    cycles: Annotated[int, Field(ge=2, le=1_000_000)] = Field(
+        description="Cycles that a torus is seen for", json_schema_extra=unit("forcing periods")
+    )
+    discarded: Cycles = Field(description="Cycles before those")
+
+    def conditions(self):
+        values = max(len(path.values) for path in self.paths)
+        cycles = {"discarded + cycles": self.discarded + self.cycles}
+        factors = {"paths": len(self.paths), "values": values, "sweeps": 2, **cycles}
+        yield from above(("discarded",), CYCLES, "forcing cycles", **factors)
+
+
+class Coexistence(Section):
+    """Where chaos and periodic motions coexist."""
+
+    case: CaseName
+    lifetimes: Lifetimes
+    tori: Tori
+
+    def sweeps(self):
+        yield Sweep(("lifetimes", "values"), self.case, self.lifetimes.along, self.lifetimes.values)
+        for number, path in enumerate(self.tori.paths):
+            yield Sweep(("tori", "paths", number, "values"), self.case, path.along, path.values)
+
+
+class Map(Section):
+    """Regimes over a grid of forces; it is computed in tiles, a job each."""
+
+    f10_range: ForceRange
+    f20_range: ForceRange
+    points: Points
+    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells")
+    starts: Starts
+    seed: Seed
+
+    def conditions(self):
+        for name in ("f10_range", "f20_range"):
+            yield from not_ascending(name, getattr(self, name))
+        if self.tiles > self.points**2:
+            yield Problem(("tiles",), f"{self.tiles} is above {self.points**2}, the number of cells: points^2")
+
+    def sweeps(self):
+        return over_forces(self)
+
+
+class Confusion(Section):
+    """Every name of a regime against a longer run, on a coarser map."""
+
+    points: Points
+    starts: Starts
+    seed: Seed
+    times: Annotated[int, Field(ge=1, le=10_000)] = Field(description="So many times as long as all rounds")
+
+
+class Modulation(Section):
+    """Modulated responses in numbers."""
+
+    starts: Starts
+    seed: Seed
+    cycles: WatchedCycles = Field(description="Window of the measures")
+    blocks: Blocks
+    block: Count = Field(description="Cycles of a block", json_schema_extra=unit("forcing periods"))
+    windows: Annotated[list[WatchedCycles], Field(min_length=1, max_length=20)] = Field(
+        description="Windows over which measures of the envelope are compared"
+    )
+
+    def conditions(self):
+        yield from repeated("windows", self.windows)
+
+
+class Basins(Section):
+    """In which response a start ends, on a plane of starts."""
+
+    case: CaseName
+    points: Annotated[int, Field(ge=2, le=1000)] = Field(description="Starts along each axis")
+
+
+class Mixed(Section):
+    """A fixed point next to the fold of the manifold, to which no order is fitted."""
+
+    case: CaseName
+    label: Label
+
+
+class EpsilonLimit(Section):
+    """Theory against exact responses as epsilon tends to 0."""
+
+    epsilon: Annotated[list[Epsilon], Field(min_length=2, max_length=2)] = Field(description="First and last value")
+    values: Annotated[int, Field(ge=3, le=1000)] = Field(description="Values, evenly on a logarithmic scale")
+    fit_below: Annotated[float, Field(gt=0, le=10)] = Field(
+        description="Orders are fitted to the values of epsilon below this, which takes two of them at least"
+    )
+    mixed: Mixed
+
+    def conditions(self):
+        yield from repeated("epsilon", self.epsilon)
+        fitted = int(np.sum(np.geomspace(*self.epsilon, self.values) < self.fit_below))
+        if fitted < FIT:
+            yield Problem(("fit_below",), f"below {self.fit_below} are {fitted} values of epsilon; a fit takes {FIT}")
+
+    def sweeps(self):
+        yield Sweep(("epsilon",), None, ["epsilon"], self.epsilon)
+
+
+class Regimes(Section):
+    """What the exact system does beside its 1:1 responses."""
+
+    observation: Observation
+    branches: Branches
+    coexistence: Coexistence
+    map: Map
+    confusion: Confusion
+    modulation: Modulation
+    basins: Basins
+    epsilon: EpsilonLimit
+
+    def conditions(self):
+        for place, starts, cycles, factors in self._jobs():
+            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles of a start": cycles})
+            held = {"starts at once": starts, "observation.cycles": self.observation.cycles}
+            yield from above(place, HELD, "forcing cycles in memory", **held)
+
+    def _jobs(self):
+        """Of every job that settles starts: its key, starts held at once, cycles of a start, and how many there are."""
+        longest = self.observation.longest()
+        values, starts = self.branches.attractors.values, self.branches.attractors.starts
+        paths = len(self.branches.paths)
+        yield ("branches", "attractors"), starts, longest, {"paths": paths, "values": values, "starts": starts}
+        cells, starts = self.map.points**2, self.map.starts
+        yield ("map", "points"), starts, longest, {"points^2 / tiles": cells / self.map.tiles, "starts": starts}
+        cells, starts = self.confusion.points**2, self.confusion.starts
+        again = longest + self.confusion.times * self.observation.cycles * self.observation.rounds
+        yield ("confusion", "points"), starts, again, {"points^2": cells, "starts": starts}
+        starts = self.modulation.starts + 1
+        again = longest + 2 * self.modulation.cycles + self.modulation.blocks * self.modulation.block
+        yield ("modulation", "starts"), starts, again, {"starts": starts}
+        starts = self.basins.points**2
+        yield ("basins", "points"), starts, longest, {"points^2": starts}

@@ -1,0 +1,136 @@
+"""From the text of a config to plain values: YAML in which nothing means another thing than it seems to."""
+
+import re
+import reprlib
+
+import yaml
+from yaml.constructor import ConstructorError
+
+LARGEST = 100_000
+"""Bytes of a config; the chapter's has a tenth of that."""
+DEEPEST = 20
+"""Levels of nesting."""
+PLAIN = {
+    "str": "",
+    "null": "",
+    "seq": "",
+    "map": "",
+    "bool": r"true|True|TRUE|false|False|FALSE",
+    "int": r"[-+]?(0|[1-9][0-9]*)",
+    "float": r"[-+]?([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+][0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)",
+}
+"""Kinds of values, and how those are written that YAML 1.1 knows under other spellings as well: 0100 is 64 there, 1:30
+is 90, `yes` is true, which later versions and most readers take for something else."""
+
+_REPR = reprlib.Repr()
+_REPR.maxstring = _REPR.maxother = 60
+
+
+def read(path) -> dict:
+    """The config in a file.
+
+    Raises:
+        ValueError: the file cannot be read, or does not hold a config; in one line.
+    """
+    try:
+        with open(path, "rb") as file:
+            content = file.read(LARGEST + 1)
+    except OSError as error:
+        raise ValueError(error.strerror) from None
+    if len(content) > LARGEST:
+        raise ValueError(f"has more than {LARGEST} bytes")
+    try:
+        return parse(content.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise ValueError(f"line {line}: byte 0x{content[error.start]:02x} is not UTF-8") from None
+
+
+def parse(text: str) -> dict:
+    """The config that a YAML text holds.
+
+    Raises:
+        ValueError: the text is not YAML, is not a mapping, gives a key twice, or holds a value that versions of YAML
+            take for different things; in one line, with line and column.
+    """
+    config = _load(text)
+    if not isinstance(config, dict):
+        raise ValueError(f"{show(config)} is not a mapping of system, cases and figures")
+    return config
+
+
+def parse_value(text: str):
+    """The value that a piece of YAML stands for.
+
+    Raises:
+        ValueError: as `parse`, without the place.
+    """
+    return _load(text, place=lambda mark: "")
+
+
+def show(value) -> str:
+    """A value in an error message, on one line and not long."""
+    return "nothing" if value is None else _REPR.repr(value)
+
+
+def _line_and_column(mark):
+    return f"line {mark.line + 1}, column {mark.column + 1}: "
+
+
+def _load(text, place=_line_and_column):
+    try:
+        return yaml.load(text, _Loader)
+    except yaml.MarkedYAMLError as error:
+        raise ValueError(f"{place(error.problem_mark or error.context_mark)}{error.problem}") from None
+    except yaml.YAMLError as error:
+        raise ValueError(" ".join(str(error).split())) from None
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML with keys that are texts given once, without nested aliases, and numbers in decimal digits."""
+
+    def __init__(self, text):
+        super().__init__(text)
+        self.above = []
+
+    def compose_node(self, parent, index):
+        """A node, once it is known that it can be taken apart in reasonable time."""
+        event = self.peek_event()
+        if isinstance(event, yaml.AliasEvent) and any(self.above):
+            _refuse(event, f"alias *{event.anchor} stands inside a value that has a name itself")
+        if len(self.above) == DEEPEST:
+            _refuse(event, f"nested deeper than {DEEPEST} levels")
+        self.above.append(getattr(event, "anchor", None))
+        node = super().compose_node(parent, index)
+        self.above.pop()
+        return node
+
+    def construct_object(self, node, deep=False):
+        kind = node.tag.removeprefix("tag:yaml.org,2002:")
+        if kind not in PLAIN:
+            _refuse(node, f"{_text(node)} is of the kind {kind}; a config holds numbers, text, lists and mappings")
+        try:
+            value = super().construct_object(node, deep)
+        except ValueError:
+            _refuse(node, f"{_text(node)} cannot be read as {kind}")
+        if PLAIN[kind] and not re.fullmatch(PLAIN[kind], node.value):
+            _refuse(node, f"{_text(node)} means {show(value)} in YAML: write that, or '{node.value}' for the text")
+        return value
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value:
+            if key.tag != "tag:yaml.org,2002:str":
+                _refuse(key, f"the key {_text(key)} is not text")
+            if key.value in seen:
+                _refuse(key, f"key {key.value!r} given twice")
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def _refuse(node, problem):
+    raise ConstructorError(None, None, problem, node.start_mark)
+
+
+def _text(node):
+    return show(node.value) if isinstance(node, yaml.ScalarNode) else f"of a {node.id}"
