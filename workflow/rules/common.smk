@@ -7,6 +7,8 @@ from pathlib import Path
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
+from vibroimpact_pipeline.config.labels import remembered
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
@@ -38,7 +40,8 @@ def one_build_at_a_time():
 def check_config():
     """Apply what the command line overrides, and go on only with a config that is right."""
     update_config(config, OVERRIDES)
-    if found := config_checks.problems(config):
+    labels = remembered(ROOT / ".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
+    if found := config_checks.problems(config, labels):
         refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
     config["figure_texts"] = figure_texts(ROOT, config["cases"])
 

@@ -4,27 +4,27 @@ from collections.abc import Iterable
 
 from pydantic import ValidationError
 
+from vibroimpact_pipeline.config.labels import Labels, labels, unknown_fixed_points
 from vibroimpact_pipeline.config.messages import problems_of
 from vibroimpact_pipeline.config.model import Config
+from vibroimpact_pipeline.config.schema import keys_at
 from vibroimpact_pipeline.config.section import written
 
 MOST = 30
 """Lines that are shown at once."""
 
 
-def problems(config: dict) -> list[tuple[str, str]]:
+def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:
     """Everything wrong with a config: pairs (path of the key, what is wrong), ("system.kappa", "missing") say.
 
-    Conditions across fields are looked at once each field of a section is right by itself.
+    Conditions across fields are looked at once each field of a section is right by itself, the fixed points that it
+    names once all else is right.
     """
     try:
-        Config.model_validate(config)
+        found = unknown_fixed_points(Config.model_validate(config), labels)
     except ValidationError as error:
-        # Here, because it is asked for hints alone.
-        from vibroimpact_pipeline.config.schema import keys_at
-
-        return sorted((written(place), what) for place, what in problems_of(error, config, keys_at))
-    return []
+        found = problems_of(error, config, keys_at)
+    return sorted((written(place), what) for place, what in found)
 
 
 def complaints(found: Iterable[tuple[str, str]], source: str, overrides: dict) -> list[str]:

@@ -1,0 +1,73 @@
+"""Fixed points that the config names: are they there? To know, the fixed points of the case are solved for."""
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from vibroimpact.system import System
+from vibroimpact_pipeline.config.fields import OfFixedPoint
+from vibroimpact_pipeline.config.section import Problem, marked
+
+Labels = Callable[[dict], list[str]]
+"""The labels of the fixed points, by the parameters of System."""
+MODULES = ["vibroimpact.theory.fixed_points.labels", "vibroimpact.theory.fixed_points.search"]
+"""What labels depend on beside the parameters."""
+
+
+def labels(parameters: dict) -> list[str]:
+    """The labels of the fixed points, in ascending order."""
+    # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
+    from vibroimpact.theory.fixed_points.labels import labels as labelled
+    from vibroimpact.theory.fixed_points.search import fixed_points
+
+    system = System(**parameters)
+    return sorted(labelled(system, fixed_points(system)))
+
+
+def remembered(path, version: str) -> Labels:
+    """`labels`, each computed once and kept in a file, as long as the version is the same."""
+    path = Path(path)
+    known = _kept(path, version)
+
+    def remember(parameters):
+        key = hashlib.sha256(json.dumps(parameters, sort_keys=True).encode()).hexdigest()
+        if key not in known:
+            known[key] = labels(parameters)
+            _keep(path, {"version": version, "labels": known})
+        return known[key]
+
+    return remember
+
+
+def unknown_fixed_points(config, labels: Labels) -> Iterator[Problem]:
+    """Labels in the config under which its case has no fixed point."""
+    for place, label in marked(config, OfFixedPoint):
+        case = _beside(config, place, "case")
+        known = labels(config.parameters(case))
+        if label not in known:
+            has = f"it has {', '.join(known)}" if known else "it has none"
+            yield Problem(place, f"the case {case} has no fixed point {label!r}: {has}")
+
+
+def _beside(config, place, name):
+    """The field of a name in the section of a place."""
+    for part in place[:-1]:
+        config = config[part] if isinstance(config, dict | list) else getattr(config, part)
+    return getattr(config, name)
+
+
+def _kept(path, version):
+    try:
+        kept = json.loads(path.read_text(encoding="utf-8"))
+        return kept["labels"] if kept["version"] == version else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def _keep(path, content):
+    partial = path.with_name(f"{path.name}.{os.getpid()}")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial.write_text(json.dumps(content), encoding="utf-8")
+    partial.replace(path)
