@@ -7,10 +7,7 @@ from pathlib import Path
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
-<<<<<<< HEAD
 from vibroimpact_pipeline.chapter import departures
-=======
->>>>>>> config
 from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
 from vibroimpact_pipeline.config.labels import remembered
 from vibroimpact_pipeline.environment import prepare
