@@ -25,11 +25,12 @@ def site(reported) -> Path:
     return reported / "results/report"
 
 
-@pytest.fixture(scope="session")
-def browser(tmp_path_factory):
+@pytest.fixture(scope="module")
+def browser():
+    """For a module, no longer: while it runs, nobody else in this process can run an event loop, as notebooks do."""
     path = executable()
     if path is None:
         pytest.skip("the report was not opened in a browser: there is no Chromium here (Debian: apt install chromium)")
-    browser = Browser(path, tmp_path_factory.mktemp("profile"))
+    browser = Browser(path)
     yield browser
     browser.close()

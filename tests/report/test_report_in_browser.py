@@ -278,13 +278,13 @@ def test_print_shows_stills_in_place_of_controls(browser, site):
     browser.open(address(site, "motion"))
     state = "['.still', '.live', 'header nav'].map(name => getComputedStyle(document.querySelector(name)).display)"
     assert browser.run(state) == ["none", "block", "block"]
-    browser.call("Emulation.setEmulatedMedia", media="print")
+    browser.page.emulate_media(media="print")
     assert browser.run(state) == ["block", "none", "none"]
-    browser.call("Emulation.setEmulatedMedia", media="")
+    browser.page.emulate_media(media="screen")
 
 
 def test_motion_waits_for_those_who_want_less_of_it(browser, site):
-    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+    browser.page.emulate_media(reduced_motion="reduce")
     browser.open(address(site, "motion"))
     assert (
         browser.run("[...document.querySelectorAll('[data-animation] button')].map(b => b.textContent)") == ["Play"] * 2
