@@ -289,4 +289,4 @@ def test_motion_waits_for_those_who_want_less_of_it(browser, site):
     assert (
         browser.run("[...document.querySelectorAll('[data-animation] button')].map(b => b.textContent)") == ["Play"] * 2
     )
-    browser.call("Emulation.setEmulatedMedia", features=[])
+    browser.page.emulate_media(reduced_motion="no-preference")
