@@ -14,6 +14,7 @@ from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
+from vibroimpact.system.verdict import STABLE
 
 
 def main(figures: dict, simulations: dict, folder, seconds: float, output) -> None:
@@ -42,7 +43,7 @@ def rungs_of(figure, scene, settings, simulation, module, table, folder):
         return scene_models.slow_flow_rungs(scene, system, points)
     samples = tables.read(folder / f"simulations/{case}/samples.csv")
     orbits = tables.read(folder / f"orbits/{case}.csv")
-    stable = orbits[orbits["admissible"] & (orbits["floquet"] == "stable")][list(NAMES)].to_numpy(float)
+    stable = orbits[orbits["admissible"] & (orbits["floquet"] == STABLE)][list(NAMES)].to_numpy(float)
     summary = json.loads((folder / f"simulations/{case}/summary.json").read_text(encoding="utf-8"))
     return scene_models.motion_rungs(system, simulation, summary, points, stable, samples)
 

@@ -1,11 +1,13 @@
 """Companion: modulated and other regimes in numbers, with uncertainties over starts; burst lengths and exponents."""
 
+from string import ascii_lowercase
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
@@ -135,9 +137,12 @@ def draw(tables: dict) -> Figure:
     exponents = table[table["panel"] == "exponents"]
     cases = list(dict.fromkeys(exponents["series"]))
     modulated = [case for case in cases if len(select(table, "bursts", f"{case}, module 1"))]
-    figure = new_figure(DOUBLE_COLUMN, 58.0)
-    grid = figure.subplots(1, len(modulated) + 1, squeeze=False)[0]
-    for axes, case, letter in zip(grid, modulated, "abcdefg", strict=False):
+    columns, rows = side_by_side(len(modulated) + 1)
+    figure = new_figure(DOUBLE_COLUMN, 58.0 * rows)
+    grid = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes in grid[len(modulated) + 1 :]:
+        axes.set_axis_off()
+    for axes, case, letter in zip(grid, modulated, ascii_lowercase, strict=False):
         for module, style in LINES.items():
             bursts = select(table, "bursts", f"{case}, module {module}")
             axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
@@ -148,8 +153,8 @@ def draw(tables: dict) -> Figure:
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
     grid[0].set_ylabel("fraction of bursts at least this long")
-    _exponents(grid[-1], exponents, cases)
-    letter_panel(grid[-1], "abcdefgh"[len(modulated)])
+    _exponents(grid[len(modulated)], exponents, cases)
+    letter_panel(grid[len(modulated)], ascii_lowercase[len(modulated)])
     return figure
 
 

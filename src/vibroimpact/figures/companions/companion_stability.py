@@ -1,5 +1,7 @@
 """Companion on stability: four criteria side by side on every fixed point and orbit of each case."""
 
+from string import ascii_lowercase
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -14,6 +16,7 @@ from vibroimpact.figures.kit.style import (
     LIGHT_GREY,
     letter_panel,
     new_figure,
+    side_by_side,
     styled,
 )
 from vibroimpact.figures.kit.tables import curve, join, select
@@ -80,12 +83,17 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white."""
     cases = list(dict.fromkeys(table["panel"]))
     most = max(1, *(len(_motions(table, case)) for case in cases))
-    figure = new_figure(DOUBLE_COLUMN, PLANE + ROW * most + FRAME)
-    grid = figure.subplots(2, len(cases), squeeze=False, height_ratios=[PLANE, ROW * most])
+    columns, rows = side_by_side(len(cases))
+    figure = new_figure(DOUBLE_COLUMN, rows * (PLANE + ROW * most) + FRAME)
+    grid = figure.subplots(2 * rows, columns, squeeze=False, height_ratios=[PLANE, ROW * most] * rows)
+    planes, matrices = grid[::2].ravel(), grid[1::2].ravel()
     places = table[["C1", "C2"]].to_numpy(float)
     end = 1.1 * places[np.isfinite(places)].max()
-    for letter, case, (plane, matrix) in zip("abcdefgh", cases, grid.T, strict=False):
+    for axes in [*planes[len(cases) :], *matrices[len(cases) :]]:
+        axes.set_axis_off()
+    for letter, case, plane, matrix in zip(ascii_lowercase, cases, planes, matrices, strict=False):
         letter_panel(plane, letter)
+        plane.set_title(case, loc="right", pad=3)
         _draw_plane(plane, table, case, end)
         _draw_matrix(matrix, _motions(table, case), most)
     figure.legend(handles=_key(table), loc="outside lower center", ncols=6, fontsize=8.5)

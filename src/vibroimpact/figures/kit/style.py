@@ -43,6 +43,12 @@ def new_figure(width: float, height: float, layout: str | None = "constrained") 
     return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
 
 
+def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
+    """Columns and rows of so many panels, at most three to a row of two columns' width."""
+    columns = min(panels, most)
+    return columns, -(-panels // columns)
+
+
 def letter_panel(axes, letter: str) -> None:
     """Letter a panel as the captions do: in bold, above its upper left corner."""
     axes.set_title(letter, loc="left", weight="bold", pad=3)
