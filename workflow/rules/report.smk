@@ -5,7 +5,8 @@ import yaml
 PAGES = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))["pages"]
 MOVING = config["report"]
 REPORT_SHOWS = {
-    "chapter": list(config["figures"]),
+    "chapter": [figure for figure in config["figures"] if figure.startswith("fig10_")],
+    "own": [figure for figure in config["figures"] if not figure.startswith("fig10_")],
     "companions": list(COMPANIONS),
     "accuracy": ["work_precision", "hazards"],
     "models": ["scene_models"],

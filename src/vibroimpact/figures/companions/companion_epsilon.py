@@ -1,6 +1,7 @@
 """Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
 
 from contextlib import suppress
+from itertools import cycle, product
 
 import numpy as np
 import pandas as pd
@@ -18,7 +19,8 @@ PANELS = {
     "slow": r"largest error of slow $\log\mu\,/\,(2\pi\varepsilon/\Omega)$",
     "fast": r"largest error of fast $\mu$",
 }
-MARKERS = "osD^vP*X"
+LOOKS = tuple(product(("white", GREY), "osD^vP*X"))
+"""Face and shape of the markers of a fixed point, in this order."""
 _STEP = 2e-4
 
 
@@ -98,14 +100,15 @@ def draw(tables: dict) -> Figure:
             continue
         if panel == "distance":
             _draw_two_terms(axes, table[table["panel"] == TWO_TERMS])
-        for marker, (series, line) in zip(MARKERS, rows.groupby("series", sort=False), strict=False):
-            _dots(axes, line["epsilon"], line["error"], marker, series)
+        for (face, marker), (series, line) in zip(cycle(LOOKS), rows.groupby("series", sort=False), strict=False):
+            _dots(axes, line["epsilon"], line["error"], face, marker, series)
         ends = np.array([rows["epsilon"].min(), rows["epsilon"].max()])
         line = rows["error"].min() * 0.3 * ends / ends[0]
         axes.plot(ends, line, color=BLACK, linewidth=0.8)
         axes.annotate("slope 1", (ends[0], line[0]), (30, 4), textcoords="offset points", fontsize=8.5)
         fitted = orders[orders["panel"] == panel]["order"]
-        axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
+        if len(fitted):
+            axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
     letter_panel(grid[1, 1], "d")
     mixed = table[table["panel"] == "mixed"]
     if len(mixed):
@@ -119,6 +122,8 @@ def draw(tables: dict) -> Figure:
 
 
 def _draw_two_terms(axes, rows):
+    if rows.empty:
+        return
     for _, line in rows.groupby("series", sort=False):
         axes.plot(line["epsilon"], line["error"], color=GREY, linewidth=0.8)
     last = line.iloc[len(line) // 2]
@@ -127,8 +132,8 @@ def _draw_two_terms(axes, rows):
     )
 
 
-def _dots(axes, x, y, marker, label):
-    style = {"markerfacecolor": "white", "markeredgewidth": 0.8, "linewidth": 0.5, "markersize": 4}
+def _dots(axes, x, y, face, marker, label):
+    style = {"markerfacecolor": face, "markeredgewidth": 0.8, "linewidth": 0.5, "markersize": 4}
     axes.plot(x, y, marker=marker, color=BLACK, label=label, **style)
 
 

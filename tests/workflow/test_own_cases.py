@@ -1,0 +1,100 @@
+"""A config with cases and figures of one's own: built, checked and reported to the end, and told from the chapter's."""
+
+import json
+
+import pytest
+import yaml
+
+from pipeline_trees import run_module
+
+SIMULATION = {"initial_state": [0.0] * 8, "transient_cycles": 300, "window_cycles": 6, "samples_per_cycle": 64}
+OWN_FIGURES = {
+    "strong_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "strong", "C_max": [2.5, 3.5]},
+    "strong_response": {
+        "notebook": "theoretical_response",
+        "model": "slow_flow",
+        "case": "strong",
+        "fixed_point": "b",
+        "periods": 3,
+    },
+    "strong_motion": {"notebook": "simulation", "model": "simulation", "case": "strong"},
+    "still_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
+    "still_motion": {"notebook": "simulation", "model": "simulation", "case": "still"},
+}
+"""One of each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
+
+
+def renamed(config, old, new):
+    """A config in which a case has another name, everywhere."""
+    text = yaml.safe_dump(config, sort_keys=False)
+    return yaml.safe_load(text.replace(f"case: {old}\n", f"case: {new}\n").replace(f"  {old}:\n", f"  {new}:\n"))
+
+
+def without_case(config, case):
+    """A config without a case and what shows it."""
+    del config["cases"][case]
+    for section in (config["figures"], config["accuracy"]["scenes"], config["report"]["animations"]):
+        for name in [name for name, scene in section.items() if scene.get("case") == case]:
+            del section[name]
+
+
+def hurried(config):
+    """A config that asks the exact system little, as it is not about that here."""
+    config["regimes"]["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
+    config["regimes"]["observation"] |= {"retest": 300}
+    config["regimes"]["epsilon"]["values"] = 3
+
+
+@pytest.fixture
+def edited(rebuilt):
+    """Changes the config of a built tree by a function of it."""
+    path = rebuilt / "config/config.yaml"
+
+    def edit(change):
+        config = yaml.safe_load(path.read_text(encoding="utf-8"))
+        config = change(config) or config
+        path.write_text(yaml.safe_dump(config, sort_keys=False), encoding="utf-8")
+        return rebuilt
+
+    return edit
+
+
+def own(config):
+    """Two cases and five figures more; one case of the chapter renamed, one gone."""
+    config = renamed(config, "unequal", "uneven")
+    without_case(config, "weak")
+    hurried(config)
+    config["cases"]["strong"] = {"f10_hat": 1.0, "f20_hat": 0.95, "simulation": SIMULATION}
+    config["cases"]["still"] = {"f10_hat": 0.05, "f20_hat": 0.0, "simulation": SIMULATION}
+    config["figures"] |= OWN_FIGURES
+    config["report"]["animations"]["strong_in_motion"] = {"case": "strong", "cycles": 2}
+    # What the map asks of the exact system does not depend on the cases: it stays as it is built.
+    for name in ("map", "coexistence", "branches", "basins"):
+        del config["regimes"][name]
+    return config
+
+
+def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
+    tree = edited(own)
+    tree.snakemake("all", "report")
+    results = tree / "results"
+    for figure in OWN_FIGURES:
+        assert (results / f"figures/{figure}.png").stat().st_size > 10_000
+        assert figure in (results / "report/figures.html").read_text(encoding="utf-8")
+    rungs = (results / "accuracy/scene_models.csv").read_text(encoding="utf-8")
+    assert all(f"\n{figure}," in rungs for figure in OWN_FIGURES)
+
+    output = tree.snakemake("figure_check", check=False)
+    assert tree.returncode == 1
+    assert all(f"{figure}: failed: no reference" in output for figure in OWN_FIGURES)
+    status, said = run_module(tree.path, "vibroimpact_pipeline.figure_check.accept", "--reason", "figures of one's own")
+    assert status == 0, said
+    tree.snakemake("figure_check")
+
+    reasons = ["there is no case unequal", "there is no case weak"]
+    claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
+    assert {claim["verdict"] for claim in claims} == {"not judged"}
+    pages = [results / "claims.md", *(results / "report").glob("*.html")]
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        assert all(reason in text for reason in reasons), page
