@@ -40,9 +40,12 @@ def without_case(config, case):
 
 def hurried(config):
     """A config that asks the exact system little, as it is not about that here."""
-    config["regimes"]["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
-    config["regimes"]["observation"] |= {"retest": 300}
-    config["regimes"]["epsilon"]["values"] = 3
+    regimes = config["regimes"]
+    regimes["branches"] |= {"paths": [{"along": ["f20_hat"], "range": [0.9, 1.0]}], "seeds": 1}
+    regimes["branches"]["attractors"] |= {"values": 3, "starts": 2}
+    regimes["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
+    regimes["basins"]["points"] = 5
+    regimes["epsilon"]["values"] = 3
 
 
 @pytest.fixture
@@ -68,9 +71,6 @@ def own(config):
     config["cases"]["still"] = {"f10_hat": 0.05, "f20_hat": 0.0, "simulation": SIMULATION}
     config["figures"] |= OWN_FIGURES
     config["report"]["animations"]["strong_in_motion"] = {"case": "strong", "cycles": 2}
-    # What the map asks of the exact system does not depend on the cases: it stays as it is built.
-    for name in ("map", "coexistence", "branches", "basins"):
-        del config["regimes"][name]
     return config
 
 
