@@ -8,6 +8,7 @@ import yaml
 from snakemake.utils import update_config
 
 from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline.data_dictionary import compared
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
