@@ -1,5 +1,7 @@
 # The report: one site that reads offline and one PDF, from the results of all stages.
 
+from vibroimpact_pipeline.report.api import documented
+
 REPORT_SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 REPORT_SHOWS = {
     "chapter": list(config["figures"]),
@@ -16,6 +18,7 @@ REPORT_TABLES = [
     *(path for companion in COMPANIONS.values() for path in companion.get("tables", {}).values()),
 ]
 PICTURES = "png", "pdf", "svg"
+API_MODULES = documented(REPORT_SETTINGS["api"]["left_out"])
 
 
 for name, scene in REPORT_SETTINGS["animations"].items():
@@ -57,8 +60,25 @@ rule travel:
         "../scripts/travel.py"
 
 
+rule api:
+    input:
+        [f"report/api/{name}" for name in ("module.html.jinja2", "custom.css")],
+    output:
+        directory("results/api"),
+    params:
+        modules=API_MODULES,
+        code=code("workflow/scripts/api.py", modules=API_MODULES),
+    log:
+        "results/logs/report/api.log",
+    benchmark:
+        "results/benchmarks/report/api.tsv"
+    script:
+        "../scripts/api.py"
+
+
 rule report:
     input:
+        rules.api.output,
         rules.figures.input,
         rules.companions.input,
         rules.stability.input,
