@@ -13,6 +13,8 @@ import pytest
 from numba.core.caching import _CacheLocator
 
 from pipeline_trees import ROOT, Tree
+from vibroimpact_pipeline.data_dictionary import compared, read
+from vibroimpact_pipeline.figure_check.compare import check, tolerances
 
 COMPILED = ".cache/numba"
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
@@ -107,6 +109,12 @@ def test_a_figure_can_be_added(project):
         assert (project / f"results/figures/companion_speed.{kind}").stat().st_size > 1000
     record = json.loads((project / "results/figures/companion_speed.provenance.json").read_text())
     assert set(record["config"]) == {"system.kappa", "stability.companion_10_04.C_max"}
+    assert (
+        "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in (project / "docs/data.md").read_text()
+    )
+    limits = tolerances(compared(read(project.path)[0]))
+    folder = project / "results/figures"
+    assert check("companion_speed", folder, folder, limits)["reasons"] == []
 
 
 def test_an_integrator_can_be_added(project):

@@ -1,6 +1,12 @@
 """Figures written as the pipeline does, and what a verdict of the figure check must say."""
 
+from pipeline_trees import ROOT
 from vibroimpact.figures.kit import style, tables
+from vibroimpact_pipeline.data_dictionary import compared, read
+from vibroimpact_pipeline.figure_check.compare import tolerances
+
+CARDS, _ = read(ROOT)
+LIMITS = tolerances(compared(CARDS))
 
 
 def build(folder, name, table, figure, picture=True):

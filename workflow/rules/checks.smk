@@ -13,6 +13,7 @@ rule compare_figures:
         verdicts="results/figure_check/figure_check.json",
     params:
         figures=[*config["figures"], *COMPANIONS],
+        columns=compared(config["figure_texts"]),
         code=code("workflow/scripts/compare_figures.py"),
     log:
         "results/logs/compare_figures.log",

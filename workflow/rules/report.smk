@@ -2,7 +2,9 @@
 
 import yaml
 
-PAGES = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))["pages"]
+from vibroimpact_pipeline.report.api import documented
+
+REPORT_SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 MOVING = config["report"]
 REPORT_SHOWS = {
     "chapter": [figure for figure in config["figures"] if figure.startswith("fig10_")],
@@ -20,6 +22,7 @@ REPORT_TABLES = [
     *(path for companion in COMPANIONS.values() for path in companion.get("tables", {}).values()),
 ]
 PICTURES = "png", "pdf", "svg"
+API_MODULES = documented(REPORT_SETTINGS["api"]["left_out"])
 
 
 for name, scene in MOVING["animations"].items():
@@ -61,8 +64,25 @@ rule travel:
         "../scripts/travel.py"
 
 
+rule api:
+    input:
+        [f"report/api/{name}" for name in ("module.html.jinja2", "custom.css")],
+    output:
+        directory("results/api"),
+    params:
+        modules=API_MODULES,
+        code=code("workflow/scripts/api.py", modules=API_MODULES),
+    log:
+        "results/logs/report/api.log",
+    benchmark:
+        "results/benchmarks/report/api.tsv"
+    script:
+        "../scripts/api.py"
+
+
 rule report:
     input:
+        rules.api.output,
         rules.figures.input,
         rules.companions.input,
         rules.stability.input,
@@ -70,7 +90,7 @@ rule report:
         rules.travel.output,
         [path for name in MOVING["animations"] for path in getattr(rules, name).output],
         REPORT_TABLES,
-        [page["source"] for page in PAGES],
+        [page["source"] for page in REPORT_SETTINGS["pages"]],
         sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
     output:
         directory("results/report"),

@@ -8,8 +8,8 @@ from vibroimpact_pipeline.figure_check.compare import check_all, lines, toleranc
 from vibroimpact_pipeline.figure_check.page import page
 
 
-def main(figures, reference, new, html, verdicts) -> None:
-    limits = tolerances()
+def main(figures, columns: dict, reference, new, html, verdicts) -> None:
+    limits = tolerances(columns)
     found = check_all(figures, reference, new, limits)
     print(*lines(found), sep="\n")
     with replacing(verdicts) as partial:
@@ -20,5 +20,5 @@ def main(figures, reference, new, html, verdicts) -> None:
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        outputs = snakemake.output
-        main(snakemake.params.figures, "figures", "results/figures", outputs.page, outputs.verdicts)
+        params, outputs = snakemake.params, snakemake.output
+        main(params.figures, params.columns, "figures", "results/figures", outputs.page, outputs.verdicts)

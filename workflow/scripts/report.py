@@ -32,6 +32,7 @@ def main(root, results, shown: dict, tables, config: dict, departures: list[str]
             collect(results, figure, folder)
     for table in tables:
         copy(table, folder / "data")
+    shutil.copytree(results.root / "api", folder / "api")
     pages = Pages(root, results, settings, config, shown, tables, departures)
     write(folder, root, pages, settings, f"Built from {version(root)}.")
 

@@ -21,9 +21,13 @@ UNREADABLE = OSError, ValueError, SyntaxError
 """What pandas, json and Pillow raise for files that are not what their names say."""
 
 
-def tolerances() -> dict:
-    """The table of limits and their reasons, see tolerances.yaml."""
-    return yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
+def tolerances(columns: dict) -> dict:
+    """The table of limits and their reasons, see tolerances.yaml, with how each column is compared.
+
+    columns: by table, see `data_dictionary.compared`.
+    """
+    limits = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
+    return limits | {"columns": columns}
 
 
 def figures_in(folder) -> set[str]:
@@ -100,11 +104,9 @@ def _artists(path):
 
 
 def rules_of(table: str, limits: dict) -> Rules:
-    """How the columns of a table are compared: those named for "<table>", or for "<table>, <series>"."""
-    columns, start = limits["columns"], f"{table}, "
-    series = {name.removeprefix(start): kinds for name, kinds in columns.items() if name.startswith(start)}
+    """How the columns of a table are compared."""
     measures = {kind: entry.get("measure", "largest") for kind, entry in limits["tables"].items()}
-    return Rules(columns.get(table, {}), series, measures)
+    return Rules(limits["columns"].get(table, {}), measures)
 
 
 def _compare_tables(verdict, name, old, new, limits):

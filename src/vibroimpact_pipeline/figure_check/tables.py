@@ -8,6 +8,8 @@ import pandas as pd
 
 FLOOR = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
+OTHERS = "others"
+"""Stands for the series that have no kind of their own."""
 SAME = 1e-6
 """Share of the axis: an outcome, or a value of a sample, that moves by less is the same."""
 
@@ -16,22 +18,25 @@ SAME = 1e-6
 class Rules:
     """How the columns of a table are compared.
 
-    columns: kind of each column that is compared; every other column of text names its row, and must be the same.
-    series: the same for series of their own. measures: for each kind one of MEASURES.
+    columns: kind of each column that is compared, or its kind in each series (OTHERS: in the rest); every other column
+    of text names its row, and must be the same. measures: for each kind one of MEASURES.
     """
 
-    columns: dict[str, str]
-    series: dict[str, dict[str, str]]
+    columns: dict[str, str | dict[str, str]]
     measures: dict[str, str]
 
     def of(self, part: pd.DataFrame, series) -> dict[str, str]:
         """Kind of each column that a series has, all others left blank."""
-        kinds = self.series.get(series, self.columns)
-        return {name: kind for name, kind in kinds.items() if name in part and _given(part[name]).any()}
+        kinds = {name: _kind(compared, series) for name, compared in self.columns.items()}
+        return {name: kind for name, kind in kinds.items() if kind and name in part and _given(part[name]).any()}
 
     def is_sample(self, part: pd.DataFrame, series) -> bool:
         """Whether a series is a sample, in which no row has its counterpart."""
         return {self.measures[kind] for kind in self.of(part, series).values()} == {"distribution"}
+
+
+def _kind(compared, series) -> str | None:
+    return compared if isinstance(compared, str) else compared.get(series, compared.get(OTHERS))
 
 
 @dataclass(frozen=True)

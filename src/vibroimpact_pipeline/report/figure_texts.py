@@ -24,9 +24,10 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
             heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
             if not as_in_the_chapter(config, figure, scene):
                 entry, heading = None, heading.replace(". ", " for other parameters. ")
-        entry = entry or texts[scene.get("notebook", "animation")]
-        known = scene | _parameters(config, scene)
-        texts[figure] = entry | {name: _filled(entry[name], known) for name in SAID}
+        entry = entry or texts[f"own_{scene.get('notebook', 'animation')}"]
+        known = scene | _parameters(config, scene) | {"figure": figure}
+        tables = {_filled(name, known): table for name, table in entry.get("tables", {}).items()}
+        texts[figure] = entry | {name: _filled(entry[name], known) for name in SAID} | {"tables": tables}
         texts[figure]["title"] = heading + texts[figure]["title"]
     return texts
 

@@ -6,11 +6,11 @@ import shutil
 
 import pytest
 
+from checking import LIMITS
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.figure_check import compare as figure_check
 from vibroimpact_pipeline.figure_check.accept import HEADING, accept, changed, main, summary
 
-LIMITS = figure_check.tolerances()
 DAY = datetime.date(2020, 2, 29)
 
 

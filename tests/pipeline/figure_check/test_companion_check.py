@@ -11,7 +11,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from checking import assert_caught, build
+from checking import LIMITS, assert_caught, build
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference.run import proven_run
@@ -25,7 +25,6 @@ from vibroimpact.figures.kit import tables
 from vibroimpact.system.state import NAMES
 from vibroimpact_pipeline.figure_check import compare as figure_check
 
-LIMITS = figure_check.tolerances()
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 2000}
 START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60

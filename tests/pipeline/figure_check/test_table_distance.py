@@ -12,7 +12,7 @@ RANDOM = np.random.default_rng(5)
 
 def apart(measure, old, new):
     """Distance of a column between tables of one series."""
-    rules = Rules({"value": "kind"}, {}, {"kind": measure})
+    rules = Rules({"value": "kind"}, {"kind": measure})
     old, new = (curve("a", "s", value=values) for values in (old, new))
     assert differences_in_structure(old, new, rules) == []
     (found,) = distances(old, new, rules)
@@ -47,10 +47,10 @@ def test_rows_that_differ_are_counted_whatever_their_distance():
 def test_outcomes_are_texts_that_may_differ_and_others_may_not():
     old = join([curve("a", "s", label=["one", "two", "two", "two"], value=np.arange(4.0))])
     new = old.assign(label=["one", "one", "two", "two"])
-    rules = Rules({"label": "outcome", "value": "x"}, {}, {"outcome": "part of rows", "x": "largest"})
+    rules = Rules({"label": "outcome", "value": "x"}, {"outcome": "part of rows", "x": "largest"})
     found = {entry.column: entry for entry in distances(old, new, rules)}
     assert (found["label"].distance, found["label"].reference, found["label"].new) == (0.25, "two", "one")
-    named = Rules({"value": "x"}, {}, {"x": "largest"})
+    named = Rules({"value": "x"}, {"x": "largest"})
     assert differences_in_structure(old, new, named) == [
         "a, s, one: 2 rows instead of 1",
         "a, s, two: 2 rows instead of 3",
@@ -84,7 +84,7 @@ def test_means_differ_in_units_of_their_standard_error():
 def test_a_series_has_rules_of_its_own():
     old = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.2, 0.4, 0.6])])
     new = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.3, 0.5])])
-    rules = Rules({"value": "x"}, {"dots": {"value": "sample"}}, {"x": "largest", "sample": "distribution"})
+    rules = Rules({"value": {"dots": "sample", "others": "x"}}, {"x": "largest", "sample": "distribution"})
     assert differences_in_structure(old, new, rules) == []
     assert {entry.kind: entry.distance == 0 for entry in distances(old, new, rules)} == {"x": True, "sample": False}
     gone = new[new["series"] == "line"]
@@ -93,4 +93,4 @@ def test_a_series_has_rules_of_its_own():
 
 def test_a_column_without_a_rule_is_named():
     table = curve("a", "s", value=[1.0], other=[2.0])
-    assert [entry.kind for entry in distances(table, table, Rules({"value": "x"}, {}, {"x": "largest"}))] == ["x", None]
+    assert [entry.kind for entry in distances(table, table, Rules({"value": "x"}, {"x": "largest"}))] == ["x", None]

@@ -1,0 +1,142 @@
+"""The data dictionary against the files of a build, both ways: all they hold is said, and nothing else."""
+
+import csv
+import json
+
+import pytest
+
+from checking import LIMITS
+from pipeline_trees import ROOT
+from vibroimpact_pipeline.data_dictionary import PAGE, compared, each, files, page, read, stands_for
+
+CARDS, DATA = read(ROOT)
+FILES = files(CARDS, DATA)
+PATHS = [(path, file) for file in FILES for path in file.paths if path not in file.on_demand]
+SEPARATORS = {".csv": ",", ".tsv": "\t"}
+
+
+@pytest.fixture(scope="module")
+def made(built):
+    """The data of a build: paths from the checkout."""
+    data = [path for path in (built / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
+    return {str(path.relative_to(built.path)): path for path in sorted(data)}
+
+
+def table(path) -> tuple[list[str], list[dict]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(file, delimiter=SEPARATORS[path.suffix])
+        return list(rows.fieldnames), list(rows)
+
+
+def test_the_page_says_what_its_sources_say():
+    said = (ROOT / PAGE).read_text(encoding="utf-8")
+    assert said == page(CARDS, DATA), "write it anew: python -m vibroimpact_pipeline.data_dictionary"
+
+
+def test_every_file_of_a_build_is_in_the_dictionary_once(made):
+    assert len(made) > 100
+    found = {name: sum(file.has(name) for file in FILES) for name in made}
+    assert {name: count for name, count in found.items() if count != 1} == {}
+
+
+@pytest.mark.parametrize("path", [path for path, _ in PATHS])
+def test_every_file_in_the_dictionary_is_one_of_a_build(made, path):
+    assert any(stands_for(path, name) for name in made)
+
+
+def test_every_column_is_in_the_dictionary_in_its_place_and_no_other(made):
+    columns = {name: table(path)[0] for name, path in made.items() if path.suffix in SEPARATORS}
+    said = {name: list(file.columns) for name in columns for file in FILES if file.has(name)}
+    assert len(columns) > 50
+    assert columns == said
+
+
+def test_columns_of_text_say_what_the_dictionary_lists(made):
+    listed, found = {}, {}
+    for name, path in made.items():
+        for file in FILES:
+            for column, entry in file.columns.items() if file.has(name) else ():
+                if entry.get("values"):
+                    key = file.paths[0], column
+                    listed[key] = {*entry["values"], ""}
+                    found.setdefault(key, set()).update(row[column] for row in table(path)[1])
+    assert {key: found[key] - listed[key] for key in listed if not found[key] <= listed[key]} == {}
+    assert len(listed) > 20
+
+
+def unit_of(values) -> str:
+    """Text, truth or numbers, as the values of a column are."""
+    if values <= {"True", "False"}:
+        return "true or false"
+    try:
+        [float(value) for value in values]
+    except ValueError:
+        return "text"
+    return "numbers"
+
+
+def test_a_column_holds_what_its_unit_says(made):
+    for name, path in made.items():
+        rows = table(path)[1] if path.suffix in SEPARATORS else []
+        (file,) = (file for file in FILES if file.has(name))
+        for column, entry in file.columns.items():
+            unit = entry["unit"] if entry["unit"] in ("text", "true or false") else "numbers"
+            values = {row[column] for row in rows} - {"", "-", "NA"}
+            assert not values or unit in ("text", unit_of(values)), (name, column)
+
+
+def test_every_column_has_a_meaning_and_a_unit_of_the_list():
+    for file in FILES:
+        for column, entry in file.columns.items():
+            assert entry["meaning"], (file.paths, column)
+            assert entry["unit"] in DATA["units"], (file.paths, column)
+
+
+def test_every_shared_name_and_unit_is_used():
+    shared, entries = each(DATA["shared"]), [item for file in FILES for item in file.columns.items()]
+    assert set(shared) == {name for name, entry in entries if entry["meaning"] == shared.get(name, {}).get("meaning")}
+    assert set(DATA["units"]) == {entry["unit"] for _, entry in entries}
+
+
+def at(node, path) -> list:
+    """What a path of keys leads to; * stands for every entry."""
+    nodes = [node]
+    for key in path:
+        nodes = [inner for outer in nodes for inner in entries(outer, key)]
+    return nodes
+
+
+def entries(node, key):
+    if key == "*":
+        return node if isinstance(node, list) else list(node.values())
+    return [node[key]] if key in node else []
+
+
+@pytest.mark.parametrize("file", [file for file in FILES if file.keys and not file.on_demand], ids=lambda f: f.paths[0])
+def test_every_key_is_in_the_dictionary_and_no_other(made, file):
+    data = [json.loads(path.read_text(encoding="utf-8")) for name, path in made.items() if file.has(name)]
+    paths = [tuple(key.split(".")) for key in file.keys]
+    for above in {path[:-1] for path in paths}:
+        found = {key for one in data for node in at(one, above) for key in node}
+        assert found == {path[-1] for path in paths if path[:-1] == above}
+
+
+def test_kinds_of_comparison_are_those_with_a_limit():
+    kinds = [kind for columns in LIMITS["columns"].values() for kind in columns.values()]
+    named = {name for kind in kinds for name in ([kind] if isinstance(kind, str) else kind.values())}
+    assert named == set(LIMITS["tables"])
+
+
+def test_series_with_a_kind_of_their_own_are_in_the_reference_set():
+    for name, columns in compared(CARDS).items():
+        series = {one for kind in columns.values() if isinstance(kind, dict) for one in kind} - {"others"}
+        rows = table(ROOT / f"figures/{name}.csv")[1] if series else []
+        assert series <= {row["series"] for row in rows}, name
+
+
+def test_a_name_in_braces_stands_for_one_word():
+    assert stands_for("results/orbits/{case}.csv", "results/orbits/equal.csv")
+    assert stands_for("results/map/{tile}.csv", "results/map/1-of-4.csv")
+    assert not stands_for("results/orbits/{case}.csv", "results/orbits/equal.search.csv")
+    assert not stands_for("results/{case}.csv", "results/orbits/equal.csv")
+    assert not stands_for("results/orbits.csv", "results/orbits_csv")
