@@ -58,9 +58,10 @@ def compared(cards: dict) -> dict[str, dict]:
 
 
 def files(cards: dict, data: dict) -> list[File]:
-    """All kinds of files, those of figures first."""
+    """All kinds of files, those of figures first; figures of one's own have the tables of those they are drawn like."""
     shared = each(data["shared"])
-    of_figures = [_file(name, table, shared) for card in cards for name, table in _tables(card, cards[card]).items()]
+    drawn = [card for card in cards if not card.startswith("own_")]
+    of_figures = [_file(name, table, shared) for card in drawn for name, table in _tables(card, cards[card]).items()]
     return of_figures + [_file("", entry, shared) for entry in data["files"]]
 
 
