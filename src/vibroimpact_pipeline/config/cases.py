@@ -37,9 +37,9 @@ class Simulation(Section):
         yield from beyond_walls(self.initial_state)
         window = {"window_cycles": self.window_cycles, "samples_per_cycle": self.samples_per_cycle}
         yield from above(("window_cycles",), SAMPLES, "samples", **window)
-        cycles = {"transient_cycles + window_cycles": self.transient_cycles + self.window_cycles}
+        cycles = {"cycles (transient_cycles + window_cycles)": self.transient_cycles + self.window_cycles}
         if self.digits is not None:
-            yield from above(("digits",), DIGIT_CYCLES, "digits x cycles", digits=self.digits, **cycles)
+            yield from above(("digits",), DIGIT_CYCLES, "digit-cycles", digits=self.digits, **cycles)
 
 
 class Case(Section):

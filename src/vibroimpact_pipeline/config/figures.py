@@ -105,5 +105,7 @@ class Figures(Section):
     fig10_11: Simulation = None
 
     def conditions(self):
+        if not self.model_fields_set:
+            yield Problem((), "is empty")
         if len(self.model_fields_set) > MOST:
-            yield Problem((), f"are {len(self.model_fields_set)}, above {MOST}")
+            yield Problem((), f"has {len(self.model_fields_set)} entries, more than {MOST}")

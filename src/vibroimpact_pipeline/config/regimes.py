@@ -95,8 +95,7 @@ class Branches(Section):
         finest = max(path.range[1] - path.range[0] for path in self.paths) / FINEST
         if self.longest_step < finest:
             yield Problem(("longest_step",), f"{self.longest_step} is below {finest:g}, a part in {FINEST} of a path")
-        directions = [tuple(path.along) for path in self.paths]
-        yield from (problem.below() for problem in repeated("paths", directions))
+        yield from repeated("paths", [" ".join(path.along) for path in self.paths])
 
     def sweeps(self):
         for number, path in enumerate(self.paths):
@@ -145,7 +144,7 @@ class Tori(Section):
 
     def conditions(self):
         values = max(len(path.values) for path in self.paths)
-        cycles = {"discarded + cycles": self.discarded + self.cycles}
+        cycles = {"cycles (discarded + cycles)": self.discarded + self.cycles}
         factors = {"paths": len(self.paths), "values": values, "sweeps": 2, **cycles}
         yield from above(("discarded",), CYCLES, "forcing cycles", **factors)
 
@@ -230,7 +229,7 @@ class EpsilonLimit(Section):
     fit_below: Annotated[float, Field(gt=0, le=10)] = Field(
         description="Orders are fitted to the values of epsilon below this, which takes two of them at least"
     )
-    mixed: Mixed
+    mixed: Mixed = Field(default=None, description="May be left out")
 
     def conditions(self):
         yield from repeated("epsilon", self.epsilon)
@@ -256,8 +255,8 @@ class Regimes(Section):
 
     def conditions(self):
         for place, starts, cycles, factors in self._jobs():
-            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles of a start": cycles})
-            held = {"starts at once": starts, "observation.cycles": self.observation.cycles}
+            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles (observation)": cycles})
+            held = {"starts at once": starts, "cycles (observation)": self.observation.cycles}
             yield from above(place, HELD, "forcing cycles in memory", **held)
 
     def _jobs(self):
@@ -267,12 +266,17 @@ class Regimes(Section):
         paths = len(self.branches.paths)
         yield ("branches", "attractors"), starts, longest, {"paths": paths, "values": values, "starts": starts}
         cells, starts = self.map.points**2, self.map.starts
-        yield ("map", "points"), starts, longest, {"points^2 / tiles": cells / self.map.tiles, "starts": starts}
+        yield (
+            ("map", "points"),
+            starts,
+            longest,
+            {"cells of a tile (points^2 / tiles)": cells / self.map.tiles, "starts": starts},
+        )
         cells, starts = self.confusion.points**2, self.confusion.starts
         again = longest + self.confusion.times * self.observation.cycles * self.observation.rounds
-        yield ("confusion", "points"), starts, again, {"points^2": cells, "starts": starts}
+        yield ("confusion", "points"), starts, again, {"cells (points^2)": cells, "starts": starts}
         starts = self.modulation.starts + 1
         again = longest + 2 * self.modulation.cycles + self.modulation.blocks * self.modulation.block
         yield ("modulation", "starts"), starts, again, {"starts": starts}
         starts = self.basins.points**2
-        yield ("basins", "points"), starts, longest, {"points^2": starts}
+        yield ("basins", "points"), starts, longest, {"starts (points^2)": starts}

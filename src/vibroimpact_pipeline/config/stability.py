@@ -45,7 +45,7 @@ class VerdictGrid(Section):
         for name in ("f10_range", "f20_range"):
             yield from not_ascending(name, getattr(self, name))
         yield from repeated("epsilon", self.epsilon)
-        factors = {"points^2": self.points**2, "values of epsilon": len(self.epsilon)}
+        factors = {"cells (points^2)": self.points**2, "values of epsilon": len(self.epsilon)}
         yield from above(("points",), ORBITS, "searches for orbits", **factors)
 
     def sweeps(self):
