@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from vibroimpact_pipeline.config.fields import WORDS
 from vibroimpact_pipeline.config.section import Place, Problem
-from vibroimpact_pipeline.config.text import show
+from vibroimpact_pipeline.config.text import limit, show
 
 MISSING = "missing"
 PHRASES = {
@@ -83,15 +83,8 @@ def _described(details) -> Problem:
         return Problem((), _length(len(value), **about))
     if kind not in PHRASES:
         return Problem((), details["msg"])
-    words = {"words": WORDS.get(about.get("pattern"))} | {name: _said(value) for name, value in about.items()}
+    words = {"words": WORDS.get(about.get("pattern"))} | {name: limit(value) for name, value in about.items()}
     return Problem((), PHRASES[kind].format(show(value), **words))
-
-
-def _said(about):
-    """A limit as it would be written; words as they are."""
-    if isinstance(about, float):
-        return show(int(about) if about.is_integer() else about)
-    return about
 
 
 def _variant(tag=None, expected_tags="", **_):

@@ -87,7 +87,9 @@ class Branches(Section):
 
     case: CaseName
     paths: Annotated[list[BranchPath], Field(min_length=1, max_length=4)]
-    longest_step: Annotated[float, Field(gt=0, le=1000)] = Field(description="Longest step along a branch")
+    longest_step: Annotated[float, Field(gt=0, le=1000)] = Field(
+        description=f"Longest step along a branch, at least a part in {FINEST} of every path"
+    )
     seeds: Annotated[int, Field(ge=1, le=100)] = Field(description="Values of a path at which branches are looked for")
     attractors: Attractors
 
@@ -168,7 +170,7 @@ class Map(Section):
     f10_range: ForceRange
     f20_range: ForceRange
     points: Points
-    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells")
+    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells; none may be empty")
     starts: Starts
     seed: Seed
 
@@ -229,7 +231,7 @@ class EpsilonLimit(Section):
     fit_below: Annotated[float, Field(gt=0, le=10)] = Field(
         description="Orders are fitted to the values of epsilon below this, which takes two of them at least"
     )
-    mixed: Mixed = Field(default=None, description="May be left out")
+    mixed: Mixed = None
 
     def conditions(self):
         yield from repeated("epsilon", self.epsilon)
@@ -242,7 +244,11 @@ class EpsilonLimit(Section):
 
 
 class Regimes(Section):
-    """What the exact system does beside its 1:1 responses."""
+    """What the exact system does beside its 1:1 responses.
+
+    No job may ask for more than 20 000 000 000 forcing cycles, if every start took as long as the observation lets it,
+    nor hold the events of more than 4 000 000 at once; a finer map takes more tiles.
+    """
 
     observation: Observation
     branches: Branches

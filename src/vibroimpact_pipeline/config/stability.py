@@ -36,7 +36,7 @@ class VerdictGrid(Section):
 
     f10_range: ForceRange
     f20_range: ForceRange
-    points: Points
+    points: Points = Field(description=f"Cells along each axis; with all epsilon at most {ORBITS} searches for orbits")
     epsilon: Annotated[list[Epsilon], Field(min_length=1, max_length=20)] = Field(
         description="Values at which the exact orbits are looked for"
     )

@@ -79,6 +79,13 @@ def show(value) -> str:
     return text.replace("e", ".0e") if plain else text
 
 
+def limit(value):
+    """A limit as it would be written; words as they are."""
+    if isinstance(value, float):
+        return show(int(value) if value.is_integer() else value)
+    return value
+
+
 def _line_and_column(mark):
     return f"line {mark.line + 1}, column {mark.column + 1}: "
 
