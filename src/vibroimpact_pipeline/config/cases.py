@@ -22,14 +22,16 @@ class Simulation(Section):
         description="Cycles before the window", json_schema_extra=unit("forcing periods")
     )
     window_cycles: Annotated[int, Field(ge=1, le=10_000)] = Field(
-        description="Cycles that are kept", json_schema_extra=unit("forcing periods")
+        description=f"Cycles that are kept; with all their samples at most {SAMPLES} rows",
+        json_schema_extra=unit("forcing periods"),
     )
     samples_per_cycle: Annotated[int, Field(ge=8, le=10_000, multiple_of=2)] = Field(
         description="Samples in a cycle, an even number: half a period later is a sample, too"
     )
     digits: Annotated[int, Field(ge=20, le=2000)] = Field(
         default=None,
-        description="Where it stands, the motion is carried with so many decimal digits, and proved by twice as many",
+        description="Where it stands, the motion is carried with so many decimal digits, and proved by twice as many; "
+        f"digits times cycles are at most {DIGIT_CYCLES}",
         json_schema_extra=unit("decimal digits"),
     )
 
@@ -37,9 +39,9 @@ class Simulation(Section):
         yield from beyond_walls(self.initial_state)
         window = {"window_cycles": self.window_cycles, "samples_per_cycle": self.samples_per_cycle}
         yield from above(("window_cycles",), SAMPLES, "samples", **window)
-        cycles = {"transient_cycles + window_cycles": self.transient_cycles + self.window_cycles}
+        cycles = {"cycles (transient_cycles + window_cycles)": self.transient_cycles + self.window_cycles}
         if self.digits is not None:
-            yield from above(("digits",), DIGIT_CYCLES, "digits x cycles", digits=self.digits, **cycles)
+            yield from above(("digits",), DIGIT_CYCLES, "digit-cycles", digits=self.digits, **cycles)
 
 
 class Case(Section):
@@ -50,5 +52,8 @@ class Case(Section):
     simulation: Simulation
 
 
-Cases = Annotated[dict[Name, Case], Field(min_length=1, max_length=7)]
+Cases = Annotated[
+    dict[Name, Case],
+    Field(min_length=1, max_length=7, description="Excitation amplitudes, and how the motion is integrated"),
+]
 """At most seven, since companions letter their panels, one for each case and one more, from a to h."""

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from pydantic import ValidationError
 
-from vibroimpact_pipeline.config.labels import Labels, labels, unknown_fixed_points
+from vibroimpact_pipeline.config.labels import Labels, labels, without_fixed_points
 from vibroimpact_pipeline.config.messages import problems_of
 from vibroimpact_pipeline.config.model import Config
 from vibroimpact_pipeline.config.schema import keys_at
@@ -21,7 +21,7 @@ def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:
     names once all else is right.
     """
     try:
-        found = unknown_fixed_points(Config.model_validate(config), labels)
+        found = without_fixed_points(Config.model_validate(config), labels)
     except ValidationError as error:
         found = problems_of(error, config, keys_at)
     return sorted((written(place), what) for place, what in found)

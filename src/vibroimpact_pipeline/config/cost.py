@@ -15,5 +15,5 @@ def above(place: Place, limit: float, what: str, **factors: float) -> list[Probl
     asked = prod(factors.values())
     if asked <= limit:
         return []
-    product = " x ".join(f"{name} {value:.6g}" for name, value in factors.items())
-    return [Problem(place, f"{product} = {asked:.2g} {what}, above {limit:.2g}")]
+    product = " x ".join(f"{value:.6g} {name}" for name, value in factors.items())
+    return [Problem(place, f"{product} = {asked:.3g} {what}, above {limit:.3g}")]

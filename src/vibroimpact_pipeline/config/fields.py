@@ -5,7 +5,6 @@ from typing import Annotated
 
 from pydantic import Field, Strict
 
-from vibroimpact.system.state import NAMES
 from vibroimpact_pipeline.config.section import Problem, Section, Sweep
 
 
@@ -63,7 +62,11 @@ Seed = Annotated[int, Field(ge=0, le=2**32 - 1, description="Scrambles the start
 Displacement = Annotated[float, Field(ge=-1000, le=1000)]
 State = Annotated[
     list[Displacement],
-    Field(min_length=8, max_length=8, description=f"Start [{', '.join(NAMES)}]; the balls between their walls"),
+    Field(
+        min_length=8,
+        max_length=8,
+        description="Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls",
+    ),
 ]
 
 

@@ -12,19 +12,21 @@ from vibroimpact_pipeline.config.section import Problem, Section
 
 MOST = 100
 """Figures of a build, a job each."""
+NOTEBOOK = Field(description="Its notebook explains and draws it")
+MODEL = Field(description="What it is computed with, and nothing dearer")
 
 
 class Drawing(Section):
     """A drawing to scale."""
 
-    notebook: Literal["drawings"]
+    notebook: Literal["drawings"] = NOTEBOOK
 
 
 class Sawtooth(Section):
     """Figure 10.3."""
 
-    notebook: Literal["closed_form"]
-    model: Literal["closed_form"]
+    notebook: Literal["closed_form"] = NOTEBOOK
+    model: Literal["closed_form"] = MODEL
     amplitude: Annotated[float, Field(ge=1e-3, le=1000)] = Field(description="C of the saw-tooth")
     theta: Annotated[float, Field(ge=-100, le=100)] = Field(
         description="Phase of the impacts", json_schema_extra=unit("rad")
@@ -37,8 +39,8 @@ class Sawtooth(Section):
 class Manifold(Section):
     """Figure 10.4."""
 
-    notebook: Literal["closed_form"]
-    model: Literal["closed_form"]
+    notebook: Literal["closed_form"] = NOTEBOOK
+    model: Literal["closed_form"] = MODEL
     parameters: Annotated[list[Literal["kappa"]], Field(min_length=1, max_length=1)] = Field(
         description="System parameters that the figure depends on"
     )
@@ -48,16 +50,16 @@ class Manifold(Section):
 class Regions(Section):
     """Figure 10.5."""
 
-    notebook: Literal["closed_form"]
-    model: Literal["closed_form"]
+    notebook: Literal["closed_form"] = NOTEBOOK
+    model: Literal["closed_form"] = MODEL
     C_range: CRange
 
 
 class FixedPoints(Section):
     """Fixed points and singular points of a case on the slow invariant manifold, as in figures 10.6 and 10.9."""
 
-    notebook: Literal["fixed_points"]
-    model: Literal["slow_flow"]
+    notebook: Literal["fixed_points"] = NOTEBOOK
+    model: Literal["slow_flow"] = MODEL
     case: CaseName
     C_max: Planes
 
@@ -65,8 +67,8 @@ class FixedPoints(Section):
 class Response(Section):
     """The theoretical response of a fixed point, as in figures 10.7 and, with the planes, 10.10."""
 
-    notebook: Literal["theoretical_response"]
-    model: Literal["slow_flow"]
+    notebook: Literal["theoretical_response"] = NOTEBOOK
+    model: Literal["slow_flow"] = MODEL
     case: CaseName
     fixed_point: Label
     periods: Annotated[float, Field(ge=0.5, le=100)] = Field(
@@ -75,15 +77,15 @@ class Response(Section):
     C_max: Planes = Field(default=None, description="Right ends of the planes; without them the response stands alone")
 
 
-class Simulation(Section):
+class SimulatedMotion(Section):
     """The second module's motion as the direct integration of a case has it, as in figures 10.8 and 10.11."""
 
-    notebook: Literal["simulation"]
-    model: Literal["simulation"]
+    notebook: Literal["simulation"] = NOTEBOOK
+    model: Literal["simulation"] = MODEL
     case: CaseName
 
 
-OwnFigure = Annotated[FixedPoints | Response | Simulation, Field(discriminator="notebook")]
+OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion, Field(discriminator="notebook")]
 
 
 class Figures(Section):
@@ -99,11 +101,13 @@ class Figures(Section):
     fig10_05: Regions = None
     fig10_06: FixedPoints = None
     fig10_07: Response = None
-    fig10_08: Simulation = None
+    fig10_08: SimulatedMotion = None
     fig10_09: FixedPoints = None
     fig10_10: Response = None
-    fig10_11: Simulation = None
+    fig10_11: SimulatedMotion = None
 
     def conditions(self):
+        if not self.model_fields_set:
+            yield Problem((), "is empty")
         if len(self.model_fields_set) > MOST:
-            yield Problem((), f"are {len(self.model_fields_set)}, above {MOST}")
+            yield Problem((), f"has {len(self.model_fields_set)} entries, more than {MOST}")

@@ -41,13 +41,18 @@ def remembered(path, version: str) -> Labels:
     return remember
 
 
-def unknown_fixed_points(config, labels: Labels) -> Iterator[Problem]:
-    """Labels in the config under which its case has no fixed point."""
+def without_fixed_points(config, labels: Labels) -> Iterator[Problem]:
+    """Cases that cannot be solved, and labels under which a case has no fixed point."""
+    known = {}
+    for case in config.cases:
+        try:
+            known[case] = labels(config.parameters(case))
+        except ArithmeticError as error:
+            yield Problem(("cases", case), f"its fixed points cannot be found: {error}")
     for place, label in marked(config, OfFixedPoint):
         case = _beside(config, place, "case")
-        known = labels(config.parameters(case))
-        if label not in known:
-            has = f"it has {', '.join(known)}" if known else "it has none"
+        if label not in known.get(case, label):
+            has = f"it has {', '.join(known[case])}" if known[case] else "it has none"
             yield Problem(place, f"the case {case} has no fixed point {label!r}: {has}")
 
 

@@ -2,27 +2,26 @@
 
 import difflib
 import math
+import re
 from collections.abc import Callable
 
 from pydantic import ValidationError
 
 from vibroimpact_pipeline.config.fields import WORDS
 from vibroimpact_pipeline.config.section import Place, Problem
-from vibroimpact_pipeline.config.text import show
+from vibroimpact_pipeline.config.text import limit, show
 
 MISSING = "missing"
 PHRASES = {
-    "greater_than": "{} is not above {gt:.15g}",
-    "greater_than_equal": "{} is below {ge:.15g}",
-    "less_than": "{} is not below {lt:.15g}",
-    "less_than_equal": "{} is above {le:.15g}",
-    "multiple_of": "{} is not a multiple of {multiple_of:.15g}",
+    "greater_than": "{} is not above {gt}",
+    "greater_than_equal": "{} is below {ge}",
+    "less_than": "{} is not below {lt}",
+    "less_than_equal": "{} is above {le}",
+    "multiple_of": "{} is not a multiple of {multiple_of}",
     "finite_number": "{} is not finite",
-    "literal_error": "{} is not {expected}",
     "string_pattern_mismatch": "{} is not {words}",
-    "too_short": "has {actual_length} entries, fewer than {min_length}",
-    "too_long": "has {actual_length} entries, more than {max_length}",
     "missing": MISSING,
+    "invalid_key": "{} is not text",
     "condition": "{what}",
 }
 KINDS = {
@@ -48,8 +47,9 @@ def problems_of(error: ValidationError, given, known: Callable = lambda place: (
         place = _place(details["loc"], given)
         if details["type"] == "extra_forbidden":
             *section, key = place
-            misspelt.add((*section, nearest(key, known(section))))
-            found[place] = f"unknown key{hint(key, known(section))}"
+            meant = nearest(key, known(section))
+            misspelt.add((*section, meant))
+            found[place] = f"unknown key{_question(meant)}"
         else:
             more, what = _described(details)
             found[(*place, *more)] = what
@@ -63,7 +63,10 @@ def nearest(name, known) -> str | None:
 
 def hint(name, known) -> str:
     """A question whether something known was meant."""
-    meant = nearest(name, known)
+    return _question(nearest(name, known))
+
+
+def _question(meant):
     return f", did you mean '{meant}'?" if meant else ""
 
 
@@ -72,26 +75,53 @@ def _described(details) -> Problem:
     kind, value, about = details["type"], details["input"], details.get("ctx", {})
     if kind in KINDS:
         return Problem((), f"{show(value)} is {_not(KINDS[kind], value)}")
-    if kind == "union_tag_not_found":
-        return Problem((about["discriminator"].strip("'"),), MISSING)
-    if kind == "union_tag_invalid":
-        return Problem((about["discriminator"].strip("'"),), f"{show(about['tag'])} is not {about['expected_tags']}")
-    if kind in ("too_short", "too_long") and not about["actual_length"]:
-        return Problem((), "is empty")
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        return Problem((about["discriminator"].strip("'"),), _variant(**about))
+    if kind == "literal_error":
+        return Problem((), f"{show(value)} is not {_either(about['expected'], value)}")
+    if kind in ("too_short", "too_long"):
+        return Problem((), _length(len(value), **about))
     if kind not in PHRASES:
         return Problem((), details["msg"])
-    return Problem((), PHRASES[kind].format(show(value), words=WORDS.get(about.get("pattern")), **about))
+    words = {"words": WORDS.get(about.get("pattern"))} | {name: limit(value) for name, value in about.items()}
+    return Problem((), PHRASES[kind].format(show(value), **words))
+
+
+def _variant(tag=None, expected_tags="", **_):
+    return MISSING if tag is None else f"{show(tag)} is not {_either(expected_tags, tag)}"
+
+
+def _either(expected, given):
+    """The names in a list that Pydantic writes."""
+    names = re.findall(r"'([^']+)'", expected)
+    *others, last = map(repr, names)
+    return f"{', '.join(others)} or {last}{hint(given, names)}" if others else last
+
+
+def _length(length, min_length=None, max_length=None, **_):
+    if not length:
+        return "is empty"
+    has = f"has {length} {'entry' if length == 1 else 'entries'}"
+    return f"{has}, more than {max_length}" if max_length is not None else f"{has}, fewer than {min_length}"
 
 
 def _not(kind, value):
     """That a value is not of a kind, and how to write it if it is a number that YAML takes for text."""
     if kind == "a number" and isinstance(value, int) and not isinstance(value, bool):
         return "too large"
+    return f"not {kind}{_as_number(kind, value)}"
+
+
+def _as_number(kind, value):
+    """How to write a number that YAML takes for text."""
     try:
         number = float(value) if isinstance(value, str) else math.nan
     except ValueError:
         number = math.nan
-    return f"not {kind} (write {number!r})" if math.isfinite(number) and "number" in kind else f"not {kind}"
+    if kind == "a number" and math.isfinite(number):
+        return f" (write {show(number)})"
+    whole = number.is_integer() and abs(number) < 1e15
+    return f" (write {int(number)})" if kind == "a whole number" and whole else ""
 
 
 def _place(loc, given) -> Place:

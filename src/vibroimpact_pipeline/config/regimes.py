@@ -87,7 +87,9 @@ class Branches(Section):
 
     case: CaseName
     paths: Annotated[list[BranchPath], Field(min_length=1, max_length=4)]
-    longest_step: Annotated[float, Field(gt=0, le=1000)] = Field(description="Longest step along a branch")
+    longest_step: Annotated[float, Field(gt=0, le=1000)] = Field(
+        description=f"Longest step along a branch, at least a part in {FINEST} of every path"
+    )
     seeds: Annotated[int, Field(ge=1, le=100)] = Field(description="Values of a path at which branches are looked for")
     attractors: Attractors
 
@@ -95,8 +97,7 @@ class Branches(Section):
         finest = max(path.range[1] - path.range[0] for path in self.paths) / FINEST
         if self.longest_step < finest:
             yield Problem(("longest_step",), f"{self.longest_step} is below {finest:g}, a part in {FINEST} of a path")
-        directions = [tuple(path.along) for path in self.paths]
-        yield from (problem.below() for problem in repeated("paths", directions))
+        yield from repeated("paths", [" ".join(path.along) for path in self.paths])
 
     def sweeps(self):
         for number, path in enumerate(self.paths):
@@ -145,7 +146,7 @@ class Tori(Section):
 
     def conditions(self):
         values = max(len(path.values) for path in self.paths)
-        cycles = {"discarded + cycles": self.discarded + self.cycles}
+        cycles = {"cycles (discarded + cycles)": self.discarded + self.cycles}
         factors = {"paths": len(self.paths), "values": values, "sweeps": 2, **cycles}
         yield from above(("discarded",), CYCLES, "forcing cycles", **factors)
 
@@ -169,7 +170,7 @@ class Map(Section):
     f10_range: ForceRange
     f20_range: ForceRange
     points: Points
-    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells")
+    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells; none may be empty")
     starts: Starts
     seed: Seed
 
@@ -230,7 +231,7 @@ class EpsilonLimit(Section):
     fit_below: Annotated[float, Field(gt=0, le=10)] = Field(
         description="Orders are fitted to the values of epsilon below this, which takes two of them at least"
     )
-    mixed: Mixed
+    mixed: Mixed = None
 
     def conditions(self):
         yield from repeated("epsilon", self.epsilon)
@@ -243,7 +244,11 @@ class EpsilonLimit(Section):
 
 
 class Regimes(Section):
-    """What the exact system does beside its 1:1 responses."""
+    """What the exact system does beside its 1:1 responses.
+
+    No job may ask for more than 20 000 000 000 forcing cycles, if every start took as long as the observation lets it,
+    nor hold the events of more than 4 000 000 at once; a finer map takes more tiles.
+    """
 
     observation: Observation
     branches: Branches
@@ -256,8 +261,8 @@ class Regimes(Section):
 
     def conditions(self):
         for place, starts, cycles, factors in self._jobs():
-            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles of a start": cycles})
-            held = {"starts at once": starts, "observation.cycles": self.observation.cycles}
+            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles (observation)": cycles})
+            held = {"starts at once": starts, "cycles (observation)": self.observation.cycles}
             yield from above(place, HELD, "forcing cycles in memory", **held)
 
     def _jobs(self):
@@ -267,12 +272,17 @@ class Regimes(Section):
         paths = len(self.branches.paths)
         yield ("branches", "attractors"), starts, longest, {"paths": paths, "values": values, "starts": starts}
         cells, starts = self.map.points**2, self.map.starts
-        yield ("map", "points"), starts, longest, {"points^2 / tiles": cells / self.map.tiles, "starts": starts}
+        yield (
+            ("map", "points"),
+            starts,
+            longest,
+            {"cells of a tile (points^2 / tiles)": cells / self.map.tiles, "starts": starts},
+        )
         cells, starts = self.confusion.points**2, self.confusion.starts
         again = longest + self.confusion.times * self.observation.cycles * self.observation.rounds
-        yield ("confusion", "points"), starts, again, {"points^2": cells, "starts": starts}
+        yield ("confusion", "points"), starts, again, {"cells (points^2)": cells, "starts": starts}
         starts = self.modulation.starts + 1
         again = longest + 2 * self.modulation.cycles + self.modulation.blocks * self.modulation.block
         yield ("modulation", "starts"), starts, again, {"starts": starts}
         starts = self.basins.points**2
-        yield ("basins", "points"), starts, longest, {"points^2": starts}
+        yield ("basins", "points"), starts, longest, {"starts (points^2)": starts}

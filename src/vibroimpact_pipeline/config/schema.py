@@ -31,5 +31,12 @@ def keys_at(place) -> set[str]:
 
 
 def _below(node, part):
-    child = node.get("properties", {}).get(part) or node.get("items") or node.get("additionalProperties")
-    return [child] if isinstance(child, dict) else []
+    if part in node.get("properties", {}):
+        return [node["properties"][part]]
+    return entries(node)
+
+
+def entries(node: dict) -> list[dict]:
+    """What the entries of a list or of a mapping with free names look like."""
+    child = node.get("items") or node.get("additionalProperties")
+    return [child] if isinstance(child, dict) else [*node.get("patternProperties", {}).values()]

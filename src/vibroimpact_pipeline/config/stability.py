@@ -36,7 +36,7 @@ class VerdictGrid(Section):
 
     f10_range: ForceRange
     f20_range: ForceRange
-    points: Points
+    points: Points = Field(description=f"Cells along each axis; with all epsilon at most {ORBITS} searches for orbits")
     epsilon: Annotated[list[Epsilon], Field(min_length=1, max_length=20)] = Field(
         description="Values at which the exact orbits are looked for"
     )
@@ -45,7 +45,7 @@ class VerdictGrid(Section):
         for name in ("f10_range", "f20_range"):
             yield from not_ascending(name, getattr(self, name))
         yield from repeated("epsilon", self.epsilon)
-        factors = {"points^2": self.points**2, "values of epsilon": len(self.epsilon)}
+        factors = {"cells (points^2)": self.points**2, "values of epsilon": len(self.epsilon)}
         yield from above(("points",), ORBITS, "searches for orbits", **factors)
 
     def sweeps(self):

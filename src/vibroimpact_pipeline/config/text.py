@@ -21,6 +21,8 @@ PLAIN = {
 }
 """Kinds of values, and how those are written that YAML 1.1 knows under other spellings as well: 0100 is 64 there, 1:30
 is 90, `yes` is true, which later versions and most readers take for something else."""
+FORMS = {"seq": "sequence", "map": "mapping"}
+"""What stands in the text for a value that is not a single word or number."""
 
 _REPR = reprlib.Repr()
 _REPR.maxstring = _REPR.maxother = 60
@@ -69,8 +71,19 @@ def parse_value(text: str):
 
 
 def show(value) -> str:
-    """A value in an error message, on one line and not long."""
-    return "nothing" if value is None else _REPR.repr(value)
+    """A value in an error message, on one line and not long; a number as it would be written in the config."""
+    if value is None:
+        return "nothing"
+    text = _REPR.repr(value)
+    plain = isinstance(value, float) and "e" in text and "." not in text
+    return text.replace("e", ".0e") if plain else text
+
+
+def limit(value):
+    """A limit as it would be written; words as they are."""
+    if isinstance(value, float):
+        return show(int(value) if value.is_integer() else value)
+    return value
 
 
 def _line_and_column(mark):
@@ -109,9 +122,11 @@ class _Loader(yaml.SafeLoader):
         kind = node.tag.removeprefix("tag:yaml.org,2002:")
         if kind not in PLAIN:
             _refuse(node, f"{_text(node)} is of the kind {kind}; a config holds numbers, text, lists and mappings")
+        if node.id != FORMS.get(kind, "scalar"):
+            _refuse(node, f"{_text(node)} cannot be read as {kind}")
         try:
             value = super().construct_object(node, deep)
-        except ValueError:
+        except (ValueError, LookupError):
             _refuse(node, f"{_text(node)} cannot be read as {kind}")
         if PLAIN[kind] and not re.fullmatch(PLAIN[kind], node.value):
             _refuse(node, f"{_text(node)} means {show(value)} in YAML: write that, or '{node.value}' for the text")
@@ -121,7 +136,7 @@ class _Loader(yaml.SafeLoader):
         seen = set()
         for key, _ in node.value:
             if key.tag != "tag:yaml.org,2002:str":
-                _refuse(key, f"the key {_text(key)} is not text")
+                _refuse(key, f"{_text(key)} is not text, as a key has to be")
             if key.value in seen:
                 _refuse(key, f"key {key.value!r} given twice")
             seen.add(key.value)
@@ -133,4 +148,6 @@ def _refuse(node, problem):
 
 
 def _text(node):
-    return show(node.value) if isinstance(node, yaml.ScalarNode) else f"of a {node.id}"
+    if not isinstance(node, yaml.ScalarNode):
+        return f"a {node.id}"
+    return node.value if re.fullmatch(r"[\w.:+-]{1,60}", node.value) else show(node.value)

@@ -24,13 +24,13 @@ LOOKS = tuple(product(("white", GREY), "osD^vP*X"))
 _STEP = 2e-4
 
 
-def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict) -> dict:
+def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
     """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
 
     Args:
         systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
         fit_below: the orders are fitted where epsilon is below this.
-        mixed: `case` and `label` of the point whose multipliers are shown one by one and no order is fitted to.
+        mixed: `case` and `label` of a point whose multipliers are shown one by one and no order is fitted to.
 
     Returns "csv": columns panel (one of PANELS; "two terms": as "distance", the term of first order added to the fixed
     point; or "mixed"), series ("case, label"; in "mixed" "exact", "slow flow", "impact map" with the number of the
