@@ -53,9 +53,13 @@ def problems(config: dict, schema: dict) -> list[tuple[str, str]]:
     return _against_schema(config, schema) or _across_fields(config)
 
 
-def complaints(found: list[tuple[str, str]], source: str, overrides: dict) -> list[str]:
-    """One line per problem, with the place to mend it: the file `source`, or the command line for an override."""
-    return [f"{'--config' if _holds(overrides, path) else source}: {path}: {what}" for path, what in found]
+def complaints(found: list[tuple[str, str]], origins: dict[str, dict]) -> list[str]:
+    """One line per problem, with the place to mend it: the last of the origins that has the key, or the first of all.
+
+    Args:
+        origins: entries of the config by the name of what sets them; a later one overrides.
+    """
+    return [f"{_origin(path, origins)}: {path}: {what}" for path, what in found]
 
 
 class _UniqueKeys(yaml.SafeLoader):
@@ -206,9 +210,13 @@ def _numbers(value, path=""):
             yield from _numbers(item, f"{path}[{index}]")
 
 
-def _holds(overrides, path):
+def _origin(path, origins):
+    return next((name for name in reversed(origins) if _holds(origins[name], path)), next(iter(origins)))
+
+
+def _holds(entries, path):
     for key in path.split("[")[0].split("."):
-        if not isinstance(overrides, dict) or key not in overrides:
+        if not isinstance(entries, dict) or key not in entries:
             return False
-        overrides = overrides[key]
+        entries = entries[key]
     return True

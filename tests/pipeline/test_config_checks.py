@@ -164,10 +164,13 @@ def test_text_that_is_no_config_is_refused_with_its_place(text, message):
 
 def test_a_complaint_names_the_place_to_mend():
     found = [("system.kappa", "wrong"), ("cases.weak.simulation.initial_state[3]", "wrong")]
-    overrides = {"cases": {"weak": {"simulation": {"initial_state": REST}}}}
-    assert complaints(found, "config/config.yaml", overrides) == [
-        "config/config.yaml: system.kappa: wrong",
+    found.append(("system.epsilon", "missing"))
+    start = {"cases": {"weak": {"simulation": {"initial_state": REST}}}}
+    origins = {"config/config.yaml": start, "try.yaml": {"system": {"kappa": 2}} | start, "--config": start}
+    assert complaints(found, origins) == [
+        "try.yaml: system.kappa: wrong",
         "--config: cases.weak.simulation.initial_state[3]: wrong",
+        "config/config.yaml: system.epsilon: missing",
     ]
 
 

@@ -2,7 +2,7 @@
 
 from vibroimpact.system.chapter import CASES, PARAMETERS
 
-CLAIMS = "docs/claims.yaml"
+CLAIMS = own("docs/claims.yaml")
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
 

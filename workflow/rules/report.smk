@@ -65,14 +65,13 @@ rule report:
         rules.accuracy.input,
         rules.travel.output,
         [path for name in REPORT_SETTINGS["animations"] for path in getattr(rules, name).output],
-        REPORT_TABLES,
-        [page["source"] for page in REPORT_SETTINGS["pages"]],
-        sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
+        [own(page["source"]) for page in REPORT_SETTINGS["pages"]],
+        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),
+        tables=REPORT_TABLES,
     output:
         directory("results/report"),
     params:
         shown=REPORT_SHOWS,
-        tables=REPORT_TABLES,
         config={name: config[name] for name in ("system", "cases")},
         code=code("workflow/scripts/report.py"),
     log:

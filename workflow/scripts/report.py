@@ -6,6 +6,7 @@ from pathlib import Path
 import yaml
 
 from job_log import logging_to
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.report.pages import Pages
 from vibroimpact_pipeline.report.results import Results
@@ -57,5 +58,5 @@ def version(root) -> str:
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        given = snakemake.params
-        main(".", "results", given.shown, given.tables, given.config, snakemake.output[0])
+        given, folder = snakemake.params, Path(snakemake.output[0])
+        main(root_of(snakemake), folder.parent, given.shown, snakemake.input.tables, given.config, folder)
