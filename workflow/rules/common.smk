@@ -19,7 +19,7 @@ prepare(ROOT, SOURCES)
 def config_origins():
     """What sets entries of the config, by the name under which to complain about it; a later one overrides."""
     given = workflow.config_settings
-    files = [CONFIG_FILE, *map(str, given.configfiles)][given.replace_workflow_config :]
+    files = [CONFIG_FILE, *map(os.path.normpath, given.configfiles)][given.replace_workflow_config :]
     if IS_MODULE:
         return {CONFIG_FILE: entries_of(CONFIG_FILE), f"config of module {__name__}": config_checks.typed(config)}
     return {file: entries_of(file) for file in files} | {"--config": config_checks.typed(dict(given.config))}
