@@ -22,7 +22,8 @@ rule compare_figures:
         "../scripts/compare_figures.py"
 
 
-# Has no output, so that it judges anew each time: the page stays to be read where it fails.
+# Has no output, so that it judges anew each time: the page stays to be read where it fails. No log either: what it says
+# is for who has asked.
 rule figure_check:
     input:
         rules.compare_figures.output.verdicts,

@@ -38,9 +38,9 @@ def one_build_at_a_time():
 
 if not ROOT.is_dir():
     refuse([f"{ROOT}: the pipeline reads notebooks and documents beside its rules; clone it and use it from the disk"])
-if not os.environ.get("PYTHONPATH"):
+if not os.getenv("PYTHONPATH"):
     # The library beside these rules, whichever one is installed.
-    os.environ["PYTHONPATH"] = LIBRARY
+    os.environ.update(PYTHONPATH=LIBRARY)
     sys.path.insert(0, LIBRARY)
 if workflow.is_main_process:
     BUILD_LOCK = one_build_at_a_time()
