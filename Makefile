@@ -3,6 +3,7 @@ CORES ?= 2
 RUNS ?= 20000
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
+export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 
 .PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock clean set-up
 .DEFAULT_GOAL := help
@@ -37,6 +38,7 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/lint-imports
+	.venv/bin/snakefmt --check Snakefile workflow
 	.venv/bin/pytest --numprocesses 2 --dist worksteal
 
 explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
@@ -46,7 +48,7 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 
 lock:  ## pin every package anew into environment.lock (needs uv)
 	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
-		--no-header --no-emit-find-links --no-emit-index-url pyproject.toml -o environment.lock
+		--no-header --no-emit-find-links --no-emit-index-url --cache-dir .cache/uv pyproject.toml -o environment.lock
 
 clean:  ## delete results and caches, keep the environment
 	rm -rf results .snakemake .cache .pytest_cache .ruff_cache .import_linter_cache

@@ -31,10 +31,12 @@ if [[ -f .venv/.complete && "$(cat .venv/.complete)" == "$stamp" ]]; then
 fi
 
 echo "Setting up .venv with $("$python" --version) from environment.lock (once, some minutes) ..."
-export PIP_DISABLE_PIP_VERSION_CHECK=1
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
 "$python" -m venv --clear .venv
 .venv/bin/python -m pip install --quiet --require-hashes --no-deps -r environment.lock
 .venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .
+# A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
+echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
 .venv/bin/python -m pip check
 echo "Compiling the simulation engine (once, under a minute) ..."
 env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py

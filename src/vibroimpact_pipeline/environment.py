@@ -1,25 +1,41 @@
 """The surroundings of the pipeline: the same for every command, and nothing from the user's own settings."""
 
 import os
+import shutil
 from pathlib import Path
 
 from vibroimpact_pipeline.sources import Sources
 
+CACHES = {"MPLCONFIGDIR": "matplotlib", "IPYTHONDIR": "ipython", "HEYOKA_CACHE_DIR": "heyoka"}
+"""Folders of `.cache` by the variable that names each to its library; by default they lie in the home directory."""
+
 
 def prepare(root: Path, sources: Sources) -> None:
-    """Set the environment of this process and of all that it starts; every cache lies in the checkout at `root`.
+    """Set the environment of this process and of all that it starts.
 
+    Every cache lies in the checkout at `root`, or in the working directory where the checkout cannot be written to.
     Compiled code is kept apart by the content of its sources, since Numba itself looks at one file at a time and
     would go on using a function whose callee in another file has changed.
     """
-    cache = root / ".cache"
+    own = root / ".cache"
+    cache = own if os.access(root, os.W_OK) else Path.cwd() / ".cache"
+    compiled = f"numba/{sources.compiled()}"
+    if cache != own:
+        _hand_on(own / compiled, cache / compiled)
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    os.environ.setdefault("NUMBA_CACHE_DIR", str(cache / "numba" / sources.compiled()))
+    os.environ.setdefault("NUMBA_CACHE_DIR", str(cache / compiled))
     os.environ |= {
         "OMP_NUM_THREADS": "1",  # Snakemake fills the cores with jobs
-        "MPLCONFIGDIR": str(cache / "matplotlib"),
-        "IPYTHONDIR": str(cache / "ipython"),
         "JUPYTER_PREFER_ENV_PATH": "1",
+        **{variable: str(cache / folder) for variable, folder in CACHES.items()},
     }
-    for name in ("MPLCONFIGDIR", "IPYTHONDIR"):
-        Path(os.environ[name]).mkdir(parents=True, exist_ok=True)
+    for variable in CACHES:
+        Path(os.environ[variable]).mkdir(parents=True, exist_ok=True)
+
+
+def _hand_on(compiled: Path, target: Path) -> None:
+    """Copy compiled code, unless it is there already; an interrupted copy is not taken for one."""
+    if compiled.is_dir() and not target.exists():
+        partial = target.with_name(f"{target.name}.{os.getpid()}.partial")
+        shutil.copytree(compiled, partial)
+        partial.rename(target)

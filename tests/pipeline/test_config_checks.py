@@ -79,15 +79,18 @@ def test_a_path_may_lead_along_every_parameter():
 
 def test_a_complaint_names_the_place_to_mend():
     found = [("system.kappa", "wrong"), ("cases.weak.simulation.initial_state[3]", "wrong")]
-    overrides = {"cases": {"weak": {"simulation": {"initial_state": REST}}}}
-    assert complaints(found, "config/config.yaml", overrides) == [
-        "config/config.yaml: system.kappa: wrong",
+    found.append(("system.epsilon", "missing"))
+    start = {"cases": {"weak": {"simulation": {"initial_state": REST}}}}
+    origins = {"config/config.yaml": start, "try.yaml": {"system": {"kappa": 2}} | start, "--config": start}
+    assert complaints(found, origins) == [
+        "try.yaml: system.kappa: wrong",
         "--config: cases.weak.simulation.initial_state[3]: wrong",
+        "config/config.yaml: system.epsilon: missing",
     ]
 
 
 def test_no_more_complaints_are_shown_than_can_be_read():
-    lines = complaints([("system.kappa", "wrong")] * (MOST + 5), "config/config.yaml", {})
+    lines = complaints([("system.kappa", "wrong")] * (MOST + 5), {"config/config.yaml": {}})
     assert len(lines) == MOST + 1
     assert lines[-1] == "... and 5 more"
 

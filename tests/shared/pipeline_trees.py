@@ -35,12 +35,13 @@ class Tree:
     def __truediv__(self, name):
         return self.path / name
 
-    def snakemake(self, *arguments, check=True, **environment) -> str:
-        """Output of one Snakemake call."""
+    def snakemake(self, *arguments, check=True, prefix=(), **environment) -> str:
+        """Output of one Snakemake call, started by the command `prefix`; a variable that is None is not set."""
+        settings = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
         run = subprocess.run(
-            [*SNAKEMAKE, *arguments],
+            [*prefix, *SNAKEMAKE, *arguments],
             cwd=self.path,
-            env={**os.environ, **environment},
+            env=settings,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

@@ -1,6 +1,8 @@
 # How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
 
 TIMED = {"work_precision": (True, "short_seconds"), "work_precision_full": (False, "full_seconds")}
+# Without a number of cores nothing is run: a summary, a graph, the report of Snakemake.
+ALL_CORES = workflow.resource_settings.cores or 1
 JUDGED = {"hazards": False, "hazards_full": True}
 COMPARED = "every method, in float64, against a reference with enough digits that more would not change it"
 
@@ -34,7 +36,7 @@ for name, (short, seconds) in TIMED.items():
             seconds=config["accuracy"][seconds],
             short=short,
             provenance=accuracy_provenance(name, seconds),
-        threads: workflow.cores
+        threads: ALL_CORES
         log:
             f"results/logs/accuracy/{name}.log",
         benchmark:
@@ -78,7 +80,7 @@ rule scene_models:
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=config["accuracy"]["short_seconds"],
         code=code("workflow/scripts/scene_models.py", modules={drawn_by(*figure) for figure in MODELLED.items()}),
-    threads: workflow.cores
+    threads: ALL_CORES
     log:
         "results/logs/accuracy/scene_models.log",
     benchmark:

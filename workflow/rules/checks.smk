@@ -1,6 +1,6 @@
 # The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
 
-REFERENCE_FILES = sorted(str(path) for path in Path("figures").iterdir() if path.name != "CHANGES.md")
+REFERENCE_FILES = sorted(own(f"figures/{path.name}") for path in (ROOT / "figures").iterdir() if path.name != "CHANGES.md")
 
 
 rule compare_figures:
@@ -23,7 +23,8 @@ rule compare_figures:
         "../scripts/compare_figures.py"
 
 
-# Has no output, so that it judges anew each time: the page stays to be read where it fails.
+# Has no output, so that it judges anew each time: the page stays to be read where it fails. No log either: what it says
+# is for who has asked.
 rule figure_check:
     input:
         rules.compare_figures.output.verdicts,

@@ -1,7 +1,7 @@
 # The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
 # parameters: with others none is judged, and the files say why.
 
-CLAIMS = "docs/claims.yaml"
+CLAIMS = own("docs/claims.yaml")
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
 EVIDENCE = {

@@ -1,8 +1,4 @@
-# What every stage needs: settled surroundings, one build at a time, a valid config, fingerprints of code.
-
-import fcntl
-import sys
-from pathlib import Path
+# What every stage needs: settled surroundings, a valid config, fingerprints of code.
 
 from snakemake.utils import update_config
 
@@ -15,37 +11,46 @@ from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import Sources
 
-ROOT = Path(workflow.basedir)
-CONFIG_FILE = "config/config.yaml"
+IS_MODULE = not workflow.modifier.is_main_snakefile()
+CONFIG = "config/config.yaml"
+CONFIG_FILE = CONFIG if Path(CONFIG).is_file() and not IS_MODULE else own(CONFIG)
 CAPTION = str(ROOT / "report/caption.rst")
 SOURCES = Sources()
 prepare(ROOT, SOURCES)
 
 
-def refuse(lines):
-    print(*lines, sep="\n", file=sys.stderr)
-    sys.exit(1)
+def config_origins():
+    """What sets entries of the config, by the name under which to complain about it; a later one overrides."""
+    given = workflow.config_settings
+    files = [CONFIG_FILE, *map(os.path.normpath, given.configfiles)][given.replace_workflow_config :]
+    if IS_MODULE:
+        return {CONFIG_FILE: in_file(CONFIG_FILE)} | as_typed(f"config of module {__name__}", config)
+    return {file: in_file(file) for file in files} | as_typed("--config", dict(given.config))
 
 
-def one_build_at_a_time():
-    """Wait for another build of this directory. The system frees the lock with the process, however it ends."""
-    Path(".cache").mkdir(exist_ok=True)
-    lock = open(".cache/build.lock", "w")
+def in_file(file):
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        print("Waiting for another build in this directory to finish.", file=sys.stderr)
-        fcntl.flock(lock, fcntl.LOCK_EX)
-    return lock
+        return config_checks.read(file)
+    except ValueError as error:
+        refuse([f"{file}: {error}"])
 
 
-def check_config():
-    """Apply what the command line overrides, and go on only with a config that is right."""
-    update_config(config, OVERRIDES)
-    labels = remembered(ROOT / ".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
-    if found := config_checks.problems(config, labels):
-        refuse(config_checks.complaints(found, CONFIG_FILE, OVERRIDES))
-    config["figure_texts"] = figure_texts(ROOT, config)
+def as_typed(origin, entries):
+    try:
+        return {origin: config_checks.typed(entries)}
+    except ValueError as error:
+        refuse([f"{origin}: {error}"])
+
+
+def checked_config(origins):
+    """The config that its origins make together, if all is right with it."""
+    made = {}
+    for entries in origins.values():
+        update_config(made, entries)
+    labels = remembered(".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
+    if found := config_checks.problems(made, labels):
+        refuse(config_checks.complaints(found, origins))
+    return made | {"figure_texts": figure_texts(ROOT, made)}
 
 
 def code(*files, modules=()):
@@ -72,17 +77,7 @@ def in_report(outputs, category, kinds=("svg", "csv")):
     return outputs | marked
 
 
-if workflow.is_main_process:
-    BUILD_LOCK = one_build_at_a_time()
-
-try:
-    OVERRIDES = config_checks.typed(config)
-except ValueError as error:
-    refuse([f"--config: {error}"])
-try:
-    config_checks.read(CONFIG_FILE)
-except ValueError as error:
-    refuse([f"{CONFIG_FILE}: {error}"])
+CONFIG_ORIGINS = config_origins()
 
 
 wildcard_constraints:

@@ -101,7 +101,6 @@ for figure, scene in config["figures"].items():
         params:
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             alt=config["figure_texts"][figure]["alt"],
-            executed=f"results/logs/figures/{figure}.ipynb",
             settings=figure_settings(scene),
             provenance=figure_provenance(figure, scene),
         log:

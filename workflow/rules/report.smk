@@ -89,14 +89,13 @@ rule report:
         rules.accuracy.input,
         rules.travel.output,
         [path for name in MOVING["animations"] for path in getattr(rules, name).output],
-        REPORT_TABLES,
-        [page["source"] for page in REPORT_SETTINGS["pages"]],
-        sorted(str(path.relative_to(ROOT)) for path in (ROOT / "report").rglob("*") if path.is_file()),
+        [own(page["source"]) for page in REPORT_SETTINGS["pages"]],
+        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),
+        tables=REPORT_TABLES,
     output:
         directory("results/report"),
     params:
         shown=REPORT_SHOWS,
-        tables=REPORT_TABLES,
         config={name: config[name] for name in ("system", "cases", "figures", "report")},
         departures=DEPARTURES,
         code=code("workflow/scripts/report.py"),

@@ -1,9 +1,11 @@
 """All figures against their references -> the page to read, and the verdicts as JSON."""
 
 import json
+from pathlib import Path
 
 from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.figure_check.compare import check_all, lines, tolerances
 from vibroimpact_pipeline.figure_check.page import page
 
@@ -21,4 +23,6 @@ def main(figures, columns: dict, reference, new, html, verdicts) -> None:
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
         params, outputs = snakemake.params, snakemake.output
-        main(params.figures, params.columns, "figures", "results/figures", outputs.page, outputs.verdicts)
+        reference = root_of(snakemake) / "figures"
+        new = Path(outputs.page).parents[1] / "figures"
+        main(params.figures, params.columns, reference, new, outputs.page, outputs.verdicts)

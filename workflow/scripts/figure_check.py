@@ -13,5 +13,5 @@ def main(verdicts, page) -> int:
     return int(has_failed(found))
 
 
-if "snakemake" in globals() and (status := main(snakemake.input[0], "results/figure_check/index.html")):
+if "snakemake" in globals() and (status := main(snakemake.input[0], Path(snakemake.input[0]).with_name("index.html"))):
     sys.exit(status)

@@ -12,6 +12,7 @@ from traitlets.config import Config
 
 from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.provenance.record import recorded
 from vibroimpact_pipeline.report.offline import page
 
@@ -59,4 +60,5 @@ if "snakemake" in globals():
             "outputs": outputs,
             "provenance": provenance,
         }
-        main(snakemake.params.notebook, snakemake.params.executed, html, parameters)
+        executed = Path(snakemake.log[0]).with_suffix(".ipynb")
+        main(root_of(snakemake) / snakemake.params.notebook, executed, html, parameters)

@@ -6,6 +6,7 @@ from pathlib import Path
 import yaml
 
 from job_log import logging_to
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.report.pages import Pages
 from vibroimpact_pipeline.report.results import Results
@@ -58,5 +59,6 @@ def version(root) -> str:
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        given = snakemake.params
-        main(".", "results", given.shown, given.tables, given.config, given.departures, snakemake.output[0])
+        params, tables, folder = snakemake.params, snakemake.input.tables, Path(snakemake.output[0])
+        root, results = root_of(snakemake), folder.parent
+        main(root, results, params.shown, tables, params.config, params.departures, folder)

@@ -53,7 +53,7 @@ if "snakemake" in globals():
         main(
             snakemake.params.figures,
             snakemake.params.simulations,
-            "results",
+            Path(snakemake.output[0]).parents[1],
             snakemake.params.seconds,
             snakemake.output[0],
         )

@@ -27,9 +27,13 @@ def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:
     return sorted((written(place), what) for place, what in found)
 
 
-def complaints(found: Iterable[tuple[str, str]], source: str, overrides: dict) -> list[str]:
-    """One line per problem, with the place to mend it: the file `source`, or the command line for an override."""
-    lines = [f"{'--config' if _holds(overrides, path) else source}: {path}: {what}" for path, what in found]
+def complaints(found: Iterable[tuple[str, str]], origins: dict[str, dict]) -> list[str]:
+    """One line per problem, with the place to mend it: the last of the origins that has the key, or the first of all.
+
+    Args:
+        origins: entries of the config by the name of what sets them; a later one overrides.
+    """
+    lines = [f"{_origin(path, origins)}: {path}: {what}" for path, what in found]
     return lines if len(lines) <= MOST else [*lines[:MOST], f"... and {len(lines) - MOST} more"]
 
 
@@ -39,9 +43,13 @@ def case_parameters(config: dict, case: str) -> dict:
     return {**config["system"], "f10_hat": excitation["f10_hat"], "f20_hat": excitation["f20_hat"]}
 
 
-def _holds(overrides, path):
+def _origin(path, origins):
+    return next((name for name in reversed(origins) if _holds(origins[name], path)), next(iter(origins)))
+
+
+def _holds(entries, path):
     for key in path.split("[")[0].split("."):
-        if not isinstance(overrides, dict) or key not in overrides:
+        if not isinstance(entries, dict) or key not in entries:
             return False
-        overrides = overrides[key]
+        entries = entries[key]
     return True

@@ -11,6 +11,7 @@ import numpy
 
 from vibroimpact.figures.kit.artists import drawn_with
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
 
 LOCK = "environment.lock"
@@ -21,25 +22,26 @@ def recorded(job):
     """Give the record of a job's figure and its outputs by name; write the sidecar, with the run time, at the end."""
     start, outputs = time.monotonic(), dict(job.output.items())
     sidecar = outputs.pop("provenance")
-    provenance = record(job.params.provenance, job.input)
+    root = root_of(job)
+    provenance = record(job.params.provenance, job.input, root)
     yield provenance, outputs
-    write_sidecar(sidecar, provenance, outputs.values(), seconds=time.monotonic() - start)
+    write_sidecar(sidecar, provenance, outputs.values(), root, seconds=time.monotonic() - start)
 
 
-def record(decided: dict, inputs) -> dict:
+def record(decided: dict, inputs, root: Path) -> dict:
     """What decides on a figure, the same in every build of one commit: by the rules, lock, inputs, versions."""
     versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
     return {
         **decided,
-        "lock": digest(LOCK),
+        "lock": digest(root / LOCK),
         "inputs": {str(path): digest(path) for path in inputs},
         "versions": versions,
     }
 
 
-def write_sidecar(path, provenance: dict, outputs, seconds: float) -> None:
+def write_sidecar(path, provenance: dict, outputs, root: Path, seconds: float) -> None:
     """Write the record, the files that were made, and what no file of the figure itself bears: commit and run time."""
-    commit, changes = git("rev-parse", "HEAD"), git("status", "--porcelain")
+    commit, changes = git("rev-parse", "HEAD", root=root), git("status", "--porcelain", root=root)
     sidecar = provenance | {
         "outputs": {str(output): digest(output) for output in outputs},
         "commit": commit,

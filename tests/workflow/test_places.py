@@ -1,0 +1,160 @@
+"""The pipeline builds the same bytes wherever it lies, wherever it works, and whoever calls it."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from pipeline_trees import ROOT, Tree, run_module
+from vibroimpact_pipeline.sources import Sources
+
+FIGURE = "companion_10_04"
+"""A figure with a table, made in a second."""
+KINDS = "csv", "png", "pdf", "svg"
+
+
+def files_of(figure, results):
+    return {kind: (results / f"figures/{figure}.{kind}").read_bytes() for kind in KINDS}
+
+
+def record_of(figure, results):
+    """Where a figure comes from, but for its run time and what git says: not every copy has a history."""
+    record = json.loads((results / f"figures/{figure}.provenance.json").read_text())
+    return {name: value for name, value in record.items() if name not in ("seconds", "commit", "tree")}
+
+
+def assert_same(figure, results, built):
+    assert files_of(figure, results) == files_of(figure, built / "results")
+    assert record_of(figure, results) == record_of(figure, built / "results")
+
+
+def snakefile(tree):
+    return "--snakefile", str(tree / "Snakefile")
+
+
+def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path):
+    home, elsewhere = tmp_path / "home", tmp_path / "elsewhere"
+    home.mkdir()
+    tree.snakemake("--directory", str(elsewhere), "fig10_03", HOME=str(home))
+    assert_same("fig10_03", elsewhere / "results", built)
+    assert list(home.iterdir()) == []
+    assert not (tree / "results").exists()
+
+
+def test_no_record_tells_a_path_of_this_machine(built):
+    records = [path.read_text() for path in (built / "results").rglob("*.provenance.json")]
+    assert [record for record in records if str(built.path) in record or str(ROOT) in record] == []
+    assert records
+
+
+def test_from_a_read_only_tree_without_a_home(tree, built, tmp_path):
+    """Compiled code of the tree is handed on to where one can write."""
+    compiled = f".cache/numba/{Sources().compiled()}"
+    (tree / compiled).mkdir(parents=True)
+    (tree / compiled / "compiled").touch()
+    elsewhere = Tree(tmp_path / "elsewhere")
+    elsewhere.path.mkdir()
+    with_tree_read_only(elsewhere, tree, *snakefile(tree), FIGURE, HOME=os.devnull, NUMBA_CACHE_DIR=None)
+    assert_same(FIGURE, elsewhere / "results", built)
+    assert (elsewhere / compiled / "compiled").exists()
+    assert not (tree / ".snakemake").exists()
+
+
+def with_tree_read_only(elsewhere, tree, *arguments, **environment):
+    """One Snakemake call elsewhere, while nobody can write to the tree: for root that takes a mount of its own."""
+    if os.geteuid():
+        subprocess.run(["chmod", "--recursive", "a-w", tree.path], check=True)
+        elsewhere.snakemake(*arguments, **environment)
+        subprocess.run(["chmod", "--recursive", "u+w", tree.path], check=True)
+        return
+    if subprocess.run(["unshare", "--mount", "true"], stderr=subprocess.DEVNULL, check=False).returncode:
+        pytest.skip("root may write everywhere, and may not mount here")
+    mounted = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'
+    elsewhere.snakemake(*arguments, prefix=["unshare", "--mount", "sh", "-c", mounted, tree.path], **environment)
+
+
+OUTER = """
+configfile: "config/config.yaml"
+module vibroimpact:
+    snakefile: "{snakefile}"
+    config: config["vibration"]
+use rule * from vibroimpact as chapter_*
+module weaker:
+    snakefile: "{snakefile}"
+    config: {{"system": {{"kappa": 0.5}}}}
+    prefix: "weaker"
+use rule * from weaker as weaker_*
+"""
+
+
+def test_as_a_module_of_another_workflow(tree, built, tmp_path):
+    """Twice, with two sets of parameters side by side; the config of the other workflow is not mistaken for ours."""
+    outer = Tree(tmp_path / "outer")
+    (outer / "config").mkdir(parents=True)
+    (outer / "config/config.yaml").write_text("samples: 3\nvibration: {system: {kappa: 0.65}}\n")
+    (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile"))
+    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}")
+    assert_same(FIGURE, outer / "results", built)
+    weaker = record_of(FIGURE, outer / "weaker/results")
+    assert weaker["config"]["system.kappa"] == 0.5
+    assert files_of(FIGURE, outer / "weaker/results") != files_of(FIGURE, outer / "results")
+
+
+def test_in_a_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
+    there = Tree(tree.path.rename(tmp_path / "zwei Kästen"))
+    (there / ".venv").symlink_to(sys.prefix)
+    there.snakemake(FIGURE, prefix=[there / ".venv/bin/python"], LC_ALL="C")
+    assert_same(FIGURE, there / "results", built)
+
+
+def test_a_file_on_the_command_line_sets_what_it_names(rebuilt, tmp_path):
+    given = tmp_path / "try.yaml"
+    given.write_text("cases: {weak: {f20_hat: 0.7}}\n")
+    assert rebuilt.planned("figures", "--configfile", str(given)) >= {"fig10_10", "fig10_11"}
+    assert "fig10_06" not in rebuilt.planned("figures", "--configfile", str(given))
+
+
+def test_a_whole_file_on_the_command_line_is_the_config_alone(rebuilt, tmp_path):
+    text = (rebuilt / "config/config.yaml").read_text()
+    given = tmp_path / "whole.yaml"
+    given.write_text(text.replace("fixed_point: c, periods: 2", "fixed_point: c, periods: 3"))
+    (rebuilt / "config/config.yaml").write_text(text.replace("kappa: 0.65", "kappa: 0.5"))
+    planned = rebuilt.planned("figures", "--configfile", str(given), "--replace-workflow-config")
+    assert planned == {"fig10_07"}
+
+
+def test_a_directory_with_a_config_of_its_own_follows_it(tree, tmp_path):
+    own = Tree(tmp_path / "own")
+    (own / "config").mkdir(parents=True)
+    (own / "config/config.yaml").write_text("system: {kapa: 0.6}\n")
+    output = tree.dry_run("--directory", str(own.path))
+    assert "config/config.yaml: system.kapa: unknown key, did you mean 'kappa'?" in output.splitlines()
+
+
+@pytest.mark.parametrize("asked", ["--summary", "--rulegraph", "--unlock"])
+def test_what_runs_nothing_needs_no_number_of_cores(built, asked):
+    status, output = run_module(built.path, "snakemake", "--workflow-profile", "none", asked)
+    assert status == 0, output
+
+
+def test_the_report_of_snakemake_needs_no_number_of_cores(built, tmp_path):
+    page = tmp_path / "report.html"
+    status, output = run_module(
+        built.path, "snakemake", "--workflow-profile", "none", "--report", str(page), "companion_10_05"
+    )
+    assert status == 0, output
+    assert "companion_10_05" in page.read_text(encoding="utf-8")
+
+
+ANSWERED = {
+    "Mixed rules and functions in same snakefile.": "a stage's functions stand beside the rules that they are for",
+    "No log directive defined": "what the figure check says is for who has asked, on the terminal",
+}
+
+
+def test_every_finding_of_the_linter_is_answered(built):
+    _, output = run_module(built.path, "snakemake", "--lint")
+    found = {line.removeprefix("    * ").rstrip(":") for line in output.splitlines() if line.startswith("    * ")}
+    assert found == ANSWERED.keys()
