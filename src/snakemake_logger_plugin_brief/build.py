@@ -4,12 +4,10 @@ import re
 from collections import Counter
 from logging import LogRecord
 
-from snakemake_logger_plugin_brief.jobs import Job, failure
+from snakemake_logger_plugin_brief.jobs import LONG, Job, failure
 from snakemake_logger_plugin_brief.results import made, open_first
 from snakemake_logger_plugin_brief.words import count, duration, words
 
-LONG = 15
-"""Seconds after which a job that runs is named."""
 INTERRUPTED = re.compile("SIGINT|exit status 130")
 
 
@@ -51,7 +49,7 @@ class Build:
         """From a JOB_ERROR event and the message of the error before it."""
         job = self.running.pop(record.jobid, None)
         self.failed[record.jobid] = record.rule_name
-        if not INTERRUPTED.search(cause):
+        if not (self.stopped or INTERRUPTED.search(cause)):
             self.untold += failure(job.name if job else words(record.rule_name), record.log, cause)
 
     def failures(self) -> list[str]:
@@ -68,9 +66,9 @@ class Build:
 
     def status(self, now: float) -> str:
         """The one line that changes; nothing while a job that has no log speaks itself."""
-        if not all(job.logs for job in self.running.values()):
-            return ""
-        return f"{self.progress()}  {', '.join(job.running(now) for job in self.running.values())}"
+        jobs = self.running.values()
+        running = ", ".join(job.running(now) for job in jobs)
+        return f"{self.progress()}  {running}" if all(job.logs for job in jobs) else ""
 
     def long_jobs(self, now: float) -> list[str]:
         """A line for each job that has come to run for long since the last call."""

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from snakemake_logger_plugin_brief.words import duration, words
 
+LONG = 15
+"""Seconds from which on a job takes long."""
 TAIL = 15
 """Lines of a log that are shown."""
 ENDED = re.compile(r"exit status \d+|(?<=Signals\.)\w+")
@@ -35,8 +37,8 @@ class Job:
         return cls(record.rule_name, name, record.created, record.output, record.log, usual)
 
     def running(self, now: float) -> str:
-        """Its name and for how long it has run, compared with the last build."""
-        usual = f", {duration(self.usual)} in the last build" if self.usual else ""
+        """Its name and for how long it has run; where that takes long, the time that it took in the last build."""
+        usual = f", usually {duration(self.usual)}" if self.usual and self.usual >= LONG else ""
         return f"{self.name} ({duration(now - self.started)}{usual})"
 
 

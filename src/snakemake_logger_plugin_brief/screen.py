@@ -21,7 +21,8 @@ class Screen:
 
     def say(self, *lines: str) -> None:
         """Print lines that stay."""
-        self.status("")
+        if lines:
+            self.status("")
         self.stream.writelines(f"{self._styled(line)}\n" for line in lines)
         self.stream.flush()
 
