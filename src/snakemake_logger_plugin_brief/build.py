@@ -1,7 +1,6 @@
 """The course of a build: what is done, what runs, what has failed. Events go in, lines to show come out."""
 
 import re
-from collections import Counter
 from logging import LogRecord
 
 from snakemake_logger_plugin_brief.jobs import LONG, Job, failure
@@ -18,9 +17,7 @@ class Build:
         """From the RUN_INFO event."""
         self.began = record.created
         self.total = record.stats["total"]
-        self.jobs_of = Counter(record.stats)
-        self.left = Counter(record.stats)
-        self.spent = Counter()
+        self.jobs_of = record.stats
         self.running: dict[int, Job] = {}
         self.finished: list[Job] = []
         self.failed: dict[int, str] = {}
@@ -35,15 +32,14 @@ class Build:
     def finish(self, record: LogRecord) -> list[str]:
         """From a JOB_FINISHED event: a line when it was the last job of its rule, with the time of all of them."""
         job = self.running.pop(record.job_id)
+        job.seconds = record.created - job.started
         self.failed.pop(record.job_id, None)
         self.finished.append(job)
-        self.spent[job.rule] += record.created - job.started
-        self.left[job.rule] -= 1
-        if self.left[job.rule] or not (job.outputs or job.logs):
+        alike = [done for done in self.finished if done.rule == job.rule]
+        if len(alike) < self.jobs_of[job.rule] or not (job.outputs or job.logs):
             return []
-        number = self.jobs_of[job.rule]
-        name = job.name if number == 1 else f"{words(job.rule)} ({number})"
-        return [f"{self.progress()}  {duration(self.spent[job.rule]):>12}  {name}"]
+        name = job.name if len(alike) == 1 else f"{words(job.rule)} ({len(alike)})"
+        return [f"{self.progress()}  {duration(sum(done.seconds for done in alike)):>12}  {name}"]
 
     def fail(self, record: LogRecord, cause: str) -> None:
         """From a JOB_ERROR event and the message of the error before it."""

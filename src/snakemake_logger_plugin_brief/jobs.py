@@ -19,7 +19,7 @@ NOT_TEXT = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f]")
 
 @dataclass
 class Job:
-    """One job that runs; `usual` is the time in seconds that it took in the last build."""
+    """One job. `seconds`: the time that it took, `usual`: that in the last build."""
 
     rule: str
     name: str
@@ -27,14 +27,14 @@ class Job:
     outputs: list[str]
     logs: list[str]
     usual: float | None
+    seconds: float = 0.0
     told: bool = False
 
     @classmethod
     def of(cls, record: LogRecord) -> "Job":
         """The job that a JOB_INFO event announces."""
         name = " ".join([words(record.rule_name), *record.wildcards.values()])
-        usual = seconds(record.benchmark)
-        return cls(record.rule_name, name, record.created, record.output, record.log, usual)
+        return cls(record.rule_name, name, record.created, record.output, record.log, benchmarked(record.benchmark))
 
     def running(self, now: float) -> str:
         """Its name and for how long it has run; where that takes long, the time that it took in the last build."""
@@ -42,8 +42,8 @@ class Job:
         return f"{self.name} ({duration(now - self.started)}{usual})"
 
 
-def seconds(benchmark: str | None) -> float | None:
-    """The time in a benchmark file that Snakemake wrote, if there is one."""
+def benchmarked(benchmark: str | None) -> float | None:
+    """The time in seconds in a benchmark file that Snakemake wrote, if there is one."""
     try:
         with open(benchmark or "", encoding="utf-8") as file:
             return float(next(csv.DictReader(file, delimiter="\t"))["s"])
