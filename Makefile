@@ -9,9 +9,12 @@ export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { name[++n] = $$1; does[n] = $$2; if (length($$1) > w) w = length($$1) } \
+		END { for (i = 1; i <= n; i++) printf "%-" w "s  %s\n", name[i], does[i] }' $(MAKEFILE_LIST)
+	@printf '\nTo figures, check-figures, report and accept may be added:\n%s\n%s\n' \
+		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says'
 
-figures: set-up  ## build every figure into results/ (CORES=2)
+figures: set-up  ## build every figure into results/
 	.venv/bin/snakemake --cores $(CORES)
 
 check-figures: set-up  ## compare results/figures/ with the reference set figures/

@@ -11,6 +11,6 @@ for build in first second; do
     mkdir "$work/$build"
     git archive "$commit" | tar -x -C "$work/$build"
     echo "The $build build ..."
-    (cd "$work/$build" && PYTHONPATH=$PWD/src "$root/.venv/bin/snakemake" --cores "${CORES:-2}" --quiet all)
+    (cd "$work/$build" && PYTHONPATH=$PWD/src "$root/.venv/bin/snakemake" --cores "${CORES:-2}")
 done
 PYTHONPATH=$work/first/src "$root/.venv/bin/python" -m vibroimpact_pipeline.same_bytes "$work/first/results" "$work/second/results"

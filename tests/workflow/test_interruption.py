@@ -23,7 +23,7 @@ def test_a_second_build_waits_for_the_first_and_finds_its_work_done(held):
     (held / "go").touch()
     outputs = [build.communicate()[0] for build in (first, second)]
     assert [build.returncode for build in (first, second)] == [0, 0], outputs
-    assert "Nothing to be done" in outputs[1]
+    assert "Nothing to do" in outputs[1]
 
 
 def test_a_killed_build_is_taken_up_by_the_next(held):

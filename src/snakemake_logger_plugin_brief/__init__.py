@@ -1,0 +1,8 @@
+"""What a user sees of a build: a Snakemake logger plugin, found by its name and turned on by the profile.
+
+Snakemake's own output goes to its log, .snakemake/log/, as ever.
+"""
+
+from snakemake_logger_plugin_brief.handler import LogHandler
+
+__all__ = ["LogHandler"]
