@@ -65,8 +65,8 @@ def search(system: System) -> FixedPointSearch:
     """All fixed points, admissible or not.
 
     Raises:
-        ValueError: system is not a System, or the undamped slow flow without balls is at a resonance that the forces do not load: a free motion
-            of any phase may then touch the walls, and fixed points need not be isolated.
+        ValueError: system is not a System, or its undamped slow flow without balls is at a resonance that the forces do
+            not load: a free motion of any phase may then touch the walls, and fixed points need not be isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
