@@ -1,7 +1,10 @@
-"""What the installed package promises: light, and in need of three packages only."""
+"""What the installed package promises: light, in need of three packages only, all that the README says of it."""
 
+import ast
+import ctypes
 import os
 import re
+import shlex
 import subprocess
 import sys
 import zipfile
@@ -11,6 +14,8 @@ from pathlib import Path
 import numpy
 import pytest
 
+import compiled_code
+import vibroimpact as vi
 from pipeline_trees import ROOT
 
 
@@ -33,6 +38,32 @@ def wheel(tmp_path_factory):
     return path
 
 
+@pytest.fixture(scope="module")
+def alone(wheel, tmp_path_factory):
+    """Runs Python with the wheel and the three packages that it needs, without those of the environment."""
+    site = tmp_path_factory.mktemp("site")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(site)
+    around = Path(numpy.__file__).parents[1]
+    for name in ("numpy", "numpy.libs", "scipy", "scipy.libs", "numba", "llvmlite"):
+        if (around / name).exists():
+            (site / name).symlink_to(around / name)
+
+    def run(*arguments, check=True, preexec_fn=None, **environment):
+        own = {name: value for name, value in os.environ.items() if name not in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")}
+        return subprocess.run(
+            [sys.executable, "-S", *arguments],
+            env={**own, "PYTHONPATH": str(site), **environment},
+            capture_output=True,
+            text=True,
+            check=check,
+            preexec_fn=preexec_fn,
+        )
+
+    run.site = site
+    return run
+
+
 EXTRAS = {"figures": {"matplotlib", "pandas"}, "reference": {"flint", "mpmath"}}
 IMPORT_ALL = """
 import importlib, pkgutil, vibroimpact
@@ -46,21 +77,24 @@ for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact.", onerro
 """
 
 
-def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(wheel, tmp_path):
-    with zipfile.ZipFile(wheel) as archive:
-        archive.extractall(tmp_path)
-    site = Path(numpy.__file__).parents[1]
-    for name in ("numpy", "numpy.libs", "scipy", "scipy.libs", "numba", "llvmlite"):
-        if (site / name).exists():
-            (tmp_path / name).symlink_to(site / name)
-    alone = [sys.executable, "-S", "-c", IMPORT_ALL]  # without the packages of the environment
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
-    run = subprocess.run(alone, env=environment, capture_output=True, text=True, check=True)
+def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(alone):
+    run = alone("-c", IMPORT_ALL)
     said = dict(line.split(" ", 1) for line in run.stdout.splitlines())
     assert {name for name in said if name.count(".") == 1} == {
         f"vibroimpact.{room}"
-        for room in ("accuracy", "claims", "exact", "figures", "regimes", "rivals", "system", "theory")
-    }
+        for room in (
+            "accuracy",
+            "claims",
+            "cli",
+            "compile",
+            "exact",
+            "figures",
+            "regimes",
+            "rivals",
+            "system",
+            "theory",
+        )
+    } | {"vibroimpact.__main__"}
     lacking = {name: words for name, words in said.items() if words != "imports"}
     for name, words in lacking.items():
         needs = re.fullmatch(r"this part of vibroimpact needs ([\w ]+): pip install 'vibroimpact\[(\w+)\]'", words)
@@ -86,6 +120,111 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
-    assert "vibroimpact/figures/kit/vibroimpact.mplstyle" in names
+    assert {"vibroimpact/figures/kit/vibroimpact.mplstyle", "vibroimpact/py.typed", "vibroimpact/__init__.pyi"} <= {
+        *names
+    }
     assert not [name for name in names if name.startswith("vibroimpact_pipeline")]
     assert not [name for name in names if "__pycache__" in name]
+
+
+LIBRARY_SECTION = (ROOT / "README.md").read_text(encoding="utf-8").split("## As a library")[1].split("\n## ")[0]
+BLOCKS = re.findall(r"```(\w*)\n(.*?)```", LIBRARY_SECTION, re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def shared_code(alone, tmp_path_factory):
+    """Code of the library as it is compiled for the wheel, so that it need not be compiled again."""
+    cache = tmp_path_factory.mktemp("code")
+    compiled_code.share(alone.site / "vibroimpact", cache)
+    return {"NUMBA_CACHE_DIR": str(cache)}
+
+
+def test_python_of_the_readme_runs_with_the_three(alone, shared_code):
+    [code] = [text for language, text in BLOCKS if language == "python"]
+    printed = alone("-c", code, **shared_code).stdout
+    run = re.search(r"Run\(cycles=100, tau0=0, events=(\d+): \1 impact, 0 stick, 0 release, samples=2", printed)
+    assert run, printed
+    assert "Certificate(decided=True" in printed
+    assert len(re.findall(r"^[\d.]+ [12] -?1 impact$", printed, re.MULTILINE)) == 5
+
+
+def test_commands_of_the_readme_run_with_the_three(alone, shared_code, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    lines = [line for language, text in BLOCKS if not language for line in text.splitlines()]
+    assert {line.split()[1] for line in lines} == {"-m", "fixed-points", "orbits", "simulate", "response"}
+    printed = {line: alone(*_as_python(line), **shared_code).stdout for line in lines}
+    for line, text in printed.items():
+        text = Path("orbits.csv").read_text() if "--output" in line else text
+        assert "compile" in line or len(text.splitlines()) > 3, line
+
+
+def _as_python(line):
+    program, *arguments = shlex.split(line)
+    return arguments if program == "python" else ["-m", program, *arguments]
+
+
+def test_a_picture_without_its_extra_says_so(alone, shared_code):
+    run = alone("-m", "vibroimpact", "fixed-points", "--plot", "points.png", check=False, **shared_code)
+    assert run.returncode == 2
+    assert re.fullmatch(
+        r"vibroimpact fixed-points: .*needs matplotlib and pandas: pip install .*figures.*\n", run.stderr
+    )
+
+
+def test_the_stub_names_what_the_package_exports():
+    stub = ast.parse((ROOT / "src/vibroimpact/__init__.pyi").read_text(encoding="utf-8"))
+    imported = {
+        name.asname: node.module for node in stub.body if isinstance(node, ast.ImportFrom) for name in node.names
+    }
+    assert imported == vi._PUBLIC
+
+
+WHERE = "from vibroimpact.exact.engine import code_cache as c; print(c.code_folder(c.PACKAGE / 'exact/engine'))"
+ADVANCE = """
+import vibroimpact as vi
+from vibroimpact.exact.engine.flow import advance, flow_of
+from vibroimpact.system.chapter import CASES, PARAMETERS
+
+print(advance(flow_of(vi.System(**PARAMETERS, **CASES["equal"])), 0, (0.0, 0.0, 0.0, 0.0), 0.0, 1.0, 0.5))
+"""
+
+
+@pytest.fixture
+def nowhere_to_write(alone, tmp_path):
+    """Runs Python where neither the installation nor the home can be written to, with a folder for temporary files."""
+    folders = [alone.site, *(path for path in alone.site.rglob("*") if path.is_dir() and not path.is_symlink())]
+    modes = {path: path.stat().st_mode for path in folders}
+    for path in folders:
+        path.chmod(0o555)
+    places = {"HOME": str(alone.site), "TMPDIR": str(tmp_path)}
+    yield lambda code: alone("-c", code, preexec_fn=_bound_by_permissions, **places)
+    for path, mode in modes.items():
+        path.chmod(mode)
+
+
+def _bound_by_permissions():
+    """Let permissions bind the superuser too, after the next exec: without CAP_DAC_OVERRIDE."""
+    ctypes.CDLL(None).prctl(24, 1, 0, 0, 0)  # PR_CAPBSET_DROP
+
+
+def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_path):
+    first, second = nowhere_to_write(ADVANCE), nowhere_to_write(ADVANCE)
+    [folder] = tmp_path.glob("vibroimpact-*")
+    kept = f"can be written to; compiled code is kept in {folder}"
+    assert kept in first.stderr
+    assert "compiling" in first.stderr
+    assert kept in second.stderr
+    assert "compiling" not in second.stderr
+    assert first.stdout == second.stdout
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_code_of_other_sources_is_not_used(alone):
+    """Numba looks at the file of a function only, so that after an upgrade it would call what is no longer there."""
+    before = alone("-c", WHERE).stdout
+    callee = alone.site / "vibroimpact/exact/engine/contact.py"
+    text = callee.read_text()
+    callee.write_text(text + "\n# another version\n")
+    after = alone("-c", WHERE).stdout
+    callee.write_text(text)
+    assert alone("-c", WHERE).stdout == before != after

@@ -9,10 +9,20 @@ _PUBLIC = {
     "System": "vibroimpact.system",
     "PhysicalSystem": "vibroimpact.system",
     "fixed_points": "vibroimpact.theory.fixed_points.search",
+    "FixedPoint": "vibroimpact.theory.fixed_points.search",
     "orbits": "vibroimpact.exact.orbits.search",
+    "Orbit": "vibroimpact.exact.orbits.search",
     "simulate": "vibroimpact.exact.engine.simulation",
     "simulate_many": "vibroimpact.exact.engine.simulation",
+    "Run": "vibroimpact.exact.engine.simulation",
+    "Certificate": "vibroimpact.exact.engine.certificate",
+    "EVENT": "vibroimpact.system.state",
+    "KINDS": "vibroimpact.system.state",
+    "IMPACT": "vibroimpact.system.state",
+    "STICK": "vibroimpact.system.state",
+    "RELEASE": "vibroimpact.system.state",
 }
+"""Where the public names are; `__init__.pyi` says the same to type checkers."""
 __all__ = [*_PUBLIC, "__version__"]
 
 

@@ -17,6 +17,8 @@ import vibroimpact
 
 LIBRARY = "vibroimpact"
 PACKAGES = (LIBRARY, "vibroimpact_pipeline")
+COMPILERS = ("numba", f"{LIBRARY}.exact.engine.code_cache", f"{LIBRARY}.exact.engine.compiled")
+"""What a module imports that has something to compile."""
 
 
 class Sources:
@@ -69,7 +71,8 @@ class Sources:
 
     def compiled(self) -> str:
         """Hash of everything that Numba compiles: a compiled function is stale when any of it has changed."""
-        compiled = self._graph.find_modules_that_directly_import("numba") if "numba" in self._graph.modules else ()
+        known = (name for name in COMPILERS if name in self._graph.modules)
+        compiled = {module for name in known for module in self._graph.find_modules_that_directly_import(name)}
         return self.fingerprint(modules=compiled)
 
     def knows(self, module: str) -> bool:

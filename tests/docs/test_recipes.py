@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from numba.core.caching import _CacheLocator
 
+import compiled_code
 from pipeline_trees import ROOT, Tree
 from vibroimpact_pipeline.data_dictionary import compared, read
 from vibroimpact_pipeline.figure_check.compare import check, tolerances
@@ -36,16 +36,8 @@ def project(built, tmp_path):
     tree = Tree(tmp_path / "project")
     shutil.copytree(built.path, tree.path, symlinks=True)
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
-    for source in (ROOT / "src/vibroimpact").rglob("__init__.py"):
-        compiled = compiled_code(os.environ["NUMBA_CACHE_DIR"], source)
-        if compiled.exists():
-            shutil.copytree(compiled, compiled_code(tree / COMPILED, tree / source.relative_to(ROOT)))
+    compiled_code.share(tree / "src/vibroimpact", tree / COMPILED)
     return tree
-
-
-def compiled_code(cache, source) -> Path:
-    """Where Numba keeps what it compiles of the package of a source, good for every copy with the same content."""
-    return Path(cache, _CacheLocator.get_suitable_cache_subpath(str(source)))
 
 
 def follow(recipe: str, project) -> list[str]:

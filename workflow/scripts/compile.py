@@ -8,15 +8,14 @@ from vibroimpact_pipeline.sources import Sources
 
 prepare(Path.cwd(), Sources())
 
-from vibroimpact.exact.engine.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
+from vibroimpact import compile  # noqa: E402  (Numba reads the environment when it is imported)
 from vibroimpact.rivals import METHODS  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
+compile.main()
 config = read("config/config.yaml")
 case = next(iter(config["cases"]))
 system, start = System(**case_parameters(config, case)), config["cases"][case]["simulation"]["initial_state"]
-run = simulate(system, start, cycles=1, sample_times=[0.0])
-_ = run.certificate, run.jacobian
 for method in METHODS:
     if not method.available():
         method.run(system, start, 1, 0.0, method.ladder[0])

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from numba import njit
 
+from vibroimpact.exact.engine.code_cache import kept
 from vibroimpact.system.matrices import damping_matrix, masses, rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
@@ -18,7 +18,7 @@ def coefficients(system) -> np.ndarray:
     return np.concatenate([*numbers, [system.Omega, system.epsilon, system.kappa]])
 
 
-@njit(cache=True)
+@kept()
 def accelerations(tau, s, q, stuck1, stuck2):
     """X1'' and X2''; a ball that sticks moves with its box as one mass 1 + epsilon."""
     sine = math.sin(q[8] * tau)
@@ -27,7 +27,7 @@ def accelerations(tau, s, q, stuck1, stuck2):
     return a1 / (1.0 + q[9] * stuck1), a2 / (1.0 + q[9] * stuck2)
 
 
-@njit(cache=True)
+@kept()
 def rates(tau, s, q, stuck1, stuck2):
     """Derivative of the state, shape (8,), in a contact state of the balls."""
     a1, a2 = accelerations(tau, s, q, stuck1, stuck2)

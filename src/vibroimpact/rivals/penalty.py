@@ -8,9 +8,9 @@ exp(-pi zeta / sqrt(1 - zeta^2)), zeta = c / (2 sqrt(k mu)): zeta is tuned so th
 import math
 
 import numpy as np
-from numba import njit
 from scipy.integrate import solve_ivp
 
+from vibroimpact.exact.engine.code_cache import kept
 from vibroimpact.rivals.equations import accelerations, coefficients
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
 
@@ -63,7 +63,7 @@ def tuned(epsilon: float, kappa: float, duration: float) -> tuple[float, float]:
     return mass * omega**2, 2.0 * zeta * mass * omega
 
 
-@njit(cache=True)
+@kept()
 def _force(gap, speed, stiffness, damping):
     """Force on the box (its opposite on the ball) from the wall that the ball is beyond."""
     if gap > 1.0:
@@ -73,7 +73,7 @@ def _force(gap, speed, stiffness, damping):
     return 0.0
 
 
-@njit(cache=True)
+@kept()
 def _rates(tau, s, q, stiffness, damping):
     d = np.empty(8)
     d[:4] = s[4:]

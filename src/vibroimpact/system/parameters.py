@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from vibroimpact.system.arguments import real
 from vibroimpact.system.matrices import dynamic_stiffness
 
 
@@ -33,14 +34,7 @@ class System:
 
     def __post_init__(self):
         for field in fields(self):
-            value = getattr(self, field.name)
-            try:
-                number = float(value)
-            except (TypeError, ValueError):
-                raise ValueError(f"{field.name}: {value!r} is not a number") from None
-            if not math.isfinite(number):
-                raise ValueError(f"{field.name}: {value!r} is not finite")
-            object.__setattr__(self, field.name, number)
+            object.__setattr__(self, field.name, real(field.name, getattr(self, field.name)))
         if self.epsilon <= 0:
             raise ValueError(f"epsilon: {self.epsilon} is not above 0")
         if not 0 < self.kappa < 1:
@@ -106,7 +100,15 @@ class System:
         return not (all(forced) if uncoupled else any(forced))
 
     def with_(self, **changes: float) -> "System":
-        """The same system with some parameters changed."""
+        """The same system with some parameters changed.
+
+        Returns:
+            A new System.
+
+        Raises:
+            ValueError: as for a System.
+            TypeError: there is no parameter of a name.
+        """
         return replace(self, **changes)
 
     def _resonates(self) -> bool:

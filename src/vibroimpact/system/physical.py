@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, fields
 
+from vibroimpact.system.arguments import real
 from vibroimpact.system.parameters import System
 
 
@@ -15,7 +16,8 @@ class PhysicalSystem:
     wall at |x - y| = L; kappa: restitution coefficient.
 
     Raises:
-        ValueError: a mass, stiffness to ground, frequency or L is not above 0, a damping or k12 is below 0.
+        ValueError: a parameter is not a finite number, a mass, stiffness to ground, frequency or L is not above 0, a
+            damping or k12 is below 0.
     """
 
     M: float
@@ -35,9 +37,7 @@ class PhysicalSystem:
 
     def __post_init__(self):
         for field in fields(self):
-            value = getattr(self, field.name)
-            if not isinstance(value, (int, float)) or not math.isfinite(value):
-                raise ValueError(f"{field.name}: {value!r} is not a finite number")
+            object.__setattr__(self, field.name, real(field.name, getattr(self, field.name)))
         for name in ("M", "m", "k1", "k2", "omega1", "omega2", "L"):
             if getattr(self, name) <= 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is not above 0")
@@ -52,6 +52,9 @@ class PhysicalSystem:
 
     def dimensionless(self) -> System:
         """The dimensionless system, by the definitions below (10.2) and by (10.4)-(10.6).
+
+        Returns:
+            The System; its time is tau = omega10 t, its lengths are in units of L.
 
         Raises:
             ValueError: the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or a
@@ -77,7 +80,17 @@ class PhysicalSystem:
 
     @classmethod
     def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
-        """The physical system with box mass M, first stiffness k1 and characteristic dimension L."""
+        """The physical system with box mass M, first stiffness k1 and characteristic dimension L.
+
+        Returns:
+            The PhysicalSystem whose `dimensionless` is the given one, up to rounding.
+
+        Raises:
+            ValueError: M, k1 or L is not a number above 0.
+        """
+        for name, value in (("M", M), ("k1", k1), ("L", L)):
+            if real(name, value) <= 0:
+                raise ValueError(f"{name}: {value} is not above 0")
         omega10 = math.sqrt(k1 / M)
         damping = M * omega10
         force = M * L * omega10**2

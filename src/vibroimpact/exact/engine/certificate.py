@@ -10,6 +10,7 @@ from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, hits_of, margins_of
 from vibroimpact.exact.engine.phase import phase_at
 from vibroimpact.exact.engine.turns import DOUBTS, GAP, turns_of
+from vibroimpact.system.glance import Glance, brief
 
 KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
@@ -18,8 +19,8 @@ CLEAR = 4.0
 """What is this many times the estimated error away is decided: true errors reach 2.6 times the estimate."""
 
 
-@dataclass(frozen=True)
-class Certificate:
+@dataclass(frozen=True, repr=False)
+class Certificate(Glance):
     """The proof and its limits, for one run.
 
     flights, exclusions: flights, and proofs along them that nothing happens over an interval; every instant of the
@@ -69,6 +70,10 @@ class Certificate:
             error=error,
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )
+
+    def _glance(self):
+        shown = ("clearance", "error", "horizon", "nearest_miss", "undecided")
+        return {"decided": str(self.decided), **{name: brief(getattr(self, name)) for name in shown}}
 
     @property
     def decided(self) -> bool:

@@ -5,9 +5,9 @@ What runs at every event is inlined: handing over a motion and its Taylor polyno
 than what is computed from them. What runs rarely is not, so that it does not get in the way.
 """
 
-from numba import njit
+from vibroimpact.exact.engine.code_cache import kept
 
-compiled = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"})
-inlined = njit(cache=True, error_model="numpy", nogil=True, fastmath={"contract"}, forceinline=True)
-literal = njit(cache=True, error_model="numpy", nogil=True, forceinline=True)
+compiled = kept(error_model="numpy", nogil=True, fastmath={"contract"})
+inlined = kept(error_model="numpy", nogil=True, fastmath={"contract"}, forceinline=True)
+literal = kept(error_model="numpy", nogil=True, forceinline=True)
 """Inlined, every operation rounded as it is written: for sums that catch their own rounding."""

@@ -6,9 +6,11 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
@@ -18,7 +20,9 @@ from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
-from vibroimpact.system.state import EVENT
+from vibroimpact.system.arguments import instance, real, reals, shown, whole
+from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.state import EVENT, KINDS
 
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
@@ -36,13 +40,18 @@ ROUNDED = 1e-12
 """So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
+@dataclass(frozen=True, eq=False, repr=False)
+class Run(Glance):
     """A simulated motion.
 
-    begin: time of the start, exactly; events: (m,) structured array (EVENT) in the order of time; samples: (n, 8)
-    states at the sample times, at an event the state after it; final: (8,) state at the end. States are
-    [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. ledger: the kernel's (`event_log`).
+    system, start, cycles: what was asked for; begin: time of the start, exactly.
+    events: (m,) structured array (EVENT) in the order of time, with the fields tau; module, 1 or 2; wall, +1 where
+        X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
+        leaves it (release); state, (8,), just after the event.
+    samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
+    ledger: the kernel's (`event_log`).
+
+    States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
     """
 
     system: System
@@ -54,6 +63,16 @@ class Run:
     final: np.ndarray
     _rows: np.ndarray = field(repr=False)
     ledger: np.ndarray = field(repr=False)
+
+    def _glance(self):
+        counts = np.bincount(self.events["kind"], minlength=len(KINDS))
+        return {
+            "cycles": str(self.cycles),
+            "tau0": brief(self.tau0),
+            "events": f"{len(self.events)}: " + ", ".join(f"{counts[kind]} {name}" for kind, name in KINDS.items()),
+            "samples": str(len(self.samples)),
+            "final": brief(self.final),
+        }
 
     @property
     def tau0(self) -> float:
@@ -83,7 +102,13 @@ class Run:
         return flow, course_of(flow, self.start, self._rows, phase, duration), self._rows
 
 
-def simulate(system: System, state, cycles: int, tau0: float | Instant = 0.0, sample_times=None) -> Run:
+def simulate(
+    system: System,
+    state: ArrayLike,
+    cycles: int,
+    tau0: float | Fraction | Instant = 0.0,
+    sample_times: ArrayLike | None = None,
+) -> Run:
     """Integrate the exact system over a number of forcing cycles, impacts, chatter, sticking and release included.
 
     Args:
@@ -94,11 +119,17 @@ def simulate(system: System, state, cycles: int, tau0: float | Instant = 0.0, sa
             the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
+    Returns:
+        The Run: its events, the samples, the final state; what it can vouch for, `run.certificate`, and the derivative
+        of the final state, `run.jacobian`, are computed when asked for. The first run on a machine waits until Numba
+        has compiled the engine, and says so; `python -m vibroimpact.compile` does that beforehand.
+
     Raises:
         ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
         ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
             were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
+    instance("system", system, System)
     state = _checked_state(state)
     begin, cycles = _checked_window(system, cycles, tau0)
     times = _checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
@@ -106,7 +137,7 @@ def simulate(system: System, state, cycles: int, tau0: float | Instant = 0.0, sa
 
 
 def simulate_many(
-    system: System, states, cycles: int, tau0: float | Instant = 0.0, progress: bool = False
+    system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0, progress: bool = False
 ) -> list[Run]:
     """Simulate from many starts on all cores; every run equals its `simulate` bit by bit.
 
@@ -116,11 +147,15 @@ def simulate_many(
         cycles, tau0: as for `simulate`.
         progress: report on standard error, about once a second.
 
+    Returns:
+        One Run for each start, in their order.
+
     Raises:
         ValueError: an argument is malformed or a start inadmissible (its row is named).
         ArithmeticError: an invariant broke in one of the runs.
     """
-    states = _real_array("states", states)
+    instance("system", system, System)
+    states = reals("states", states)
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
@@ -174,22 +209,12 @@ def _table(rows, tau0):
     return table
 
 
-def _real_array(name, values):
-    """A float array, nothing lost in the conversion."""
-    try:
-        array = np.array(values)
-        if array.dtype.kind == "c":
-            raise TypeError
-        return array.astype(float, copy=False)
-    except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name}: {values!r} is not an array of real numbers") from None
-
-
 def _checked_state(state):
-    state = _real_array("state", state)
-    if state.shape != (8,) or not np.isfinite(state).all():
-        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {state.tolist()}")
-    x1, y1, x2, y2 = state[:4].tolist()
+    state = reals("state", state)
+    values = state.tolist()
+    if state.shape != (8,) or not all(map(math.isfinite, values)):
+        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
+    x1, y1, x2, y2 = values[:4]
     for module, box, ball in ((1, x1, y1), (2, x2, y2)):
         relative = abs(box - ball)
         if relative > 1.0 and relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
@@ -199,11 +224,8 @@ def _checked_state(state):
 
 def _checked_window(system, cycles, tau0):
     """The start of a run, exactly, and its number of cycles."""
-    if not _is_finite(cycles) or int(cycles) != cycles or not 0 <= cycles <= MOST_CYCLES:
-        raise ValueError(f"cycles: {cycles!r} is not a whole number from 0 to {MOST_CYCLES}")
-    if not isinstance(tau0, Instant) and not _is_finite(tau0):
-        raise ValueError(f"tau0: {tau0!r} is neither a finite real number nor the end of a run")
-    begin = tau0 if isinstance(tau0, float) else exactly(tau0)
+    cycles = whole("cycles", cycles, 0, MOST_CYCLES)
+    begin = _instant(tau0)
     start = float(begin)
     for name, tau in (("tau0", start), ("cycles", start + cycles * system.period)):
         if not abs(tau) < LATEST:
@@ -211,21 +233,21 @@ def _checked_window(system, cycles, tau0):
                 f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
                 "its times (the forcing is the same whole periods earlier)"
             )
-    return begin, int(cycles)
+    return begin, cycles
 
 
-def _is_finite(value):
-    """Whether a value is a real number that a float can stand for."""
-    try:
-        return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
-    except OverflowError:
-        return False
+def _instant(tau0):
+    """The time that tau0 stands for, exactly."""
+    if isinstance(tau0, Instant):
+        return tau0
+    number = real("tau0", tau0)
+    return exactly(tau0) if isinstance(tau0, numbers.Rational) else number
 
 
 def _checked_times(sample_times, start, end):
     if sample_times is None:
         return NO_TIMES
-    times = _real_array("sample_times", sample_times)
+    times = reals("sample_times", sample_times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
         raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
     slack = 4.0 * math.ulp(max(abs(start), abs(end)))

@@ -12,16 +12,19 @@ from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
+from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
 _SAMPLES = 4096  # of one flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
+_MOST_STARTS = 2**20
 
 
-@dataclass(frozen=True, eq=False)
-class Orbit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Orbit(Glance):
     """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
 
     system: the system it belongs to.
@@ -43,6 +46,14 @@ class Orbit:
     state: np.ndarray
     admissible: bool
     residual: float
+
+    def _glance(self):
+        return {
+            "symmetric": str(self.symmetric),
+            "admissible": str(self.admissible),
+            "C": brief(self.C),
+            "multipliers": f"moduli up to {brief(abs(self.multipliers[0]))}",
+        }
 
     @property
     def C(self) -> np.ndarray:
@@ -78,9 +89,10 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """All 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
 
-    Roots that are no motions of the system (see Orbit.admissible) are in the list too, marked. Order: symmetric ones
-    first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an asymmetric orbit
-    and its mirror image are neighbours.
+    Returns:
+        A list of Orbit. Roots that are no motions of the system (see Orbit.admissible) are in it too, marked. Order:
+        symmetric ones first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an
+        asymmetric orbit and its mirror image are neighbours.
 
     Raises:
         ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
@@ -92,12 +104,10 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
     """As orbits(system), with the effort spent on the asymmetric ones and what it says about completeness.
 
     Raises:
-        ValueError: as orbits; starts is not a positive integer.
+        ValueError: as orbits; starts is not a whole number from 1 to 2**20.
     """
-    if not isinstance(system, System):
-        raise ValueError(f"system: {system!r} is not a System")
-    if not isinstance(starts, int) or starts < 1:
-        raise ValueError(f"starts: {starts!r} is not a positive integer")
+    instance("system", system, System)
+    starts = whole("starts", starts, 1, _MOST_STARTS)
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
     roots, hits = asymmetric_solutions(system, starts)
     asymmetric = [asymmetric_orbit(system, root) for root in roots]

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance
+from vibroimpact.system.glance import Glance, brief
 from vibroimpact.theory.fixed_points.polynomials import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
 from vibroimpact.theory.fixed_points.refinement import mirrored_pair, refine, same
@@ -11,8 +14,8 @@ from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, slow_eigenvalues
 
 
-@dataclass(frozen=True, eq=False)
-class FixedPoint:
+@dataclass(frozen=True, eq=False, repr=False)
+class FixedPoint(Glance):
     """A periodic response with two impacts per cycle and module, (10.23).
 
     Attributes:
@@ -29,6 +32,10 @@ class FixedPoint:
     slow_eigenvalues: np.ndarray
     multiple: bool
 
+    def _glance(self):
+        numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
+        return {**numbers, "slow_eigenvalues": f"real parts up to {brief(self.slow_eigenvalues.real.max())}"}
+
 
 @dataclass(frozen=True, eq=False)
 class FixedPointSearch:
@@ -42,19 +49,26 @@ class FixedPointSearch:
     radius: float
 
 
-def fixed_points(system) -> list[FixedPoint]:
-    """The fixed points with C_1, C_2 >= 0, ascending in C_1; see `search`."""
+def fixed_points(system: System) -> list[FixedPoint]:
+    """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
+
+    Returns:
+        A list of FixedPoint, ascending in C_1. It is complete up to rounding (see `certify`).
+
+    Raises:
+        ValueError: system is not a System; else as `search`.
+    """
     return search(system).points
 
 
-def search(system) -> FixedPointSearch:
+def search(system: System) -> FixedPointSearch:
     """All fixed points, admissible or not.
 
     Raises:
-        ValueError: the undamped slow flow without balls is at a resonance that the forces do not load: a free motion
-            of any phase may then touch the walls, and fixed points need not be isolated.
+        ValueError: system is not a System, or its undamped slow flow without balls is at a resonance that the forces do
+            not load: a free motion of any phase may then touch the walls, and fixed points need not be isolated.
     """
-    refuse_free_motion(system)
+    refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     radius = search_radius(system)
     zeros, multiple = real_zeros(*balance.polynomials(), radius)

@@ -1,0 +1,103 @@
+"""Words of the command line -> a table on standard output or in a file, maybe a plot; errors on one line."""
+
+import argparse
+import os
+import re
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import vibroimpact
+from vibroimpact.cli import fixed_points, orbits, response, simulate, system_options
+from vibroimpact.cli.table import Table
+
+COMMANDS = {"fixed-points": fixed_points, "orbits": orbits, "simulate": simulate, "response": response}
+PICTURES = (".png", ".pdf", ".svg")
+
+
+class _Parser(argparse.ArgumentParser):
+    """An error is one line; -1e-3 is a number, as -0.001 is."""
+
+    def __init__(self, **settings):
+        super().__init__(**settings)
+        self._negative_number_matcher = re.compile(r"-\.?\d")
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; returns the exit status: 2 where the words were wrong, 1 where the computation failed."""
+    options = parser().parse_args(arguments)
+    return options.run(options)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__)
+    top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
+    commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, command in COMMANDS.items():
+        own = commands.add_parser(name, help=command.HELP, description=command.HELP + ", as CSV")
+        command.add_options(own)
+        own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV there instead of standard output")
+        own.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
+        system_options.add(own)
+        own.set_defaults(run=_tell, command=name, parser=own)
+    words = "compile the simulation beforehand, once for a machine"
+    commands.add_parser("compile", help=words, description=words).set_defaults(run=_compile)
+    return top
+
+
+def _compile(options) -> int:
+    import_module("vibroimpact.compile").main()
+    return 0
+
+
+def _tell(options) -> int:
+    """Compute the table of a command and put it where it belongs."""
+    try:
+        plots = _plots(options)
+        _check_folders(options)
+        table = COMMANDS[options.command].compute(system_options.system_of(options), options)
+        if plots:
+            plots.DRAW[options.command](table).savefig(options.plot)
+        _put(table, options.output)
+    except BrokenPipeError:  # the reader has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (ValueError, ImportError, OSError) as error:
+        options.parser.error(str(error))
+    except ArithmeticError as error:
+        options.parser.exit(1, f"{options.parser.prog}: {error}\n")
+    return 0
+
+
+def _plots(options):
+    """The module that draws, if a picture is asked for.
+
+    Raises:
+        ValueError: no kind of picture is known by this ending.
+        ModuleNotFoundError: the extra `figures` is not installed.
+    """
+    if options.plot is None:
+        return None
+    if options.plot.suffix not in PICTURES:
+        raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
+    return import_module("vibroimpact.cli.plots")
+
+
+def _check_folders(options):
+    """Nothing is computed for a file that cannot be written."""
+    for name in ("output", "plot"):
+        path = getattr(options, name)
+        if path is not None and not path.parent.is_dir():
+            raise ValueError(f"{name}: there is no folder {path.parent}")
+
+
+def _put(table: Table, output: Path | None):
+    if output is None:
+        table.write(sys.stdout)
+        sys.stdout.flush()
+    else:
+        with open(output, "w", encoding="utf-8", newline="") as file:
+            table.write(file)

@@ -1,0 +1,57 @@
+"""The picture of each command's table, in the look of the figures."""
+
+from itertools import groupby
+
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, SINGLE_COLUMN, STABLE, UNSTABLE, new_figure, styled
+from vibroimpact.regimes.families import FixedPoints
+from vibroimpact.system.verdict import STABLE as IS_STABLE
+
+
+@styled
+def points(table):
+    """C_2 over C_1 of fixed points or orbits, filled where stable; the last column is the verdict."""
+    figure = new_figure(SINGLE_COLUMN, SINGLE_COLUMN)
+    axes = figure.add_subplot()
+    first = table.columns.index("C1")
+    for row in table.rows:
+        fill = BLACK if row[-1] == IS_STABLE else "white"
+        axes.plot(row[first], row[first + 1], "o", color=BLACK, markerfacecolor=fill, clip_on=False)
+    axes.margins(0.1)
+    axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_1$", ylabel="$C_2$", title="filled: stable")
+    return figure
+
+
+@styled
+def motion(table):
+    """Samples of a run: W_i between its walls, and X_i; of events, their W_i."""
+    figure = new_figure(DOUBLE_COLUMN, 100.0)
+    columns = dict(zip(table.columns, zip(*table.rows, strict=True), strict=True))
+    for i, axes in enumerate(figure.subplots(2, 1, sharex=True), start=1):
+        X, Y = columns[f"X{i}"], columns[f"Y{i}"]
+        axes.plot(columns["tau"], [x - y for x, y in zip(X, Y, strict=True)], color="0.6", label=f"$W_{i}$")
+        axes.plot(columns["tau"], X, color=BLACK, label=f"$X_{i}$")
+        axes.legend(loc="upper right", ncols=2)
+    axes.set(xlabel=r"$\tau$")
+    return figure
+
+
+@styled
+def curves(table):
+    """C_1 and C_2 over the parameter, theory beside exact; stable bold solid, unstable dashed."""
+    figure = new_figure(DOUBLE_COLUMN, 110.0)
+    grid = figure.subplots(2, 2, sharex=True, sharey="row")
+    for (family, _, _), rows in groupby(table.rows, key=lambda row: row[:3]):
+        piece = list(rows)
+        p, C1, C2, stable, admissible = zip(*(row[3:8] for row in piece), strict=True)
+        column = int(family != FixedPoints.name)
+        for axes, C in zip(grid[:, column], (C1, C2), strict=True):
+            if admissible[0]:
+                axes.plot(p, C, **(STABLE if stable[0] else UNSTABLE))
+    for i in (0, 1):
+        grid[0, i].set_title(("theory", "exact")[i])
+        grid[i, 0].set_ylabel(f"$C_{i + 1}$")
+        grid[1, i].set_xlabel(table.columns[3])
+    return figure
+
+
+DRAW = {"fixed-points": points, "orbits": points, "simulate": motion, "response": curves}

@@ -1,0 +1,35 @@
+"""A word before something is compiled that takes long; nothing where Numba finds it in its cache."""
+
+import sys
+
+from numba.core import event
+
+SIMULATION = "the simulation, some 20 s"
+ON_DEMAND = "what certificates and Jacobians of runs need, some 10 s"
+"""What is compiled apart, and about how long it takes."""
+
+
+class _Notice(event.Listener):
+    """Hears of all that Numba compiles, a function within another included, just before it does."""
+
+    def __init__(self):
+        self.within, self.said = 0, set()
+
+    def on_start(self, compilation):
+        module = compilation.data["dispatcher"].py_func.__module__ or ""
+        what = SIMULATION if module.endswith(".event_loop") else ON_DEMAND
+        if not self.within and module.startswith(__package__) and what not in self.said:
+            self.said.add(what)
+            say(f"compiling {what}, once (python -m vibroimpact.compile does it beforehand)")
+        self.within += 1
+
+    def on_end(self, compilation):
+        self.within -= 1
+
+
+def say(words: str) -> None:
+    """One line on standard error."""
+    print(f"vibroimpact: {words}", file=sys.stderr, flush=True)
+
+
+event.register("numba:compile", _Notice())

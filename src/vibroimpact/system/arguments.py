@@ -1,0 +1,74 @@
+"""Arguments as users give them: what is not a real number, a whole number or an array of numbers is refused by name."""
+
+import math
+import numbers
+
+import numpy as np
+
+_SHOWN = 60
+
+
+def instance(name: str, value, kind: type):
+    """The value, if it is of a kind.
+
+    Raises:
+        ValueError: it is not.
+    """
+    if not isinstance(value, kind):
+        raise ValueError(f"{name}: {shown(value)} is not a {kind.__name__}")
+    return value
+
+
+def real(name: str, value) -> float:
+    """A finite real number as a float; a text or a truth value is none.
+
+    Raises:
+        ValueError: it is none, not finite, or beyond the range of floats.
+    """
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise ValueError(f"{name}: {shown(value)} is not a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise ValueError(f"{name}: {shown(value)} is beyond the range of floats") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name}: {shown(value)} is not finite")
+    return number
+
+
+def whole(name: str, value, least: int, most: int) -> int:
+    """A whole number from least to most, also where it is given as a float.
+
+    Raises:
+        ValueError: it is none.
+    """
+    number = not isinstance(value, bool) and isinstance(value, numbers.Real)
+    if not (number and least <= value <= most and int(value) == value):
+        raise ValueError(f"{name}: {shown(value)} is not a whole number from {least} to {most}")
+    return int(value)
+
+
+def reals(name: str, values) -> np.ndarray:
+    """A new float array of any shape, maybe not finite.
+
+    Raises:
+        ValueError: it is no array of real numbers, or some of them are masked.
+    """
+    try:
+        array = np.array(values)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = None
+    if array is None or array.dtype.kind not in "iuf":
+        raise ValueError(f"{name}: {shown(values)} is not an array of real numbers")
+    if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):
+        raise ValueError(f"{name}: a masked array; numbers that are missing cannot be used")
+    return array.astype(float, copy=False)
+
+
+def shown(value) -> str:
+    """A value on one short line."""
+    try:
+        text = " ".join(repr(value).split())
+    except ValueError:  # an integer with more digits than Python prints
+        text = f"{type(value).__name__} of very many digits"
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 4]} ..."

@@ -1,0 +1,27 @@
+"""Results at a glance: one line in a console, a small table in a notebook."""
+
+from html import escape
+
+import numpy as np
+
+
+class Glance:
+    """What the line and the table show is told once, by `_glance`."""
+
+    def _glance(self) -> dict[str, str]:
+        """Short texts by the names of attributes."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._glance().items())})"
+
+    def _repr_html_(self) -> str:
+        rows = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in self._glance().items())
+        return f"<table><caption>{type(self).__name__}</caption>{''.join(rows)}</table>"
+
+
+def brief(numbers) -> str:
+    """A number or an array (n,) with four digits each."""
+    if np.ndim(numbers) == 0:
+        return f"{numbers:.4g}"
+    return f"({', '.join(f'{number:.4g}' for number in numbers)})"
