@@ -15,7 +15,9 @@ ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
-NOT_BY_DEFAULT = shutil.ignore_patterns("report", "api", "animations", "travel", "figure_check", "*_full*", "confusion*")
+NOT_BY_DEFAULT = shutil.ignore_patterns(
+    "report", "api", "animations", "travel", "figure_check", "*_full*", "confusion*"
+)
 """Results of targets that a default build leaves alone."""
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
