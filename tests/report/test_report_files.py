@@ -9,7 +9,10 @@ import pandas as pd
 import pytest
 import yaml
 
+import vibroimpact as vi
 from pipeline_trees import ROOT
+from vibroimpact_pipeline.data_dictionary import files, read
+from vibroimpact_pipeline.report.api import documented
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 PAGES = [page["name"] for page in SETTINGS["pages"]]
@@ -55,6 +58,43 @@ def test_links_are_alive(site, pages, name):
         assert (site / target).is_file(), f"{link} leads nowhere"
         if parts.fragment:
             assert parts.fragment in pages[target].names, f"{link} leads to no place on its page"
+
+
+@pytest.fixture(scope="module")
+def library(site):
+    """The pages on the library, by the module that they show."""
+    found = {path.relative_to(site / "api").with_suffix(""): path for path in (site / "api").rglob("*.html")}
+    return {".".join(name.parts): Page(path) for name, path in found.items()}
+
+
+def test_every_module_that_is_shown_has_a_page_that_leads_nowhere_outside(site, library):
+    assert set(library) == set(documented(SETTINGS["api"]["left_out"]))
+    for name, page in library.items():
+        own = (site / "api" / name.replace(".", "/")).with_suffix(".html")
+        for link in page.links:
+            parts = urlsplit(link)
+            assert not parts.scheme, link
+            target = (own.parent / unquote(parts.path)).resolve() if parts.path else own
+            assert target.is_file(), f"{name}: {link} leads nowhere"
+            if parts.fragment:
+                other = ".".join(target.relative_to(site / "api").with_suffix("").parts)
+                assert parts.fragment in library[other].names, f"{name}: {link} leads to no place on its page"
+
+
+def test_the_first_page_on_the_library_has_its_public_names(library):
+    assert set(vi.__all__) - {"__version__"} <= set(library["vibroimpact"].names)
+    assert {"B_of_C", "C_min", "impact_phase"} <= set(library["vibroimpact.theory.manifold"].names)
+
+
+def test_data_of_the_report_are_in_the_dictionary(reported):
+    listed = files(*read(ROOT))
+    made = [path for name in ("animations", "travel") for path in (reported / f"results/{name}").glob("*.*")]
+    data = [path for path in made if path.suffix in (".csv", ".json")]
+    assert len(data) == len(SETTINGS["animations"]) + 2
+    for path in data:
+        (file,) = (file for file in listed if file.has(str(path.relative_to(reported.path))))
+        found = pd.read_csv(path).columns if path.suffix == ".csv" else json.loads(path.read_text(encoding="utf-8"))
+        assert list(found) == list(file.columns or file.keys)
 
 
 def test_every_table_of_a_figure_can_be_downloaded(site, pages):

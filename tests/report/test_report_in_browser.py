@@ -12,6 +12,7 @@ from vibroimpact_pipeline.config import read
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
 PAGES = [page["name"] for page in SETTINGS["pages"]]
+LIBRARY = ["api/vibroimpact", "api/vibroimpact/regimes/settling"]
 WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]
 NARROW = 400
 DECENT_CONTRAST = 4.5
@@ -28,10 +29,10 @@ def address(site, page):
     return (site / f"{page}.html").as_uri()
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", PAGES + LIBRARY)
 def test_a_page_opens_without_trouble_and_asks_nobody_else(browser, site, screenshots, page):
     browser.open(address(site, page))
-    browser.screenshot(screenshots / f"{page}.png")
+    browser.screenshot(screenshots / f"{page.replace('/', '_')}.png")
     assert browser.problems == []
     assert address(site, page) in browser.requests
     outside = [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))]
@@ -110,10 +111,10 @@ def test_no_formula_is_left_as_it_was_typed(browser, site, page):
     assert [sign for sign in ("$", "\\frac", "\\tag", "\\hat") if sign in text] == []
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", PAGES + LIBRARY)
 def test_a_narrow_window_scrolls_down_only(browser, site, screenshots, page):
     browser.open(address(site, page), width=NARROW)
-    browser.screenshot(screenshots / f"{page}_narrow.png")
+    browser.screenshot(screenshots / f"{page.replace('/', '_')}_narrow.png")
     assert browser.run("document.documentElement.scrollWidth") <= NARROW
 
 

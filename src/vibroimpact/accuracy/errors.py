@@ -27,7 +27,10 @@ class Errors:
 def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
     """Errors of a RivalRun against a reference run (events and final as in exact.simulation) of the same motion.
 
-    events: False where the reference covers the same final state but not all the events before it.
+    Args:
+        period: of the forcing, in units of tau.
+        faint: rebound speed at and below which an impact need not be found.
+        events: False where the reference covers the same final state but not all the events before it.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -48,7 +51,7 @@ def compare(run, reference, period: float, faint: float = FAINT, events: bool = 
 
 
 def rebound_speeds(events) -> np.ndarray:
-    """|W'| just after each event, in its own module, shape (n,)."""
+    """|W'| just after each of the events of a run, shape (n,), in its own module."""
     box = 4 + 2 * (events["module"].astype(int) - 1)
     rows = np.arange(len(events))
     return np.abs(events["state"][rows, box] - events["state"][rows, box + 1])

@@ -25,6 +25,9 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
             box, with its velocity.
         ball_velocity: of ball 1.
         guess: tau near which W_1 is at its maximum.
+
+    Raises:
+        ValueError: W_1 has no maximum there.
     """
     exact_system = ExactSystem.of(system)
     with ctx.workprec(BITS):

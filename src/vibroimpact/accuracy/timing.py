@@ -8,7 +8,7 @@ PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
 def shortest_time(work, seconds: float, most: int = 200) -> float:
-    """Seconds of the fastest of several calls: as many as fit in `seconds`, at least one and at most `most`.
+    """Seconds of the fastest of several calls of `work`: as many as fit in `seconds`, at least one and at most `most`.
 
     Whatever is done only once (compilation, tables) must have been done by a call before.
     """

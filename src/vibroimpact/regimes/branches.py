@@ -72,6 +72,7 @@ def branches(family, path: Path, interval, seeds: Iterable[float], longest: floa
     is missed.
 
     Args:
+        family: one of `families.FAMILIES`. path: gives the system at p.
         longest: longest step along the curve.
     """
     found = []

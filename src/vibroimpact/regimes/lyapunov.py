@@ -38,7 +38,11 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
 
 
 def growth_rates(system, state, blocks: int, cycles: int) -> np.ndarray:
-    """Growth rate per forcing period of a perturbation in each block, shape (blocks,); see `largest_exponent`."""
+    """Growth rate per forcing period of a perturbation in each block, shape (blocks,); see `largest_exponent`.
+
+    Raises:
+        ArithmeticError: the perturbation vanished.
+    """
     direction, growth = np.full(8, 8**-0.5), []
     for _ in range(blocks):
         run = simulate(system, state, cycles)

@@ -10,7 +10,7 @@ PER_CYCLE = 24
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
-    """Half the peak-to-peak value in each whole forcing period, shape (cycles,), of evenly sampled values (n,)."""
+    """Half the peak-to-peak value in each whole forcing period, shape (cycles,), of values (n,), per_cycle in each."""
     cycles = len(values) // per_cycle
     by_cycle = np.asarray(values)[: cycles * per_cycle].reshape(cycles, per_cycle)
     return 0.5 * (by_cycle.max(axis=1) - by_cycle.min(axis=1))
@@ -35,7 +35,8 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
     """Cycles at which the amplitude has swollen: risen above `high` of its range since it was last below `low`.
 
     The two thresholds (parts of the range between smallest and largest amplitude) keep ripples from counting.
-    Returns indices, shape (s,); their distances are the modulation periods. Empty for a steady response.
+    Returns indices into the amplitudes (n,), shape (s,): their distances are the modulation periods. Empty for a
+    steady response.
     """
     amplitudes = np.asarray(amplitudes, dtype=float)
     lowest, span = np.min(amplitudes), np.ptp(amplitudes)
@@ -97,7 +98,7 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def burst_lengths(system, state, cycles: int, module: int) -> np.ndarray:
-    """Lengths in cycles of the bursts of one ball over so many cycles from a state at a cycle's start, shape (b,)."""
+    """Lengths in cycles, shape (b,), of the bursts of a module's ball over so many from a state at a cycle's start."""
     events = simulate(system, state, cycles).events
     impacts = events[(events["module"] == module) & (events["kind"] == IMPACT)]
     return np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period

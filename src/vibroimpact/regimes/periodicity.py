@@ -32,7 +32,10 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     0 for a motion that repeats after `cycles` periods.
 
     Args:
-        displacements: shape (n, k) with n > cycles * per_cycle.
+        displacements: shape (n, k), evenly sampled, per_cycle times in a forcing period.
+
+    Raises:
+        ValueError: so many periods are not within the window.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
@@ -44,6 +47,9 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     """The smallest number of forcing periods after which the motion repeats within a tolerance, or None.
 
     Only numbers up to half the window are tried, so that every claimed repetition was seen at least twice.
+
+    Args:
+        displacements, per_cycle: as in `distance_after`.
     """
     longest = (len(displacements) - 1) // (2 * per_cycle)
     candidates = range(1, longest + 1)

@@ -37,6 +37,7 @@ def settle(system, states, observation: Observation) -> list[Regime]:
 
     Args:
         states: (n, 8) starts at tau = 0.
+        observation: how long they are looked at.
     """
     first = _rounds(system, states, observation)
     regimes = list(first)

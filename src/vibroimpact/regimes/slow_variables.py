@@ -25,7 +25,7 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
 
 
 def phase_in_cycle(tau, period: float):
-    """Fraction of the forcing period, in [0, 1), at which events happen."""
+    """Fraction of the forcing period, in [0, 1), at which events at times tau happen; the shape is that of tau."""
     return np.remainder(np.asarray(tau) / period, 1.0)
 
 

@@ -60,7 +60,10 @@ class Method(ABC):
 
     @abstractmethod
     def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> RivalRun:
-        """Integrate from a state (8,) over whole forcing periods in at most `limit` steps (by default the method's)."""
+        """Integrate from a state (8,) at tau0 over so many forcing periods in at most `limit` steps.
+
+        setting: one of the ladder. limit: by default the method's. A run that cannot go on comes back with a failure.
+        """
 
     def scale(self, setting, run: RivalRun) -> float:
         """The small quantity in which the error is expected to fall: by default the mean step."""

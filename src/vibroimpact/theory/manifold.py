@@ -1,4 +1,7 @@
-"""The slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25)."""
+"""The slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25).
+
+Everywhere B, C and rho, (10.15), are numbers or arrays that broadcast, dimensionless; angles are in radians.
+"""
 
 import numpy as np
 

@@ -24,6 +24,9 @@ def impact_multipliers(C, kappa) -> np.ndarray:
     Small changes of impact time and ball speed, seen mirrored from impact to impact; stable where both moduli are
     below 1, that is for C_min < C < SYMMETRY_BREAKING_C. Their product is kappa^2, their sum
     2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
+
+    Raises:
+        ValueError: C is 0 (grazing).
     """
     if C == 0:
         raise ValueError("C: 0.0 is a grazing motion, which has no linearised impact map")

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def printed_limit(rho):
-    """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho)."""
+    """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho), shape of rho."""
     return 4 / (4 + np.pi * rho)
 
 

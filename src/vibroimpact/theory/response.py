@@ -38,6 +38,10 @@ def leading_order(system, point, tau) -> Response:
 
 
 def impact_times(system, point) -> np.ndarray:
-    """Time in [0, period) at which each ball meets the wall W = +1, shape (2,); half a period later it is at -1."""
+    """Time tau in [0, period) at which each ball meets the wall W = +1, shape (2,); half a period later it is at -1.
+
+    Args:
+        point: a fixed point (its C and psi are used).
+    """
     phase = impact_phase(point.C, rho(system.kappa)) + point.psi
     return np.remainder(phase, 2 * np.pi) / system.Omega

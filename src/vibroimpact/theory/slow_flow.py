@@ -30,7 +30,7 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """`rates` as rational functions of B, cos psi, sin psi and C: open to computer algebra."""
+    """`rates` as rational functions of B, cos psi, sin psi and C, each shape (2,): open to computer algebra."""
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
     stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
@@ -87,6 +87,9 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def jacobian(system, psi, C) -> np.ndarray:
     """Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2), C following B on its arm of the manifold.
 
+    Args:
+        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (2,).
+
     Raises:
         ValueError: some C_i is at the fold, where the Jacobian is infinite.
     """
@@ -98,6 +101,10 @@ def jacobian(system, psi, C) -> np.ndarray:
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """The four eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold."""
+    """The four eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
+
+    Args:
+        psi, C: phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).
+    """
     values = eigvals(*linearisation(system, psi, C))
     return values[np.argsort(-values.real, kind="stable")]

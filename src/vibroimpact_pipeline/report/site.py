@@ -12,8 +12,8 @@ import typst
 
 from vibroimpact_pipeline.report.offline import MATHEMATICS
 
-READER = "markdown-fancy_lists-auto_identifiers+gfm_auto_identifiers"
-"""Without lists that begin with "(3)": here that is an equation at the start of a paragraph."""
+READER = "markdown-fancy_lists+gfm_auto_identifiers"
+"""Headings can be linked to; no list begins with "(3)": here that is an equation at the start of a paragraph."""
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
 PDF = "report.pdf"

@@ -94,8 +94,10 @@ def proven_run(
 ) -> ProvenRun:
     """The run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
 
-    digits: where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the
-    modulated case, and 40 more.
+    Args:
+        system_parameters, state, cycles, tau0, sample_times: as in `reference_run`.
+        digits: where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the
+            modulated case, and 40 more.
 
     Raises:
         ArithmeticError: no agreement up to max_digits.

@@ -45,7 +45,7 @@ def impact_sequence(times: np.ndarray, period: float):
 
 
 def free_flight(system, state: np.ndarray, tau: float, duration: float):
-    """State (8,) after a free flight from time tau, and its derivative (8, 8) by the state before."""
+    """State (8,) after a free flight from time tau of this duration, and its derivative (8, 8) by the state before."""
     flow = expm(rate_matrix(system) * duration)
     phase = system.Omega * tau
     final, jacobian = np.empty(8), np.zeros((8, 8))

@@ -1,0 +1,67 @@
+"""The map of the house: what README and CONTRIBUTING name is there, and every page is found from the README."""
+
+import ast
+import re
+
+import pytest
+
+from pipeline_trees import ROOT
+
+README, CONTRIBUTING = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "CONTRIBUTING.md"))
+PAGES = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
+EQUATIONS = re.findall(r"^\| (\(10\.\d+\).*?) \| (.*?) \| (.*?) \|$", CONTRIBUTING, re.MULTILINE)
+LINK = re.compile(r"\]\(([^)#]+)")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_page_is_linked_from_the_readme(page):
+    assert f"](docs/{page})" in README
+
+
+@pytest.mark.parametrize("text", [README, CONTRIBUTING], ids=["README", "CONTRIBUTING"])
+def test_links_lead_somewhere(text):
+    links = LINK.findall(text)
+    assert links
+    assert [link for link in links if not (ROOT / link).exists()] == []
+
+
+def test_the_map_names_what_is_there():
+    rooms = re.findall(r"^\| (`.*?`) \|", CONTRIBUTING, re.MULTILINE)
+    names = [name for room in rooms for name in re.findall(r"`([^`]+)`", room)]
+    assert len(names) > 8
+    assert [name for name in names if not (ROOT / name).exists()] == []
+
+
+def docstrings(path) -> dict[str, str]:
+    """Docstrings of the functions and classes of a module, methods as Class.method."""
+    found = {}
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            found[node.name] = ast.get_docstring(node) or ""
+        if isinstance(node, ast.ClassDef):
+            methods = (inner for inner in node.body if isinstance(inner, ast.FunctionDef))
+            found |= {f"{node.name}.{inner.name}": ast.get_docstring(inner) or "" for inner in methods}
+    return found
+
+
+def cited(text) -> set[int]:
+    """Numbers of the equations of chapter 10 in a text; a range (10.4)-(10.6) stands for all of them."""
+    numbers = {int(number) for number in re.findall(r"\(10\.(\d+)\)", text)}
+    for first, last in re.findall(r"\(10\.(\d+)\)[-–]\(10\.(\d+)\)", text):
+        numbers |= set(range(int(first), int(last) + 1))
+    return numbers
+
+
+@pytest.mark.parametrize(("equations", "files", "names"), EQUATIONS, ids=[row[0] for row in EQUATIONS])
+def test_an_equation_is_where_the_map_says(equations, files, names):
+    modules = [ROOT / "src/vibroimpact" / name for name in re.findall(r"`([^`]+)`", files)]
+    found = {name: text for module in modules for name, text in docstrings(module).items()}
+    said = set()
+    for name in re.findall(r"`([^`]+)`", names):
+        assert name in found
+        said |= cited(found[name])
+    assert cited(equations) <= said or "derived" in equations
+
+
+def test_the_map_has_all_equations_that_are_looked_for():
+    assert {2, 6, 9, 11, 12, 16, 23, 24, 25, 26} <= cited("".join(row[0] for row in EQUATIONS))
