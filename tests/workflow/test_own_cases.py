@@ -98,3 +98,21 @@ def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
     for page in pages:
         text = page.read_text(encoding="utf-8")
         assert all(reason in text for reason in reasons), page
+
+
+def single(config):
+    """The case `equal` alone, under another name, with the chapter's figures of it."""
+    for case in ("unequal", "weak"):
+        without_case(config, case)
+    config = renamed(renamed(config, "unequal", "equal"), "equal", "alone")
+    config["regimes"]["epsilon"]["mixed"]["case"] = "alone"
+    return config
+
+
+def test_a_single_case_of_another_name_is_planned_to_the_end(edited):
+    tree = edited(single)
+    output = tree.dry_run("all", "report", "figure_check")
+    assert tree.returncode == 0, output
+    rules = tree.planned("all", "report")
+    assert {"fig10_06", "companion_branches", "claims", "report"} <= rules
+    assert not {"fig10_09", "fig10_10", "fig10_11", "companion_horizon"} & rules

@@ -54,6 +54,6 @@ class Case(Section):
 
 Cases = Annotated[
     dict[Name, Case],
-    Field(min_length=1, max_length=7, description="Excitation amplitudes, and how the motion is integrated"),
+    Field(min_length=1, max_length=12, description="Excitation amplitudes, and how the motion is integrated"),
 ]
-"""At most seven, since companions letter their panels, one for each case and one more, from a to h."""
+"""At most twelve: companions have a panel for each."""
