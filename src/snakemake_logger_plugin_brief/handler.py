@@ -13,7 +13,7 @@ from snakemake_logger_plugin_brief.results import open_first
 from snakemake_logger_plugin_brief.screen import Screen
 from snakemake_logger_plugin_brief.words import count
 
-SAID = ("Assuming ", "Building DAG", "Config file ", "Using shell")
+SAID = ("Assuming ", "Building DAG", "Config file ", "Singularity containers: ignored", "Using shell")
 """What Snakemake says before it builds, by its beginnings; in a build its events say all that matters."""
 SAID_AGAIN = ("Exiting because a job execution failed", "WorkflowError:\nAt least one job did not complete")
 STOPS = ("Terminating processes on user request", "Will exit after finishing currently running jobs")
