@@ -58,6 +58,7 @@ class Build:
         self.stopped, self.untold = True, []
 
     def progress(self) -> str:
+        """How many jobs are done of how many, in columns that stay straight."""
         return f"{len(self.finished):>{len(str(self.total))}} of {self.total}"
 
     def status(self, now: float) -> str:
@@ -77,10 +78,10 @@ class Build:
         """The last lines: how it ended, how long it took, where the results are."""
         took = duration(now - self.began)
         if self.stopped:
-            return [f"Stopped after {took}, {self.progress()} done. The same command goes on from here."]
+            return [f"Stopped after {took}, {self.progress().strip()} done. The same command goes on from here."]
         if len(self.finished) < self.total:
             failed = f" Failed: {', '.join(self.failed.values())}." if self.failed else ""
-            return [f"Not finished after {took}, {self.progress()} done.{failed} The full log: {self.log}"]
+            return [f"Not finished after {took}, {self.progress().strip()} done.{failed} The full log: {self.log}"]
         outputs = [path for job in self.finished for path in job.outputs]
         done = f"Done in {took}: {count(self.total, 'job')}. {made(outputs)}."
         return [done, *open_first(job.rule for job in reversed(self.finished))]

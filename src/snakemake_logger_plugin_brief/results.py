@@ -7,6 +7,7 @@ FIGURES = "results/figures/"
 PAGES = {
     "report": "results/report/index.html",
     "figure_check": "results/figure_check/index.html",
+    "compare_figures": "results/figure_check/index.html",
     "all": "results/notebooks/fig10_06.html",
     "figures": "results/notebooks/fig10_06.html",
 }
