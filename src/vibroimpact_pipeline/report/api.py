@@ -23,7 +23,7 @@ def write(folder, names: list[str], templates) -> None:
         names: of the modules; links lead to these alone.
         templates: a folder with what replaces parts of pdoc's pages.
     """
-    from pdoc.doc import Module
+    from pdoc.doc import Module  # here, because reading the rules needs `documented` alone
     from pdoc.render import configure, html_module
 
     configure(docformat="google", search=False, show_source=False, template_directory=Path(templates))
