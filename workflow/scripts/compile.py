@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from vibroimpact_pipeline.config import case_parameters, read
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -11,10 +10,9 @@ prepare(Path.cwd(), Sources())
 from vibroimpact.exact.engine.simulation import simulate  # noqa: E402  (Numba reads the environment when it is imported)
 from vibroimpact.rivals import METHODS  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
+from vibroimpact.system.chapter import CASES, PARAMETERS  # noqa: E402
 
-config = read("config/config.yaml")
-case = next(iter(config["cases"]))
-system, start = System(**case_parameters(config, case)), config["cases"][case]["simulation"]["initial_state"]
+system, start = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
 run = simulate(system, start, cycles=1, sample_times=[0.0])
 _ = run.certificate, run.jacobian
 for method in METHODS:
