@@ -1,13 +1,14 @@
 """Conditions across sections of the config, overrides on the command line, and how problems are told."""
 
 import copy
+import re
 from dataclasses import fields
 
 import pytest
 
-from configs import GOOD, edited
+from configs import GOOD, TEXT, edited
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import case_parameters, complaints, problems, typed
+from vibroimpact_pipeline.config import case_parameters, checked, complaints, problems, typed
 from vibroimpact_pipeline.config.check import MOST
 from vibroimpact_pipeline.config.system import NAMES
 
@@ -75,6 +76,16 @@ def test_no_force_and_an_unforced_uncoupled_module_are_right():
 
 def test_a_path_may_lead_along_every_parameter():
     assert list(NAMES) == [field.name for field in fields(System)]
+
+
+def test_a_file_is_checked_as_a_whole(tmp_path):
+    path = tmp_path / "config.yaml"
+    path.write_text(TEXT, encoding="utf-8")
+    assert checked(path) == GOOD
+    for text, line in [("- 1\n", "[1] is not a mapping of"), (TEXT.replace("0.65", "1.2"), "system.kappa: 1.2 is not")]:
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=re.escape(f"{path}: {line}")):
+            checked(path)
 
 
 def test_a_complaint_names_the_place_to_mend():

@@ -38,9 +38,36 @@ def test_a_missing_config_is_refused(tree):
     assert "No such file" in line
 
 
+@pytest.mark.parametrize(
+    ("override", "line"),
+    [
+        ("cases={weak", "--config: cases: expected ',' or '}', but got '<stream end>'"),
+        ("cases=", "--config: cases: nothing is not a mapping"),
+        ("cases=3", "--config: cases: 3 is not a mapping"),
+        ("cases={weak: [1]}", "--config: cases.weak: [1] is not a mapping"),
+        ("system={kappa: 0100}", "--config: system.kappa: 0100 means 64 in YAML: write that, or '0100' for the text"),
+        ("figures={all: {notebook: drawings}}", "--config: figures.all.notebook: 'drawings' is not 'fixed_points', "),
+        (
+            "regimes={epsilon: {mixed: {label: z}}}",
+            "--config: regimes.epsilon.mixed.label: the case unequal has no",
+        ),
+        ("nonsense=1", "--config: nonsense: unknown key"),
+    ],
+)
+def test_a_bad_override_is_refused_in_a_line(tree, override, line):
+    [first] = refused(tree, "--config", override)
+    assert first.startswith(line)
+
+
+def test_a_directory_in_place_of_the_config_is_refused(tree):
+    (tree / "config/config.yaml").unlink()
+    (tree / "config/config.yaml").mkdir()
+    assert refused(tree) == ["config/config.yaml: Is a directory"]
+
+
 def test_overrides_are_checked_as_well(tree):
     lines = refused(tree, "--config", "system={kappa: 1.2}", "cases={weak: {simulation: {initial_state: [2]}}}")
     assert lines == [
-        "--config: cases.weak.simulation.initial_state: has 1 entries, fewer than 8",
+        "--config: cases.weak.simulation.initial_state: has 1 entry, fewer than 8",
         "--config: system.kappa: 1.2 is not below 1",
     ]

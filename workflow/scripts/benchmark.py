@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.config import case_parameters, read
+from vibroimpact_pipeline.config import case_parameters, checked
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -38,4 +38,8 @@ if __name__ == "__main__":
     parser.add_argument("--output", type=Path, default=Path("results/accuracy/benchmark.csv"))
     arguments = parser.parse_args()
     prepare(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
-    main(read(arguments.config), arguments.output)
+    try:
+        config = checked(arguments.config)
+    except ValueError as error:
+        parser.exit(1, f"{error}\n")
+    main(config, arguments.output)

@@ -4,8 +4,8 @@ One section per file; limits and conditions stand beside the fields they are abo
 values, as they stand in the file.
 """
 
-from vibroimpact_pipeline.config.check import case_parameters, complaints, problems
+from vibroimpact_pipeline.config.check import case_parameters, checked, complaints, problems
 from vibroimpact_pipeline.config.overrides import typed
 from vibroimpact_pipeline.config.text import parse, read
 
-__all__ = ["case_parameters", "complaints", "parse", "problems", "read", "typed"]
+__all__ = ["case_parameters", "checked", "complaints", "parse", "problems", "read", "typed"]

@@ -9,9 +9,25 @@ from vibroimpact_pipeline.config.messages import problems_of
 from vibroimpact_pipeline.config.model import Config
 from vibroimpact_pipeline.config.schema import keys_at
 from vibroimpact_pipeline.config.section import written
+from vibroimpact_pipeline.config.text import read
 
 MOST = 30
 """Lines that are shown at once."""
+
+
+def checked(path) -> dict:
+    """The config in a file, if nothing is wrong with it.
+
+    Raises:
+        ValueError: something is; a line for each problem.
+    """
+    try:
+        config = read(path)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    if found := problems(config):
+        raise ValueError("\n".join(complaints(found, str(path), {})))
+    return config
 
 
 def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:

@@ -10,6 +10,7 @@ RULES = {
     "all",
     "claims",
     "coexistence",
+    "companions",
     "compare_figures",
     "confusion",
     "figure_check",

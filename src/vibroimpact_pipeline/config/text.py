@@ -24,6 +24,8 @@ is 90, `yes` is true, which later versions and most readers take for something e
 FORMS = {"seq": "sequence", "map": "mapping"}
 """What stands in the text for a value that is not a single word or number."""
 
+LONGEST = 120
+"""Characters of a value in an error message."""
 _REPR = reprlib.Repr()
 _REPR.maxstring = _REPR.maxother = 60
 
@@ -75,6 +77,8 @@ def show(value) -> str:
     if value is None:
         return "nothing"
     text = _REPR.repr(value)
+    if len(text) > LONGEST:
+        return f"{text[: LONGEST // 2]}...{text[-LONGEST // 2 :]}"
     plain = isinstance(value, float) and "e" in text and "." not in text
     return text.replace("e", ".0e") if plain else text
 
