@@ -43,6 +43,14 @@ def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path)
     assert not (tree / "results").exists()
 
 
+def test_the_integrator_heyoka_keeps_its_compiled_code_in_the_checkout(tmp_path):
+    pytest.importorskip("heyoka")
+    oscillator = "import heyoka as hy; x, v = hy.make_vars('x', 'v'); hy.taylor_adaptive([(x, v), (v, -x)], [0.0, 1.0])"
+    subprocess.run([sys.executable, "-c", oscillator], env={**os.environ, "HOME": str(tmp_path)}, check=True)
+    assert list(tmp_path.iterdir()) == []
+    assert list((ROOT / ".cache/heyoka").iterdir())
+
+
 def test_no_record_tells_a_path_of_this_machine(built):
     records = [path.read_text() for path in (built / "results").rglob("*.provenance.json")]
     assert [record for record in records if str(built.path) in record or str(ROOT) in record] == []
