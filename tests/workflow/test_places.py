@@ -99,11 +99,11 @@ use rule * from weaker as weaker_*
 
 def test_as_a_module_of_another_workflow(tree, built, tmp_path):
     """Twice, with two sets of parameters side by side; the config of the other workflow is not mistaken for ours."""
-    outer = Tree(tmp_path / "outer")
+    outer = Tree(tmp_path / "another workflow")
     (outer / "config").mkdir(parents=True)
     (outer / "config/config.yaml").write_text("samples: 3\nvibration: {system: {kappa: 0.65}}\n")
     (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile"))
-    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}")
+    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}", prefix=[interpreter_in(outer)])
     assert_same(FIGURE, outer / "results", built)
     weaker = record_of(FIGURE, outer / "weaker/results")
     assert weaker["config"]["system.kappa"] == 0.5
@@ -112,9 +112,14 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
 
 def test_in_a_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     there = Tree(tree.path.rename(tmp_path / "zwei Kästen"))
-    (there / ".venv").symlink_to(sys.prefix)
-    there.snakemake(FIGURE, prefix=[there / ".venv/bin/python"], LC_ALL="C")
+    there.snakemake(FIGURE, prefix=[interpreter_in(there)], LC_ALL="C")
     assert_same(FIGURE, there / "results", built)
+
+
+def interpreter_in(tree):
+    """The interpreter by a path inside a tree."""
+    (tree / ".venv").symlink_to(sys.prefix)
+    return tree / ".venv/bin/python"
 
 
 def test_a_file_on_the_command_line_sets_what_it_names(rebuilt, tmp_path):
