@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
-    ".git", ".venv", ".cache", ".snakemake", "results", ".*_cache", ".hypothesis", "*.egg-info", "tests"
+    ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
     "report", "api", "animations", "travel", "figure_check", "*_full*", "confusion*"

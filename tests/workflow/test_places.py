@@ -43,6 +43,14 @@ def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path)
     assert not (tree / "results").exists()
 
 
+def test_the_integrator_heyoka_keeps_its_compiled_code_in_the_checkout(tmp_path):
+    pytest.importorskip("heyoka")
+    oscillator = "import heyoka as hy; x, v = hy.make_vars('x', 'v'); hy.taylor_adaptive([(x, v), (v, -x)], [0.0, 1.0])"
+    subprocess.run([sys.executable, "-c", oscillator], env={**os.environ, "HOME": str(tmp_path)}, check=True)
+    assert list(tmp_path.iterdir()) == []
+    assert list((ROOT / ".cache/heyoka").iterdir())
+
+
 def test_no_record_tells_a_path_of_this_machine(built):
     records = [path.read_text() for path in (built / "results").rglob("*.provenance.json")]
     assert [record for record in records if str(built.path) in record or str(ROOT) in record] == []
@@ -91,11 +99,11 @@ use rule * from weaker as weaker_*
 
 def test_as_a_module_of_another_workflow(tree, built, tmp_path):
     """Twice, with two sets of parameters side by side; the config of the other workflow is not mistaken for ours."""
-    outer = Tree(tmp_path / "outer")
+    outer = Tree(tmp_path / "another workflow")
     (outer / "config").mkdir(parents=True)
     (outer / "config/config.yaml").write_text("samples: 3\nvibration: {system: {kappa: 0.65}}\n")
     (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile"))
-    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}")
+    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}", prefix=[interpreter_in(outer)])
     assert_same(FIGURE, outer / "results", built)
     weaker = record_of(FIGURE, outer / "weaker/results")
     assert weaker["config"]["system.kappa"] == 0.5
@@ -104,9 +112,14 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
 
 def test_in_a_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     there = Tree(tree.path.rename(tmp_path / "zwei Kästen"))
-    (there / ".venv").symlink_to(sys.prefix)
-    there.snakemake(FIGURE, prefix=[there / ".venv/bin/python"], LC_ALL="C")
+    there.snakemake(FIGURE, prefix=[interpreter_in(there)], LC_ALL="C")
     assert_same(FIGURE, there / "results", built)
+
+
+def interpreter_in(tree):
+    """The interpreter by a path inside a tree."""
+    (tree / ".venv").symlink_to(sys.prefix)
+    return tree / ".venv/bin/python"
 
 
 def test_a_file_on_the_command_line_sets_what_it_names(rebuilt, tmp_path):

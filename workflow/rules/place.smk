@@ -9,8 +9,6 @@ from pathlib import Path
 
 ROOT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
 LIBRARY = str(ROOT / "src")
-# Snakemake puts the interpreter into the command of each job as it is, which a space in its path would break.
-sys.executable = shlex.quote(sys.executable)
 
 
 def refuse(lines):
@@ -42,5 +40,8 @@ if not os.getenv("PYTHONPATH"):
     # The library beside these rules, whichever one is installed.
     os.environ.update(PYTHONPATH=LIBRARY)
     sys.path.insert(0, LIBRARY)
+if os.path.exists(sys.executable):
+    # Snakemake puts it into the command of each job as it is, which a space in its path would break.
+    sys.executable = shlex.quote(sys.executable)
 if workflow.is_main_process:
     BUILD_LOCK = one_build_at_a_time()
