@@ -12,7 +12,7 @@ from vibroimpact.system.arguments import real, whole
 
 HELP = "C over a parameter: all branches of fixed points and of exact orbits, with stability and special points"
 _MOST_SEEDS = 1000
-SIDES = {
+SIDES: dict[str, list] = {
     "theory": [FixedPoints],
     "exact": [SymmetricOrbits, AsymmetricOrbits],
     "both": [SymmetricOrbits, AsymmetricOrbits, FixedPoints],
