@@ -213,6 +213,7 @@ def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_pat
     kept = f"can be written to; compiled code is kept in {folder}"
     assert kept in first.stderr
     assert "compiling" in first.stderr
+    assert "python -m vibroimpact.compile" in first.stderr
     assert kept in second.stderr
     assert "compiling" not in second.stderr
     assert first.stdout == second.stdout

@@ -24,6 +24,7 @@ BAD = {
     "no stiffness": (dict(sigma20_hat=-10.0), r"sigma20_hat: 1 \+ epsilon sigma20_hat = 0.0 is not above 0"),
     "no frequency": (dict(sigma_e_hat=-11.0), r"sigma_e_hat: 1 \+ epsilon sigma_e_hat = .* is not above 0"),
     "not a number": (dict(f10_hat=math.nan), r"f10_hat: nan is not finite"),
+    "huge": (dict(epsilon=1e300), r"epsilon: 1e\+300 is beyond 1e\+15"),
     "text": (dict(f10_hat="much"), r"f10_hat: 'much' is not a number"),
     "undamped resonance": (
         dict(alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma_e_hat=0.0),
@@ -78,7 +79,7 @@ def test_physical_refusals():
         ("M", 0.0, "M: 0.0 is not above 0"),
         ("L", -1.0, "L: -1.0 is not above 0"),
         ("c1", -1.0, "c1: -1.0 is below 0"),
-        ("F10", math.inf, "F10: inf is not a finite number"),
+        ("F10", math.inf, "F10: inf is not finite"),
         ("kappa", 1.5, "kappa: 1.5 is not between 0 and 1"),
     ):
         with pytest.raises(ValueError, match=message):

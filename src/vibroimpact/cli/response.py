@@ -7,11 +7,16 @@ import numpy as np
 from vibroimpact.cli.system_options import NAMES
 from vibroimpact.cli.table import Table
 from vibroimpact.regimes.branches import Path, branches
-from vibroimpact.regimes.families import FAMILIES
+from vibroimpact.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.system.arguments import real, whole
 
 HELP = "C over a parameter: all branches of fixed points and of exact orbits, with stability and special points"
 _MOST_SEEDS = 1000
+SIDES: dict[str, list] = {
+    "theory": [FixedPoints],
+    "exact": [SymmetricOrbits, AsymmetricOrbits],
+    "both": [SymmetricOrbits, AsymmetricOrbits, FixedPoints],
+}
 
 
 def add_options(parser) -> None:
@@ -22,6 +27,9 @@ def add_options(parser) -> None:
     )  # fmt: skip
     parser.add_argument("--from", dest="low", type=float, default=0.2, metavar="P", help="first value (default: 0.2)")
     parser.add_argument("--to", dest="high", type=float, default=1.2, metavar="P", help="last value (default: 1.2)")
+    parser.add_argument(
+        "--of", choices=SIDES, default="both", help="fixed points, exact orbits (which take longer), or both (default)"
+    )
     parser.add_argument(
         "--seeds", type=int, default=5, metavar="N", help="values at which branches are looked for (default: 5)"
     )
@@ -36,7 +44,7 @@ def compute(system, options) -> Table:
     for end in (low, high):
         path(end)
     rows = []
-    for family in FAMILIES.values():
+    for family in SIDES[options.of]:
         print(f"looking for every {family.name} ...", file=sys.stderr)
         found = branches(family, path, (low, high), np.linspace(low, high, seeds), (high - low) / 10)
         rows += [row for number, branch in enumerate(found) for row in _rows(number, branch)]

@@ -25,7 +25,7 @@ def real(name: str, value) -> float:
     Raises:
         ValueError: it is none, not finite, or beyond the range of floats.
     """
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+    if not isinstance(value, float) and not _is_real(value):
         raise ValueError(f"{name}: {shown(value)} is not a number")
     try:
         number = float(value)
@@ -42,8 +42,7 @@ def whole(name: str, value, least: int, most: int) -> int:
     Raises:
         ValueError: it is none.
     """
-    number = not isinstance(value, bool) and isinstance(value, numbers.Real)
-    if not (number and least <= value <= most and int(value) == value):
+    if not (_is_real(value) and least <= value <= most and int(value) == value):
         raise ValueError(f"{name}: {shown(value)} is not a whole number from {least} to {most}")
     return int(value)
 
@@ -63,6 +62,10 @@ def reals(name: str, values) -> np.ndarray:
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):
         raise ValueError(f"{name}: a masked array; numbers that are missing cannot be used")
     return array.astype(float, copy=False)
+
+
+def _is_real(value):
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
 def shown(value) -> str:

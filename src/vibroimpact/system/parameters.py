@@ -8,6 +8,9 @@ import numpy as np
 from vibroimpact.system.arguments import real
 from vibroimpact.system.matrices import dynamic_stiffness
 
+LARGEST = 1e15
+"""Larger parameters of either sign are refused."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class System:
@@ -17,7 +20,7 @@ class System:
     is epsilon times the hatted value. A negative forcing amplitude means forcing in anti-phase.
 
     Raises:
-        ValueError: a parameter is not a finite number or leaves its admissible range, or the boxes
+        ValueError: a parameter is not a finite number, beyond 1e15 or out of its admissible range, or the boxes
             (balls in free flight) are driven at an undamped resonance, where no bounded linear response exists.
     """
 
@@ -34,7 +37,12 @@ class System:
 
     def __post_init__(self):
         for field in fields(self):
-            object.__setattr__(self, field.name, real(field.name, getattr(self, field.name)))
+            number = real(field.name, getattr(self, field.name))
+            if abs(number) > LARGEST:
+                raise ValueError(
+                    f"{field.name}: {number} is beyond {LARGEST:g}, where powers leave the range of floats"
+                )
+            object.__setattr__(self, field.name, number)
         if self.epsilon <= 0:
             raise ValueError(f"epsilon: {self.epsilon} is not above 0")
         if not 0 < self.kappa < 1:

@@ -212,7 +212,7 @@ BAD_CALLS = {
     "not a number": (dict(state=[np.nan] + [0.0] * 7), "state: needs 8 finite numbers"),
     "negative cycles": (dict(cycles=-1), "cycles: -1 is not a whole number"),
     "half a cycle": (dict(cycles=1.5), "cycles: 1.5 is not a whole number"),
-    "infinite start": (dict(tau0=np.inf), "tau0: inf is neither a finite real number"),
+    "infinite start": (dict(tau0=np.inf), "tau0: inf is not finite"),
     "samples descend": (dict(sample_times=[2.0, 1.0]), "sample_times: needs a one-dimensional ascending array"),
     "samples beyond the end": (dict(sample_times=[1.0, 100.0]), "sample_times: .* is not within the run"),
 }

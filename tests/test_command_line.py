@@ -1,0 +1,152 @@
+"""python -m vibroimpact: what it prints is what the library says; what is wrong is one line and exit status 2."""
+
+import csv
+import io
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from vibroimpact.cli.parser import main
+
+
+def table(capsys, *arguments):
+    """Rows of the CSV that a command prints."""
+    assert main([*arguments]) == 0
+    return list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+
+
+def refusal(capsys, *arguments):
+    """Exit status and the only line that a command prints."""
+    with pytest.raises(SystemExit) as end:
+        main([*arguments])
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    return end.value.code, printed.err
+
+
+def system_of(case, **changes):
+    return vi.System(**{**PARAMETERS, **dict(zip(("f10_hat", "f20_hat"), FORCES[case], strict=True)), **changes})
+
+
+@pytest.mark.parametrize("case", FORCES)
+def test_fixed_points_of_the_cases(capsys, case):
+    rows = table(capsys, "fixed-points", "--case", case)
+    points = vi.fixed_points(system_of(case))
+    assert [[float(row["C1"]), float(row["psi2"])] for row in rows] == [[p.C[0], p.psi[1]] for p in points]
+    assert {row["slow_flow"] for row in rows} <= {"stable", "unstable", "undecided"}
+
+
+def test_options_change_the_system(capsys):
+    rows = table(capsys, "fixed-points", "--case", "weak", "--kappa", "0.7", "--f10-hat", "-1e-1")
+    points = vi.fixed_points(system_of("weak", kappa=0.7, f10_hat=-0.1))
+    assert [float(row["C2"]) for row in rows] == [point.C[1] for point in points]
+
+
+def test_orbits_that_are_motions(capsys):
+    rows = table(capsys, "orbits")
+    orbits = [orbit for orbit in vi.orbits(system_of("equal")) if orbit.admissible]
+    assert [row["symmetric"] == "True" for row in rows] == [orbit.symmetric for orbit in orbits]
+    np.testing.assert_array_equal([float(row["phase2_minus"]) for row in rows], [o.impact_phases[1, 1] for o in orbits])
+    assert [row["floquet"] == "stable" for row in rows] == [abs(o.multipliers[0]) < 1 for o in orbits]
+
+
+START = ["--state", "-1e-3", "0", "0.1", "-.5", "0", "0", "0", "0.3", "--cycles", "20", "--tau0", "0.5"]
+STATE = [-1e-3, 0, 0.1, -0.5, 0, 0, 0, 0.3]
+
+
+def test_samples_of_a_run(capsys):
+    system = system_of("equal")
+    rows = table(capsys, "simulate", *START, "--samples-per-cycle", "4")
+    tau = np.array([float(row["tau"]) for row in rows])
+    np.testing.assert_allclose(tau, 0.5 + np.arange(81) * system.period / 4, rtol=1e-15)
+    run = vi.simulate(system, STATE, 20, 0.5)
+    np.testing.assert_array_equal([float(value) for value in list(rows[-1].values())[1:]], run.final)
+
+
+def test_events_of_a_run(capsys):
+    rows = table(capsys, "simulate", *START, "--events")
+    events = vi.simulate(system_of("equal"), STATE, 20, 0.5).events
+    assert [(float(r["tau"]), int(r["wall"]), r["kind"]) for r in rows] == [
+        (event["tau"], event["wall"], vi.KINDS[event["kind"]]) for event in events
+    ]
+    assert [float(row["dY2"]) for row in rows] == [event["state"][7] for event in events]
+
+
+def test_a_response_curve_passes_the_fixed_points(capsys):
+    rows = table(capsys, "response", "--of", "theory", "--from", "0.85", "--to", "1.05", "--along", "f20_hat")
+    on_curve = np.array([[float(row[name]) for name in ("f20_hat", "C1", "C2")] for row in rows])
+    for f20_hat in (0.9, 1.0):
+        for point in vi.fixed_points(system_of("equal", f20_hat=f20_hat)):
+            gap = np.abs(on_curve - [f20_hat, *point.C]).max(axis=1).min()
+            assert gap < 0.03  # half a step of 0.02 in the parameter, along curves of slope up to 5
+    assert {row["special"] for row in rows} > {""}
+
+
+BAD = {
+    "fixed-points --kappa 1.2": "kappa: 1.2 is not between 0 and 1",
+    "fixed-points --kappa nan": "kappa: nan is not finite",
+    "fixed-points --kappa high": "argument --kappa: invalid float value: 'high'",
+    "fixed-points --kapa 0.5": "unrecognized arguments: --kapa 0.5",
+    "fixed-points --case strong": "argument --case: invalid choice: 'strong'",
+    "simulate --cycles -1": "cycles: -1 is not a whole number from 0",
+    "simulate --samples-per-cycle 0": "samples-per-cycle: 0 is not a whole number from 1",
+    "simulate --cycles 1000000 --samples-per-cycle 1000": "cycles times samples-per-cycle: 1000000000 is not",
+    "simulate --state 1 2": "argument --state: expected 8 arguments",
+    "simulate --state 0 1.5 0 0 0 0 0 0": "state: |X1 - Y1| = 1.5 is above 1",
+    "simulate --events --plot events.png": "plot: it draws samples, not events",
+    "simulate --output nowhere/run.csv": "output: there is no folder nowhere",
+    "response --from 1 --to 1": "to: 1.0 is not above 1.0",
+    "response --along mass": "argument --along: invalid choice: 'mass'",
+    "response --along kappa --from 0.5 --to 1.5": "kappa: 1.5 is not between 0 and 1",
+    "orbits --plot orbits.gif": "plot: orbits.gif does not end in .png, .pdf, .svg",
+    "orbit": "argument COMMAND: invalid choice: 'orbit'",
+    "": "the following arguments are required: COMMAND",
+}
+
+
+@pytest.mark.parametrize("words", BAD)
+def test_wrong_words_are_one_line(capsys, words):
+    status, line = refusal(capsys, *words.split())
+    assert status == 2
+    assert BAD[words] in line
+    assert "--help" in line
+
+
+def test_a_run_that_fails_is_one_line(capsys):
+    far = ["1e300", "1e300", "0", "0", "0", "0", "0", "0"]
+    status, line = refusal(capsys, "simulate", "--cycles", "1", "--state", *far)
+    assert status == 1
+    assert "time stands still" in line
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"],
+)
+def test_pictures_beside_the_table(capsys, tmp_path, words):
+    paths = tmp_path / "table.csv", tmp_path / "picture.svg"
+    assert main([*words.split(), "--output", str(paths[0]), "--plot", str(paths[1])]) == 0
+    assert capsys.readouterr().out == ""
+    assert len(paths[0].read_text().splitlines()) > 1
+    assert "<svg" in paths[1].read_text()
+
+
+def test_a_reader_that_has_seen_enough_is_no_error():
+    command = f"{sys.executable} -m vibroimpact simulate --cycles 1000 | head -2"
+    run = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False)
+    assert run.returncode == 0
+    assert len(run.stdout.splitlines()) == 2
+    assert run.stderr == ""
+
+
+def test_every_command_has_its_help(capsys):
+    for words in ([], ["fixed-points"], ["orbits"], ["simulate"], ["response"], ["compile"]):
+        with pytest.raises(SystemExit) as end:
+            main([*words, "--help"])
+        assert end.value.code == 0
+        assert "usage: vibroimpact" in capsys.readouterr().out
