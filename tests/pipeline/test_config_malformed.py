@@ -152,7 +152,7 @@ UNUSUAL = [
     "regimes.epsilon.mixed = {case: weak, label: a}",
     "accuracy.scenes = {one: {case: weak, initial_state: [0, 1, 0, 1, 0, 0, 0, 0], cycles: 1}}",
     "report.animations = {fast: {case: weak, cycles: 120}}",
-    "report.travel.values = 2",
+    "report.force_sweep.values = 2",
 ]
 
 

@@ -88,7 +88,7 @@ def test_the_first_page_on_the_library_has_its_public_names(library):
 
 def test_data_of_the_report_are_in_the_dictionary(reported):
     listed = files(*read(ROOT))
-    made = [path for name in ("animations", "travel") for path in (reported / f"results/{name}").glob("*.*")]
+    made = [path for name in ("animations", "force_sweep") for path in (reported / f"results/{name}").glob("*.*")]
     data = [path for path in made if path.suffix in (".csv", ".json")]
     assert len(data) == len(SETTINGS["animations"]) + 2
     for path in data:
@@ -99,7 +99,7 @@ def test_data_of_the_report_are_in_the_dictionary(reported):
 
 def test_every_table_of_a_figure_can_be_downloaded(site, pages):
     offered = {link for page in pages.values() for link in page.links}
-    made = [path for folder in ("figures", "accuracy", "travel") for path in (site.parent / folder).glob("*.csv")]
+    made = [path for folder in ("figures", "accuracy", "force_sweep") for path in (site.parent / folder).glob("*.csv")]
     assert len(made) > 10
     for path in (path for path in made if "full" not in path.stem):
         assert f"figures/{path.name}" in offered

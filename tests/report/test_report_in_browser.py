@@ -119,7 +119,7 @@ def test_a_narrow_window_scrolls_down_only(browser, site, screenshots, page):
 
 
 FIXED_POINTS = """(() => {
-  const all = (kind) => [...document.querySelectorAll('[data-travel] ' + kind)];
+  const all = (kind) => [...document.querySelectorAll('[data-force-sweep] ' + kind)];
   return {
     value: all('output')[0].textContent,
     places: all('circle').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
@@ -171,7 +171,7 @@ def test_the_points_stay_on_the_manifold(browser, site):
 
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
     browser.open(address(site, "fixed_points"))
-    browser.run("document.querySelectorAll('[data-travel] button')[1].focus()")
+    browser.run("document.querySelectorAll('[data-force-sweep] button')[1].focus()")
     browser.press("Enter")
     assert float(browser.run(FIXED_POINTS)["value"]) == 0.89
 

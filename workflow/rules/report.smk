@@ -13,7 +13,7 @@ REPORT_SHOWS = {
     "accuracy": ["work_precision", "hazards"],
     "models": ["scene_models"],
     "animations": list(MOVING["animations"]),
-    "travel": ["travel"],
+    "force_sweep": ["force_sweep"],
 }
 REPORT_TABLES = [
     "results/fixed_points.csv",
@@ -48,20 +48,20 @@ for name, scene in MOVING["animations"].items():
             "../scripts/animation.py"
 
 
-rule travel:
+rule force_sweep:
     output:
-        json="results/travel/travel.json",
-        **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
+        json="results/force_sweep/force_sweep.json",
+        **in_report({kind: f"results/force_sweep/force_sweep.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
     params:
-        system=system_of(MOVING["travel"]["case"]),
-        settings=MOVING["travel"],
-        code=code("workflow/scripts/travel.py"),
+        system=system_of(MOVING["force_sweep"]["case"]),
+        settings=MOVING["force_sweep"],
+        code=code("workflow/scripts/force_sweep.py"),
     log:
-        "results/logs/report/travel.log",
+        "results/logs/report/force_sweep.log",
     benchmark:
-        "results/benchmarks/report/travel.tsv"
+        "results/benchmarks/report/force_sweep.tsv"
     script:
-        "../scripts/travel.py"
+        "../scripts/force_sweep.py"
 
 
 rule api:
@@ -87,7 +87,7 @@ rule report:
         rules.companions.input,
         rules.stability.input,
         rules.accuracy.input,
-        rules.travel.output,
+        rules.force_sweep.output,
         [path for name in MOVING["animations"] for path in getattr(rules, name).output],
         [own(page["source"]) for page in REPORT_SETTINGS["pages"]],
         sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),

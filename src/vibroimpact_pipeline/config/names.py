@@ -27,7 +27,7 @@ RULES = {
     "scene_models",
     "simulation",
     "stability",
-    "travel",
+    "force_sweep",
     "verdict_grid",
     "verdicts",
     "work_precision",

@@ -17,7 +17,7 @@ class Animation(Section):
     )
 
 
-class Travel(Section):
+class ForceSweep(Section):
     """The control on the page of fixed points: f20_hat changes, the rest is as in the case."""
 
     case: CaseName
@@ -36,4 +36,4 @@ class Report(Section):
     """Animations, and the control that moves the fixed points."""
 
     animations: Annotated[dict[Name, Animation], Field(min_length=1, max_length=10)]
-    travel: Travel
+    force_sweep: ForceSweep

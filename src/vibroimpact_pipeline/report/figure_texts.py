@@ -17,7 +17,7 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
     has a figure of the chapter in a config where it shows other parameters than there.
     """
     texts = yaml.safe_load((Path(root) / "report/figures.yaml").read_text(encoding="utf-8"))
-    scenes = config["figures"] | config["report"]["animations"] | {"travel": config["report"]["travel"]}
+    scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
     for figure, scene in scenes.items():
         entry, heading = texts.get(figure), ""
         if figure.startswith("fig10_"):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
-FOLDERS = ("figures", "accuracy", "travel", "animations")
+FOLDERS = ("figures", "accuracy", "force_sweep", "animations")
 COSTS = ("figures", "companions", "accuracy", "report", "")
 """Folders of results/benchmarks in which the cost of a rule may stand."""
 

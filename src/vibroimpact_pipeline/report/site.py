@@ -17,7 +17,7 @@ READER = "markdown-fancy_lists+gfm_auto_identifiers"
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
 PDF = "report.pdf"
-SHARED = ("style.css", "animation.js", "travel.js")
+SHARED = ("style.css", "animation.js", "force_sweep.js")
 
 
 def write(folder, root, pages, settings: dict, footer: str) -> None:

@@ -48,7 +48,7 @@ class Plane {
   }
 }
 
-class Travel {
+class ForceSweep {
   constructor(root) {
     this.data = JSON.parse(document.getElementById(root.dataset.source).textContent);
     this.slider = root.querySelector("input");
@@ -83,4 +83,4 @@ class Travel {
   }
 }
 
-for (const root of document.querySelectorAll("[data-travel]")) new Travel(root);
+for (const root of document.querySelectorAll("[data-force-sweep]")) new ForceSweep(root);

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.figures.companions import animation, travel
+from vibroimpact.figures.companions import animation, force_sweep
 from vibroimpact.system.state import KINDS
 from vibroimpact.theory.manifold import B_of_C, rho
 
@@ -64,22 +64,22 @@ def test_the_still_shows_instants_of_one_cycle(window):
 
 
 @pytest.fixture(scope="module")
-def travelled():
+def swept():
     values = np.round(np.arange(0.6, 1.3001, 0.01), 6)
-    return travel.compute({value: vi.System(**SYSTEM, f20_hat=value) for value in values}, 2.5)
+    return force_sweep.compute({value: vi.System(**SYSTEM, f20_hat=value) for value in values}, 2.5)
 
 
-def test_travelling_points_are_all_points_and_on_the_manifold(travelled):
-    points = travelled["points"]
+def test_travelling_points_are_all_points_and_on_the_manifold(swept):
+    points = swept["points"]
     for value, count in ((0.6, 1), (0.89, 3), (1.0, 3)):
         assert (points["value"] == value).sum() == count
     for module in (1, 2):
         np.testing.assert_allclose(points[f"B{module}"], B_of_C(points[f"C{module}"].to_numpy(), rho(0.65)), rtol=1e-12)
 
 
-def test_a_track_moves_without_jumps_and_keeps_to_one_point(travelled):
+def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
     """Away from the fold at 0.69778, where two points appear and move with the square root."""
-    points = travelled["points"]
+    points = swept["points"]
     points = points[points["value"] > 0.72]
     assert points["track"].nunique() == 3
     for _, track in points.groupby("track"):
@@ -89,12 +89,12 @@ def test_a_track_moves_without_jumps_and_keeps_to_one_point(travelled):
 
 
 def test_a_point_that_is_new_starts_a_track_of_its_own():
-    names, count = travel._continued(
+    names, count = force_sweep._continued(
         [1, 2], np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([[1.1, 1.0], [5.0, 5.0], [0, 0]]), 2
     )
     assert (names, count) == ([2, 3, 1], 3)
 
 
-def test_the_picture_of_the_travel_names_every_track(travelled):
-    figure = travel.draw(travelled, "x")
+def test_the_picture_of_the_travel_names_every_track(swept):
+    figure = force_sweep.draw(swept, "x")
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["point 1", "point 2", "point 3"]

@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from job_log import logging_to
-from vibroimpact.figures.companions.travel import compute, draw
+from vibroimpact.figures.companions.force_sweep import compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
