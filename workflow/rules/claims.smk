@@ -21,8 +21,8 @@ EVIDENCE = {
 
 rule claims:
     input:
-        claims=CLAIMS,
         **({} if DEPARTURES else EVIDENCE),
+        claims=CLAIMS,
     output:
         **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
     params:

@@ -34,8 +34,8 @@ for name, scene in MOVING["animations"].items():
             samples=CASE_FILES["samples"].format(case=scene["case"]),
             events=CASE_FILES["events"].format(case=scene["case"]),
         output:
-            json=f"results/animations/{name}.json",
             **in_report({kind: f"results/animations/{name}.{kind}" for kind in PICTURES}, "The motion"),
+            json=f"results/animations/{name}.json",
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
@@ -50,8 +50,8 @@ for name, scene in MOVING["animations"].items():
 
 rule force_sweep:
     output:
-        json="results/force_sweep/force_sweep.json",
         **in_report({kind: f"results/force_sweep/force_sweep.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
+        json="results/force_sweep/force_sweep.json",
     params:
         system=system_of(MOVING["force_sweep"]["case"]),
         settings=MOVING["force_sweep"],
