@@ -27,7 +27,7 @@ def main(figures: dict, simulations: dict, folder, seconds: float, output) -> No
         print(f"{figure}: {len(rungs)} rungs")
         in_use = scene_models.in_use(scene, simulation)
         rows += scene_models.rows(figure, smallest_visible_error(module.draw(table)), rungs, in_use, seconds)
-    tables.write(pd.DataFrame(rows), output)
+    tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), output)
 
 
 def rungs_of(figure, scene, settings, simulation, module, table, folder):

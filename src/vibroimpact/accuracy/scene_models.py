@@ -49,6 +49,9 @@ def in_use(scene: dict, simulation: dict | None = None) -> str:
     return "proven simulation" if proven else scene["model"]
 
 
+COLUMNS = ["figure", "rung", "error", "tolerance", "meets", "cost_s", "in_use", "note"]
+
+
 def rows(figure: str, tolerance: float, rungs: list[Rung], rung_in_use: str, seconds: float) -> list[dict]:
     """The rows of the table for one figure: rung, error, tolerance, cost in seconds, whether it is in use.
 

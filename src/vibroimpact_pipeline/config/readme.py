@@ -6,16 +6,21 @@ Run it as `python -m vibroimpact_pipeline.config.readme` from the root of the ch
 from collections.abc import Iterator
 from pathlib import Path
 
+from vibroimpact_pipeline.config.cost import CYCLES, HELD
 from vibroimpact_pipeline.config.fields import WORDS
 from vibroimpact_pipeline.config.schema import entries, resolved, root, variants
 from vibroimpact_pipeline.config.text import limit, read
 
 SOURCE, TARGET = Path("config/config.yaml"), Path("config/README.md")
-HEAD = """# Keys of config/config.yaml
+HEAD = f"""# Keys of config/config.yaml
 
 Written by `python -m vibroimpact_pipeline.config.readme` from the model in `src/vibroimpact_pipeline/config/`, which
 every build checks the config against. All keys are needed but those marked *optional*. `<name>` is free to
 choose, `[]` stands for every entry of a list. Without a unit, quantities are dimensionless or numbers of something.
+
+Conditions across keys are checked as well. No job may ask for more than {CYCLES:.0e} forcing cycles, if every start
+took as long as the observation lets it, nor hold the events of more than {HELD:.0e} at once; a finer map takes more
+tiles.
 """
 COLUMNS = ("key", "type", "allowed", "unit", "meaning", "now")
 TYPES = {"number": "number", "integer": "whole number", "string": "text", "array": "list", "object": "mapping"}

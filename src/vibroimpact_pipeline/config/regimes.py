@@ -1,5 +1,6 @@
 """Section `regimes`: what the exact system does beside its 1:1 responses, and how finely it is asked."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
@@ -20,7 +21,7 @@ from vibroimpact_pipeline.config.fields import (
     repeated,
     unit,
 )
-from vibroimpact_pipeline.config.section import Problem, Section, Sweep
+from vibroimpact_pipeline.config.section import Place, Problem, Section, Sweep
 from vibroimpact_pipeline.config.system import NAMES
 
 FINEST = 200
@@ -34,6 +35,17 @@ Count = Annotated[int, Field(ge=1, le=10_000)]
 Blocks = Annotated[int, Field(ge=2, le=10_000, description="Blocks of a Lyapunov exponent; their spread is its error")]
 Along = Annotated[list[Literal[NAMES]], Field(min_length=1, max_length=len(NAMES))]
 Values = Annotated[int, Field(ge=2, le=1000)]
+
+
+def costs(place: Place, starts: int, once: int, cycles: int, /, **factors: float) -> Iterator[Problem]:
+    """What is too much in a job that settles starts.
+
+    starts, once: held in memory together, each so many cycles long. cycles: of a start in all. factors: how many there
+    are in the job.
+    """
+    held = {"starts at once": starts, "cycles (observation)": once}
+    yield from above(place, HELD, "forcing cycles in memory", **held)
+    yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles of a start (observation)": cycles})
 
 
 class Observation(Section):
@@ -70,9 +82,6 @@ class BranchPath(Section):
         yield from repeated("along", self.along)
         yield from not_ascending("range", self.range)
 
-    def sweep(self, case):
-        return Sweep(("range",), case, self.along, self.range)
-
 
 class Attractors(Section):
     """What starts end in along the paths of the branches."""
@@ -80,6 +89,10 @@ class Attractors(Section):
     values: Values = Field(description="Values along each path")
     starts: Starts
     seed: Seed
+
+    def costs(self, once, cycles, paths):
+        factors = {"paths": paths, "values": self.values, "starts": self.starts}
+        return costs(("branches", "attractors"), self.starts, once, cycles, **factors)
 
 
 class Branches(Section):
@@ -101,7 +114,7 @@ class Branches(Section):
 
     def sweeps(self):
         for number, path in enumerate(self.paths):
-            yield path.sweep(self.case).below("paths", number)
+            yield Sweep(("paths", number, "range"), self.case, path.along, path.range)
 
 
 class Lifetimes(Section):
@@ -183,6 +196,10 @@ class Map(Section):
     def sweeps(self):
         return over_forces(self)
 
+    def costs(self, once, cycles):
+        factors = {"cells of a tile (points^2 / tiles)": self.points**2 / self.tiles, "starts": self.starts}
+        return costs(("map", "points"), self.starts, once, cycles, **factors)
+
 
 class Confusion(Section):
     """Every name of a regime against a longer run, on a coarser map."""
@@ -191,6 +208,11 @@ class Confusion(Section):
     starts: Starts
     seed: Seed
     times: Annotated[int, Field(ge=1, le=10_000)] = Field(description="So many times as long as all rounds")
+
+    def costs(self, rounds, cycles):
+        longer = self.times * rounds
+        factors = {"cells (points^2)": self.points**2, "starts": self.starts}
+        return costs(("confusion", "points"), self.starts, longer, cycles + longer, **factors)
 
 
 class Modulation(Section):
@@ -208,12 +230,19 @@ class Modulation(Section):
     def conditions(self):
         yield from repeated("windows", self.windows)
 
+    def costs(self, once, cycles):
+        own = 2 * self.cycles + self.blocks * self.block
+        return costs(("modulation", "starts"), self.starts + 1, once, cycles + own, starts=self.starts + 1)
+
 
 class Basins(Section):
     """In which response a start ends, on a plane of starts."""
 
     case: CaseName
     points: Annotated[int, Field(ge=2, le=1000)] = Field(description="Starts along each axis")
+
+    def costs(self, once, cycles):
+        return costs(("basins", "points"), self.points**2, once, cycles, **{"starts (points^2)": self.points**2})
 
 
 class Mixed(Section):
@@ -244,11 +273,7 @@ class EpsilonLimit(Section):
 
 
 class Regimes(Section):
-    """What the exact system does beside its 1:1 responses.
-
-    No job may ask for more than 20 000 000 000 forcing cycles, if every start took as long as the observation lets it,
-    nor hold the events of more than 4 000 000 at once; a finer map takes more tiles.
-    """
+    """What the exact system does beside its 1:1 responses."""
 
     observation: Observation
     branches: Branches
@@ -260,29 +285,9 @@ class Regimes(Section):
     epsilon: EpsilonLimit
 
     def conditions(self):
-        for place, starts, cycles, factors in self._jobs():
-            yield from above(place, CYCLES, "forcing cycles of a job", **factors, **{"cycles (observation)": cycles})
-            held = {"starts at once": starts, "cycles (observation)": self.observation.cycles}
-            yield from above(place, HELD, "forcing cycles in memory", **held)
-
-    def _jobs(self):
-        """Of every job that settles starts: its key, starts held at once, cycles of a start, and how many there are."""
-        longest = self.observation.longest()
-        values, starts = self.branches.attractors.values, self.branches.attractors.starts
-        paths = len(self.branches.paths)
-        yield ("branches", "attractors"), starts, longest, {"paths": paths, "values": values, "starts": starts}
-        cells, starts = self.map.points**2, self.map.starts
-        yield (
-            ("map", "points"),
-            starts,
-            longest,
-            {"cells of a tile (points^2 / tiles)": cells / self.map.tiles, "starts": starts},
-        )
-        cells, starts = self.confusion.points**2, self.confusion.starts
-        again = longest + self.confusion.times * self.observation.cycles * self.observation.rounds
-        yield ("confusion", "points"), starts, again, {"cells (points^2)": cells, "starts": starts}
-        starts = self.modulation.starts + 1
-        again = longest + 2 * self.modulation.cycles + self.modulation.blocks * self.modulation.block
-        yield ("modulation", "starts"), starts, again, {"starts": starts}
-        starts = self.basins.points**2
-        yield ("basins", "points"), starts, longest, {"starts (points^2)": starts}
+        once, longest = self.observation.cycles, self.observation.longest()
+        yield from self.branches.attractors.costs(once, longest, len(self.branches.paths))
+        yield from self.map.costs(once, longest)
+        yield from self.confusion.costs(once * self.observation.rounds, longest)
+        yield from self.modulation.costs(once, longest)
+        yield from self.basins.costs(once, longest)

@@ -19,10 +19,6 @@ class Problem(NamedTuple):
     place: Place
     what: str
 
-    def below(self, *place) -> "Problem":
-        """The same, seen from further up."""
-        return Problem((*place, *self.place), self.what)
-
 
 class Sweep(NamedTuple):
     """Values that parameters move through together; they have to stay those of a system all the way.
@@ -34,10 +30,6 @@ class Sweep(NamedTuple):
     case: str | None
     along: list[str]
     values: list[float]
-
-    def below(self, *place) -> "Sweep":
-        """The same, seen from further up."""
-        return self._replace(place=(*place, *self.place))
 
 
 def written(place: Place) -> str:
