@@ -73,9 +73,7 @@ rule scene_models:
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
-        figures={
-            figure: [scene, figure_settings(scene), drawn_by(figure, scene)] for figure, scene in MODELLED.items()
-        },
+        figures={figure: [scene, figure_settings(scene), drawn_by(figure, scene)] for figure, scene in MODELLED.items()},
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=config["accuracy"]["short_seconds"],
         code=code("workflow/scripts/scene_models.py", modules={drawn_by(*figure) for figure in MODELLED.items()}),

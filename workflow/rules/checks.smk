@@ -1,6 +1,8 @@
 # The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
 
-REFERENCE_FILES = sorted(own(f"figures/{path.name}") for path in (ROOT / "figures").iterdir() if path.name != "CHANGES.md")
+REFERENCE_FILES = sorted(
+    own(f"figures/{path.name}") for path in (ROOT / "figures").iterdir() if path.name != "CHANGES.md"
+)
 
 
 rule compare_figures:

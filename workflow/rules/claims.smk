@@ -15,6 +15,11 @@ def claims_apply():
 
 rule claims:
     input:
+        **{
+            f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
+            for case in CLAIMED_SIMULATIONS
+            for name in ("samples.csv", "events.csv", "summary.json")
+        },
         claims=CLAIMS,
         fixed_points="results/fixed_points.csv",
         orbits="results/orbits.csv",
@@ -23,11 +28,6 @@ rule claims:
         modulation="results/regimes/modulation.csv",
         special_points="results/regimes/special_points.csv",
         epsilon_orders="results/regimes/epsilon_orders.csv",
-        **{
-            f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
-            for case in CLAIMED_SIMULATIONS
-            for name in ("samples.csv", "events.csv", "summary.json")
-        },
     output:
         **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
     params:

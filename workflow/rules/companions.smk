@@ -100,7 +100,9 @@ def companion_settings(name):
 
 def companion_provenance(name):
     companion = COMPANIONS[name]
-    cases = [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
+    cases = (
+        [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
+    )
     keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
     own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])
     return provenance(name, keys, cases, [*companion.get("before", []), own])

@@ -85,8 +85,8 @@ for figure, scene in config["figures"].items():
         input:
             **figure_inputs(scene),
         output:
-            html=f"results/notebooks/{figure}.html",
             **in_report(figure_outputs(figure, scene), "Figures of the chapter"),
+            html=f"results/notebooks/{figure}.html",
         params:
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             alt=config["figure_texts"][figure]["alt"],

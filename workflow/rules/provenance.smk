@@ -46,7 +46,11 @@ def exact(case):
 
 def simulation_step(case):
     method, digits, script = STEPS["simulation"]
-    return step(EXACT, config["cases"][case]["simulation"]["digits"], script) if exact(case) else step(*STEPS["simulation"])
+    return (
+        step(EXACT, config["cases"][case]["simulation"]["digits"], script)
+        if exact(case)
+        else step(*STEPS["simulation"])
+    )
 
 
 def config_at(path):

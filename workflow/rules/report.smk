@@ -27,8 +27,8 @@ for name, scene in REPORT_SETTINGS["animations"].items():
             samples=CASE_FILES["samples"].format(case=scene["case"]),
             events=CASE_FILES["events"].format(case=scene["case"]),
         output:
-            json=f"results/animations/{name}.json",
             **in_report({kind: f"results/animations/{name}.{kind}" for kind in PICTURES}, "The motion"),
+            json=f"results/animations/{name}.json",
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
@@ -43,8 +43,8 @@ for name, scene in REPORT_SETTINGS["animations"].items():
 
 rule travel:
     output:
-        json="results/travel/travel.json",
         **in_report({kind: f"results/travel/travel.{kind}" for kind in ("csv", *PICTURES)}, "Fixed points"),
+        json="results/travel/travel.json",
     params:
         system=system_of(REPORT_SETTINGS["travel"]["case"]),
         settings=REPORT_SETTINGS["travel"],
