@@ -66,7 +66,7 @@ rule force_sweep:
 
 rule api:
     input:
-        [f"report/api/{name}" for name in ("module.html.jinja2", "custom.css")],
+        [own(f"report/api/{name}") for name in ("module.html.jinja2", "custom.css")],
     output:
         directory("results/api"),
     params:
