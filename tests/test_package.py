@@ -117,6 +117,8 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         metadata = Parser().parsestr(archive.read(next(n for n in names if n.endswith("METADATA"))).decode())
+        commands = archive.read(next(n for n in names if n.endswith("entry_points.txt"))).decode()
+    assert "vibroimpact = vibroimpact.__main__:main" in commands
     required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
