@@ -41,29 +41,23 @@ SHADES = {
 def compute(system, points: int, observation: dict) -> dict:
     """Where starts end whose boxes and velocities are those of the stable asymmetric orbit at tau = 0.
 
+    Where there is no such orbit, the boxes start from rest.
+
     Args:
         points: starts along each axis, in the middles of equal parts of -1 < W_i < 1.
         observation: arguments of `regimes.settling.Observation`.
 
     Returns "csv": columns panel, series ("start", "orbit"), label (regime), W1, W2; and "shares": columns regime,
     share, uncertainty (of a share of so many independent starts, binomial).
-
-    Raises:
-        ValueError: the system has no stable asymmetric 1:1 orbit.
     """
     orbit = stable_response(system)
-    if orbit is None:
-        raise ValueError("system: it has no stable asymmetric 1:1 orbit, so that there is no plane through it")
-    states = plane(orbit.state, points)
+    states = plane(np.zeros(8) if orbit is None else orbit.state, points)
     names = ends(system, states, Observation(**observation))
     W1, W2 = states[:, 0] - states[:, 1], states[:, 2] - states[:, 3]
-    own = orbit.state[0::2][:2] - orbit.state[1::2][:2]
-    table = join(
-        [
-            curve("basins", "start", label=names, W1=W1, W2=W2),
-            curve("basins", "orbit", label=ASYMMETRIC, W1=own[0], W2=own[1]),
-        ]
-    )
+    table = curve("basins", "start", label=names, W1=W1, W2=W2)
+    if orbit is not None:
+        own = orbit.state[0::2][:2] - orbit.state[1::2][:2]
+        table = join([table, curve("basins", "orbit", label=ASYMMETRIC, W1=own[0], W2=own[1])])
     share = pd.Series(names).value_counts(normalize=True)
     shares = pd.DataFrame({"regime": share.index, "share": share.to_numpy()})
     return {"csv": table, "shares": shares.assign(uncertainty=np.sqrt(share * (1 - share) / len(names)).to_numpy())}

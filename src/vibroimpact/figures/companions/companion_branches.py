@@ -52,6 +52,8 @@ LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4}
 BARS = {"capsize": 2.0, "elinewidth": 0.8}
 LEAST = {"linestyle": "none", "marker": "^", "color": "white", "markeredgecolor": BLACK, "markersize": 4.4}
 LIVES = "mean life"
+NO_SPECIAL_POINT = "none"
+COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 LIFE_RANGE = (30.0, 1e6)
 """Fixed, so that the axis does not depend on the error of the shortest life."""
 COLOURS = {AsymmetricOrbits.name: "0.45"}
@@ -78,7 +80,8 @@ def compute(
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C belongs
     to half of the ball's mean path per cycle; rows of the panel "mean life", labelled by the path, with life,
-    uncertainty, least, and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2).
+    uncertainty, least, and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2;
+    a path without any has a row of the kind "none").
     """
     parts = []
     for panel, settings in zip("abcdefgh", paths, strict=False):
@@ -87,7 +90,7 @@ def compute(
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
             parts += [part for number, branch in enumerate(found) for part in _pieces(panel, path, number, branch)]
         parts.append(_attractors(panel, path, interval, observation, **attractors))
-    table = join(parts)
+    table = join(parts).reindex(columns=COLUMNS)
     special = table[table["label"].ne("") & table["branch"].notna()]
     special = special.sort_values("admissible").drop_duplicates(
         ["panel", "series", "label", "branch", "p"], keep="last"
@@ -95,9 +98,18 @@ def compute(
     special = special.sort_index()
     along = special["panel"].map({panel: " ".join(s["along"]) for panel, s in zip("abcdefgh", paths, strict=False)})
     special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
-    special = special[["path", "family", "kind", "p", "C1", "C2", "admissible"]]
+    special = _every_path(special[["path", "family", "kind", "p", "C1", "C2", "admissible"]], paths)
     drawn = lifetimes[lifetimes["path"].isin(special["path"])]
     return {"csv": join([table, *_lives(drawn), *_coexistence(drawn, special)]), "special_points": special}
+
+
+def _every_path(special, paths):
+    """Special points by path, in the order of the paths; for a path without any a row that says so."""
+    order = [" ".join(settings["along"]) for settings in paths]
+    without = [path for path in order if path not in set(special["path"])]
+    if without:
+        special = pd.concat([special, pd.DataFrame({"path": without, "kind": NO_SPECIAL_POINT})], ignore_index=True)
+    return special.sort_values("path", key=lambda names: names.map(order.index), kind="stable")
 
 
 def _lives(lifetimes):
@@ -109,7 +121,8 @@ def _coexistence(lifetimes, special):
     """Where chaos and the asymmetric pair both attract: from the pair's last Neimark-Sacker point up to the crisis."""
     for name, rows in lifetimes.groupby("path"):
         crisis = np.mean(bracket(rows["p"], rows["escapes"]))
-        pair = special[(special["path"] == name) & (special["family"] == AsymmetricOrbits.name) & special["admissible"]]
+        mine = special[(special["path"] == name) & special["admissible"].eq(True)]
+        pair = mine[mine["family"] == AsymmetricOrbits.name]
         ends = pair[_is(pair, NEIMARK_SACKER) & (pair["p"] < crisis)]["p"]
         if len(ends):
             yield curve(LIVES, "coexistence", label=name, p=[ends.max(), crisis])
@@ -157,7 +170,7 @@ def draw(tables: dict) -> Figure:
         _lines(grid[0, column], mine[theory])
         _lines(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
         _marks(grid[0, column], points[points["family"] == FixedPoints.name])
-        _marks(grid[1, column], points[(points["family"] != FixedPoints.name) & points["admissible"]])
+        _marks(grid[1, column], points[(points["family"] != FixedPoints.name) & points["admissible"].eq(True)])
         attractors = mine[mine["series"] == "attractor"]["p"]
         grid[1, column].set(xlim=(attractors.min(), attractors.max()))
         for row, what in enumerate(("theory", "exact")):
@@ -216,7 +229,7 @@ def _attractor_dots(axes, attractors):
 
 def _is(special, kind):
     """Rows of a kind; of those that name a module as well."""
-    return special["kind"].str.partition(",")[0] == kind
+    return special["kind"].str.split(",").str[0] == kind
 
 
 def _legend(special):

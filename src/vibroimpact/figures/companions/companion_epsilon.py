@@ -45,14 +45,16 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
             if {"case": case, "label": label} == mixed:
                 curves += _mixed(f"{case}, {label}", found)
                 continue
-            added = first_order(system, point, _STEP)
-            for panel, errors in zip([*PANELS, TWO_TERMS], [*_errors(found), _two_terms(found, added)], strict=True):
+            for panel, errors in zip(
+                [*PANELS, TWO_TERMS], [*_errors(found), _two_terms(system, point, found)], strict=True
+            ):
                 reached = np.array([c.epsilon for c in found])
                 curves.append(curve(panel, f"{case}, {label}", epsilon=reached, error=errors))
-                small = reached < fit_below
-                slope, uncertainty = order(reached[small], errors[small])
-                named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
-                orders.append({"case": case, "label": label, **named})
+                small = (reached < fit_below) & np.isfinite(errors)
+                if np.count_nonzero(small) > 1:
+                    slope, uncertainty = order(reached[small], errors[small])
+                    named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
+                    orders.append({"case": case, "label": label, **named})
     nothing = pd.DataFrame(columns=["panel", "series", "label", "epsilon", "error", "rate"])
     columns = ["case", "label", "panel", "order", "uncertainty"]
     return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
@@ -72,7 +74,11 @@ def _errors(found):
     return distance, slow, fast
 
 
-def _two_terms(found, added):
+def _two_terms(system, point, found):
+    """Distances with the term of first order added; nan where there is no orbit to take it from."""
+    added = np.full(4, np.nan)
+    with suppress(NoOrbit):
+        added = first_order(system, point, _STEP)
     return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
 
 

@@ -9,7 +9,7 @@ from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import join
 from vibroimpact.system.verdict import STABLE
-from vibroimpact.theory.criteria import of_fixed_point
+from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GREY, (0, (4.5, 1.5)), "D")]
@@ -38,8 +38,8 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         for track, point in zip(names, points, strict=True):
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
             rows.append({**row, "B2": point.B[1], **of_fixed_point(system, point)})
-    points = pd.DataFrame(rows)
-    end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy().max())
+    points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", *CRITERIA])
+    end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
     kappa = next(iter(systems.values())).kappa
     return {"points": points, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
 
@@ -70,8 +70,10 @@ def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
                 shown = shown[(shown["slow_flow"] == STABLE) == stable]
                 style = {"color": colour, "markerfacecolor": face, "markersize": 3.6, "linestyle": "none"}
                 axes.plot(shown["value"], shown[f"C{module}"], marker=marker, **style)
-        axes.set(xlabel=f"${name}$", ylabel=f"$C_{module}$", xlim=(points["value"].min(), points["value"].max()))
+        axes.set(xlabel=f"${name}$", ylabel=f"$C_{module}$")
+        if len(points):
+            axes.set_xlim(points["value"].min(), points["value"].max())
         letter_panel(axes, letter)
-        if module == 1:
+        if module == 1 and len(points):
             axes.legend(fontsize=8)
     return figure

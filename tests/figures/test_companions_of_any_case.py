@@ -1,0 +1,74 @@
+"""Companions of a system that has nothing of what they show: a picture without it, and tables that say so."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.figures.companions import (
+    coexistence,
+    companion_basins,
+    companion_branches,
+    companion_epsilon,
+    companion_modulation,
+    force_sweep,
+)
+
+STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
+"""Too weakly driven for a fixed point, an orbit or an impact."""
+OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks": 2, "block": 5, "retest": 50}
+
+
+def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
+    tables = companion_basins.compute(STILL, 3, OBSERVATION)
+    assert set(tables["csv"]["series"]) == {"start"}
+    np.testing.assert_allclose(sorted(set(tables["csv"]["W1"])), [-2 / 3, 0, 2 / 3], atol=1e-15)
+    companion_basins.draw(tables)
+
+
+def test_a_sweep_without_an_orbit_starts_from_rest():
+    paths = [{"along": ["f10_hat"], "values": [0.04, 0.05]}]
+    tables = coexistence.compute_tori(STILL, paths, 2, 400)
+    assert tables["tori"]["size"].max() < 1e-3  # boxes alone settle on the period of the force
+    assert tables["onsets"]["onset"].isna().all()
+
+
+@pytest.mark.parametrize("first", ["f10_hat", "f20_hat"])
+def test_a_path_without_special_points_says_none(first):
+    second = {"f10_hat": "f20_hat", "f20_hat": "f10_hat"}[first]
+    paths = [{"along": [first], "range": [0.01, 0.02]}, {"along": [second], "range": [0.01, 0.02]}]
+    attractors = {"values": 2, "starts": 1, "seed": 1}
+    lifetimes = pd.DataFrame(columns=["path", "p", "starts", "escapes", "cycles", "life", "uncertainty", "least"])
+    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, lifetimes)
+    assert tables["special_points"]["path"].tolist() == [first, second]
+    assert tables["special_points"]["kind"].tolist() == ["none", "none"]
+    companion_branches.draw(tables)
+
+
+def test_a_sweep_of_a_force_without_fixed_points_shows_the_manifold():
+    tables = force_sweep.compute({value: STILL.with_(f20_hat=value) for value in (0.0, 0.01)}, 2.0)
+    assert tables["points"].empty
+    assert tables["manifold"]["C"].max() == pytest.approx(2.0)
+    force_sweep.draw(tables, "x")
+
+
+def test_theory_and_orbit_without_either_are_not_compared():
+    tables = companion_epsilon.compute({"still": STILL}, [0.1, 0.01], 3, 0.05)
+    assert tables["csv"].empty
+    assert tables["orders"].empty
+    companion_epsilon.draw(tables)
+
+
+def test_no_order_is_fitted_to_a_single_epsilon():
+    system = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
+    tables = companion_epsilon.compute({"weak": system}, [0.1, 0.01], 3, 0.02)
+    assert len(tables["csv"])
+    assert tables["orders"].empty
+    companion_epsilon.draw(tables)
+
+
+def test_many_cases_have_a_panel_each():
+    cases = {f"case{number}": STILL for number in range(5)}
+    tables = companion_modulation.compute(cases, 2, 1, 20, 2, 5, [20], OBSERVATION)
+    companion_modulation.draw(tables)
