@@ -3,9 +3,9 @@
 import pandas as pd
 
 from vibroimpact.claims.verdict_table import NO_ORBIT, partners
+from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.exact.orbits.verdict import floquet
 from vibroimpact.regimes.regime_map import tile
 from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.search import fixed_points

@@ -14,7 +14,7 @@ import numpy as np
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
-from vibroimpact.regimes.clearance import largest_excursion
+from vibroimpact.regimes.excursion import largest_excursion
 from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.theory.fixed_points.search import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope

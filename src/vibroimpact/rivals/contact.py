@@ -6,7 +6,7 @@ many impacts left out shift the state by less than their third power. Nothing he
 returns: a ball that it lets through the wall goes on beyond it.
 """
 
-from vibroimpact.rivals.equations import accelerations, coefficients
+from vibroimpact.rivals.right_hand_side import accelerations, coefficients
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.system.state import BALLS, BOXES
 

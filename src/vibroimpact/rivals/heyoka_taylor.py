@@ -10,8 +10,8 @@ from functools import lru_cache
 import numpy as np
 
 from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.equations import NAMES, coefficients
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.right_hand_side import NAMES, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.state import NAMES as STATE
 

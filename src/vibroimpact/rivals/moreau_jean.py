@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.equations import coefficients
 from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.right_hand_side import coefficients
 
 
 class MoreauJean(Method):

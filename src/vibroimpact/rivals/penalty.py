@@ -11,8 +11,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.equations import accelerations, coefficients
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-7, 1e-10
 

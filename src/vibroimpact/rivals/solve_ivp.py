@@ -4,8 +4,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.equations import accelerations, jacobian, rates
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.right_hand_side import accelerations, jacobian, rates
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.exact.orbits.verdict import floquet
 
 
 def test_a_stable_orbit_draws_a_perturbed_start_back_and_an_unstable_one_does_not(case):

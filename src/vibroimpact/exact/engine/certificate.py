@@ -9,7 +9,7 @@ from vibroimpact.exact.engine.errors import errors_of
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, hits_of, margins_of
 from vibroimpact.exact.engine.phase import phase_at
-from vibroimpact.exact.engine.turns import DOUBTS, GAP, turns_of
+from vibroimpact.exact.engine.turning_points import DOUBTS, GAP, turning_points
 from vibroimpact.system.glance import Glance, brief
 
 KNOWN = 1e-3
@@ -54,7 +54,7 @@ class Certificate(Glance):
         """The certificate of a finished run."""
         q, ledger, (flow, flights, rows) = flow_of(run.system).coefficients, run.ledger, run.course
         phase, duration = phase_at(run.begin, run.system.Omega)[0], run.cycles * run.system.period
-        turns, hits = turns_of(flow, flights), hits_of(q, flights, rows)
+        turns, hits = turning_points(flow, flights), hits_of(q, flights, rows)
         errors, error = errors_of(flow, flights, rows, KNOWN)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(

@@ -1,13 +1,19 @@
 """How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division,
 product and sum rounded as one where the processor can (no sum is reordered).
 
-What runs at every event is inlined: handing over a motion and its Taylor polynomials (some 30 numbers) would cost more
-than what is computed from them. What runs rarely is not, so that it does not get in the way.
+What runs at every event becomes part of the loop: handing over a motion and its Taylor polynomials (some 30 numbers)
+would cost more than what is computed from them. What is called from one place is mostly put there before anything is
+compiled (`unfolded`), which spares compiling it twice; the rest is compiled once and then inlined. Each
+says whether it is inlined, since Numba takes what is left open from the caller that happens to be compiled first.
 """
+
+from functools import partial
 
 from vibroimpact.exact.engine.code_cache import kept
 
-compiled = kept(error_model="numpy", nogil=True, fastmath={"contract"})
-inlined = kept(error_model="numpy", nogil=True, fastmath={"contract"}, forceinline=True)
-literal = kept(error_model="numpy", nogil=True, forceinline=True)
+_alike = partial(kept, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
+compiled = _alike(fastmath={"contract"}, forceinline=False)
+inlined = _alike(fastmath={"contract"}, forceinline=True)
+unfolded = _alike(fastmath={"contract"}, forceinline=True, inline="always")
+literal = _alike(forceinline=True)
 """Inlined, every operation rounded as it is written: for sums that catch their own rounding."""

@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import inlined, unfolded
 from vibroimpact.exact.engine.exclusion import crossing, return_time, safe_time
 from vibroimpact.exact.engine.flow import jet
+from vibroimpact.exact.engine.motion import mode_of
 
 RESOLUTION = 4.0 * np.finfo(float).eps
 LOOKAHEAD = 2.5  # in units of the flow: the longest time that one proof is asked for
@@ -28,7 +29,7 @@ def remainder(q, mode, jets, growth):
     return (math.sqrt(energy) + growth * (1 / 5040)) * (1.0 + 1e-12)
 
 
-@compiled
+@inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
     """`remainder` of box i alone, the sixth derivative of whose force is at most force; both: that of both boxes.
 
@@ -41,7 +42,7 @@ def own_remainder(q, mode, jets, both, i, force, horizon):
     return min(both, own * (1.0 + 1e-12))
 
 
-@compiled
+@inlined
 def acceleration_rounding(q, boxes, i):
     """Size below which the acceleration of box i is rounding."""
     x1, x2, v1, v2 = abs(boxes[0]), abs(boxes[1]), abs(boxes[2]), abs(boxes[3])
@@ -65,7 +66,7 @@ def gap(p, position, velocity, w):
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
 
 
-@compiled
+@inlined
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
     """(polynomial (8,), remainder) of the force, per unit of ball mass, with which a wall pushes a ball that sticks.
 
@@ -90,7 +91,7 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
     ), bound
 
 
-@compiled
+@inlined
 def _safe_time(c, bound, margin, horizon):
     """(time the constraint certainly holds, whether it is met at once, being within rounding of zero).
 
@@ -104,7 +105,7 @@ def _safe_time(c, bound, margin, horizon):
     return _leaving_time(c, bound, margin, horizon, rises), False
 
 
-@compiled
+@inlined
 def _leaving_time(c, bound, margin, horizon, rises):
     """How long a constraint that starts within rounding of zero certainly holds.
 
@@ -119,7 +120,7 @@ def _leaving_time(c, bound, margin, horizon, rises):
     return max(time, safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon))
 
 
-@compiled
+@unfolded
 def _hop_time(c, bound, margin, horizon, short):
     """(time, whether it is the end of the hop) for the wall that the ball touches; c[1] >= 0 is its velocity away.
 
@@ -135,31 +136,32 @@ def _hop_time(c, bound, margin, horizon, short):
 
 
 @inlined
-def module_time(q, mode, i, boxes, balls, jets, wall, touching, bound, sine, cosine, horizon, short):
+def module_time(q, motion, i, jets, bound, horizon, short):
     """How far module i may fly: (time, width, undecided).
 
     With width inf the module has no event before time. Else it certainly has its next event at time +- width (slightly
     negative when just passed), width 0 being rounding; undecided marks a tangential meeting that rounding cannot tell
-    from a miss. bound: remainder of the boxes over the horizon; wall: the wall the ball sticks to, or 0; touching: the
-    wall it touches now, moving inwards or at rest; short: the longest time over which a jet is exact to rounding.
+    from a miss. jets: of both boxes; bound: their remainder over the horizon; short: the longest time over which a jet
+    is exact to rounding.
     """
-    if wall != 0:
-        return _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short)
-    velocity = boxes[2 + i] - balls[2 + i]
+    if motion.walls[i] != 0:
+        return _sticking_time(q, motion, i, jets, horizon, short)
+    velocity = motion.boxes[2 + i] - motion.balls[2 + i]
     if velocity != 0.0:  # as long as it keeps its sign only the wall ahead matters
-        c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], 1.0 if velocity > 0.0 else -1.0)
-        certain, t, width = crossing(c, bound, gap_rounding(q, boxes, balls, i), horizon, short)
+        ahead = 1.0 if velocity > 0.0 else -1.0
+        c = gap(jets[0] if i == 0 else jets[1], motion.balls[i], motion.balls[2 + i], ahead)
+        certain, t, width = crossing(c, bound, gap_rounding(q, motion.boxes, motion.balls, i), horizon, short)
         if certain:
             return t, width, False
-    return _turning_time(q, mode, i, boxes, balls, jets, touching, bound, horizon, short)
+    return _turning_time(q, motion, i, jets, bound, horizon, short)
 
 
-@compiled
-def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
+@unfolded
+def _sticking_time(q, motion, i, jets, horizon, short):
     """module_time of a ball that sticks: its constraint is that the wall pushes it."""
-    c, bound = push(q, mode, jets, i, wall, sine, cosine, horizon)
+    c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
     # where the box is at rest as yet: the rounding of what its force may become meanwhile
-    margin = acceleration_rounding(q, boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
+    margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
         if certain:
@@ -168,15 +170,17 @@ def _sticking_time(q, mode, i, boxes, jets, wall, sine, cosine, horizon, short):
     return t, (0.0 if met else math.inf), met
 
 
-@compiled
-def _turning_time(q, mode, i, boxes, balls, jets, touching, bound, horizon, short):
+@unfolded
+def _turning_time(q, motion, i, jets, bound, horizon, short):
     """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
+    boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
-    bound = own_remainder(q, mode, jets, bound, i, abs(q.f1 if i == 0 else q.f2) * q.omega**6, horizon)
+    force = abs(q.f1 if i == 0 else q.f2) * q.omega**6
+    bound = own_remainder(q, mode_of(motion.walls), jets, bound, i, force, horizon)
     time, width, undecided = horizon, math.inf, False
     for w in (1, -1):
         c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], w)
-        if w != touching:
+        if w != motion.touching[i]:
             t, met = _safe_time(c, bound, margin, time)
             doubt = met
         else:

@@ -1,6 +1,8 @@
 """Everything that happens at one instant: impacts, completed chatters, balls at rest that stick, releases."""
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from typing import NamedTuple
+
+from vibroimpact.exact.engine.compiled import inlined, unfolded
 from vibroimpact.exact.engine.constraints import (
     LOOKAHEAD,
     RESOLUTION,
@@ -12,14 +14,32 @@ from vibroimpact.exact.engine.constraints import (
 from vibroimpact.exact.engine.event_log import CHATTERS, NEGLECTED, RESIDUAL, record
 from vibroimpact.exact.engine.exclusion import spread
 from vibroimpact.exact.engine.flow import acceleration, inverse_masses, jet
-from vibroimpact.exact.engine.motion import glide, mode_of, pair, with_position, with_velocity
+from vibroimpact.exact.engine.motion import (
+    glide,
+    mode_of,
+    pair,
+    with_boxes_and_balls,
+    with_contacts,
+    with_position,
+    with_velocity,
+)
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # change of the state by what completing a chatter neglects
 LOW = 1e-12  # height of a hop, the wall being at 1, below which its impacts are not listed one by one
 
-impact = compiled(after_impact)
+impact = inlined(after_impact)
+
+
+class Moment(NamedTuple):
+    """Where in a run an instant lies: the time elapsed since its start, the time remaining to its end, and the module
+    due, whose constraint is just met, or -1.
+    """
+
+    elapsed: float
+    remaining: float
+    due: int
 
 
 @inlined
@@ -29,7 +49,7 @@ def box_accelerations(q, walls, boxes, sine):
     return acceleration(q, i1, i2, boxes[0], boxes[1], boxes[2], boxes[3], q.f1 * sine, q.f2 * sine)
 
 
-@compiled
+@inlined
 def _hold(q, jets, boxes, i, wall, sticking):
     """Sign of the force between ball i and the wall that it is at rest on: > 0 holds it there, < 0 would have to pull.
 
@@ -49,33 +69,33 @@ def _hold(q, jets, boxes, i, wall, sticking):
     return force
 
 
-@inlined
-def _ends_soon(flow, boxes, balls, walls, sine, remaining, i, wall):
+@unfolded
+def _ends_soon(flow, motion, remaining, i, wall):
     """Whether the chatter of ball i after an impact would end within the time of one proof, and within the run."""
-    q = flow.coefficients
-    a = wall * box_accelerations(q, walls, boxes, sine)[i]
+    q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
+    a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
     return 4.0 * u <= a * (1.0 - q.kappa) * min(remaining, LOOKAHEAD * flow.unit)
 
 
-@compiled
-def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger):
+@unfolded
+def _end_of_chatter(flow, motion, i, ledger):
     """(whether the chatter of ball i may be completed now, time to its end).
 
     After an impact with inward speed u under the push a the flights shrink by kappa each and end after
     T = 2 u / (a (1 - kappa)). Completing at once keeps the momentum of box and ball; it neglects the force of the
     springs on the distance of the ball meanwhile, of order u^3 / a^2.
     """
-    q = flow.coefficients
-    mode = mode_of(walls)
-    wall = touching[i]
-    a = wall * box_accelerations(q, walls, boxes, sine)[i]
+    q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
+    wall = motion.touching[i]
+    a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
     if a <= acceleration_rounding(q, boxes, i):
         return False, 0.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
-    jets = jet(q, mode, boxes, sine, cosine)
+    mode = mode_of(motion.walls)
+    jets = jet(q, mode, boxes, motion.sine, motion.cosine)
     bound = remainder(q, mode, jets, window * q.growth)
     p = jets[0] if i == 0 else jets[1]
     if 8.0 * window * spread(p, bound, window) > a:
@@ -85,10 +105,7 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
     unresolved = height <= gap_rounding(q, boxes, balls, i)
     if (neglected > NEGLIGIBLE or height > LOW) and not unresolved:
         return False, 0.0
-    other = 1 - i
-    t, width, _ = module_time(
-        q, mode, other, boxes, balls, jets, walls[other], touching[other], bound, sine, cosine, window, 0.0
-    )
+    t, width, _ = module_time(q, motion, 1 - i, jets, bound, window, 0.0)
     clear = t >= window and not width < window
     if not clear and not unresolved:
         return False, 0.0
@@ -98,100 +115,103 @@ def _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger
     return True, total * (1.0 - 2.0 * wall * p[3] * total / a)
 
 
-@compiled
-def _complete(flow, boxes, balls, walls, touching, sine, cosine, i, ledger):
-    """Complete the chatter of ball i, if that may be: (boxes, balls, walls, touching, time to its end or -1)."""
-    done, end = _end_of_chatter(flow, boxes, balls, walls, touching, sine, cosine, i, ledger)
+@unfolded
+def _complete(flow, motion, i, ledger):
+    """Complete the chatter of ball i, if that may be: (motion, time to its end or -1)."""
+    done, end = _end_of_chatter(flow, motion, i, ledger)
     if not done:
-        return boxes, balls, walls, touching, -1.0
+        return motion, -1.0
     ledger[CHATTERS] += 1
-    boxes, balls = _joined(flow.coefficients, boxes, balls, i)
-    return boxes, balls, pair(walls, i, touching[i]), pair(touching, i, 0), end
+    return with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0), end
 
 
 @inlined
-def _joined(q, boxes, balls, i):
-    """Boxes and balls with ball i moving as its box, their momentum kept."""
+def _joined(q, motion, i):
+    """The motion with ball i going as its box, their momentum kept."""
+    boxes, balls = motion.boxes, motion.balls
     common = (boxes[2 + i] + q.epsilon * balls[2 + i]) * q.inverse_mass
-    return with_velocity(boxes, i, common), with_velocity(balls, i, common)
+    return with_boxes_and_balls(motion, with_velocity(boxes, i, common), with_velocity(balls, i, common))
 
 
 @inlined
-def resolve(flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger):
-    """Everything that happens now: (boxes, balls, walls, touching, number of events).
+def resolve(flow, motion, moment, log):
+    """The motion after everything that happens now.
 
-    due: the module whose constraint is just met, or -1. The forces on balls at rest are looked at after all impacts,
-    since an impact in one module can release the ball of the other, and the ends of chatters, which are later, last.
+    The forces on balls at rest are looked at after all impacts, since an impact in one module can release the ball of
+    the other, and the ends of chatters, which are later, last.
     """
-    q = flow.coefficients
-    pulled = due if due >= 0 and walls[due] != 0 else -1
+    due, elapsed = moment.due, moment.elapsed
+    pulled = due if due >= 0 and motion.walls[due] != 0 else -1
     chatters = (False, False)
     for i in range(2):
-        if walls[i] != 0:
-            continue
-        relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
-        wall = 1 if relative > 0.0 else -1
-        if i != due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
-            continue
-        touching = pair(touching, i, wall)
-        balls = with_position(balls, i, boxes[i] - wall)
-        if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
-            balls = with_velocity(balls, i, boxes[2 + i])
-        elif wall * velocity > 0.0:
-            ledger[RESIDUAL] = max(ledger[RESIDUAL], abs(1.0 - wall * relative))
-            box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
-            boxes, balls = with_velocity(boxes, i, box), with_velocity(balls, i, ball)
-            if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
-                boxes, balls = _joined(q, boxes, balls, i)
-            count = record(events, count, elapsed, i, wall, IMPACT, boxes, balls, velocity)
-            if _ends_soon(flow, boxes, balls, walls, sine, remaining, i, wall):
-                chatters = pair(chatters, i, True)
+        if motion.walls[i] == 0:
+            motion, ends = _meet(flow, motion, i, moment, log)
+            chatters = pair(chatters, i, ends)
     for i in range(2):
-        if walls[i] != 0 or (touching[i] != 0 and boxes[2 + i] == balls[2 + i]):
-            walls, touching, count = _rest(
-                q, boxes, balls, walls, touching, i, i == pulled, sine, cosine, elapsed, events, count
-            )
+        if motion.walls[i] != 0 or (motion.touching[i] != 0 and motion.boxes[2 + i] == motion.balls[2 + i]):
+            motion = _rest(flow.coefficients, motion, i, i == pulled, elapsed, log)
     if chatters[0] or chatters[1]:
-        boxes, balls, walls, touching, count = _complete_both(
-            flow, boxes, balls, walls, touching, sine, cosine, chatters, elapsed, events, count, ledger
-        )
-    return boxes, balls, walls, touching, count
+        motion = _complete_both(flow, motion, chatters, elapsed, log)
+    return motion
 
 
-@compiled
-def _rest(q, boxes, balls, walls, touching, i, pulled, sine, cosine, elapsed, events, count):
-    """A ball at rest on a wall sticks or is released: (walls, touching, number of events)."""
-    jets = jet(q, mode_of(walls), boxes, sine, cosine)
-    if walls[i] != 0:
-        falling = pulled and walls[i] * (jets[0] if i == 0 else jets[1])[3] < 0.0
-        if falling or _hold(q, jets, boxes, i, walls[i], True) < 0.0:
-            touching, walls = pair(touching, i, walls[i]), pair(walls, i, 0)
-            count = record(events, count, elapsed, i, touching[i], RELEASE, boxes, balls)
-    elif _hold(q, jets, boxes, i, touching[i], False) > 0.0:
-        walls, touching = pair(walls, i, touching[i]), pair(touching, i, 0)
-        count = record(events, count, elapsed, i, walls[i], STICK, boxes, balls)
-    return walls, touching, count
+@unfolded
+def _meet(flow, motion, i, moment, log):
+    """A flying ball meets the wall ahead, if it is there: (motion, whether a chatter would end soon)."""
+    q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
+    relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
+    wall = 1 if relative > 0.0 else -1
+    if i != moment.due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
+        return motion, False
+    balls = with_position(balls, i, boxes[i] - wall)
+    motion = with_contacts(with_boxes_and_balls(motion, boxes, balls), i, 0, wall)
+    if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
+        return with_boxes_and_balls(motion, boxes, with_velocity(balls, i, boxes[2 + i])), False
+    if not wall * velocity > 0.0:
+        return motion, False
+    log.ledger[RESIDUAL] = max(log.ledger[RESIDUAL], abs(1.0 - wall * relative))
+    box, ball = impact(q.epsilon, q.kappa, boxes[2 + i], balls[2 + i])
+    motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
+    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
+        motion = _joined(q, motion, i)
+    record(log, moment.elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
+    return motion, _ends_soon(flow, motion, moment.remaining, i, wall)
 
 
-@compiled
-def _complete_both(flow, boxes, balls, walls, touching, sine, cosine, chatters, elapsed, events, count, ledger):
-    """Complete what may be completed of the chatters of the two balls, where they have one: what `resolve` returns.
+@inlined
+def _rest(q, motion, i, pulled, elapsed, log):
+    """The motion after a ball at rest on a wall has stuck to it or was released."""
+    boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
+    jets = jet(q, mode_of(motion.walls), boxes, motion.sine, motion.cosine)
+    if wall != 0:
+        falling = pulled and wall * (jets[0] if i == 0 else jets[1])[3] < 0.0
+        if falling or _hold(q, jets, boxes, i, wall, True) < 0.0:
+            record(log, elapsed, i, wall, RELEASE, boxes, motion.balls, 0.0)
+            return with_contacts(motion, i, 0, wall)
+    elif _hold(q, jets, boxes, i, touching, False) > 0.0:
+        record(log, elapsed, i, touching, STICK, boxes, motion.balls, 0.0)
+        return with_contacts(motion, i, touching, 0)
+    return motion
+
+
+@unfolded
+def _complete_both(flow, motion, chatters, elapsed, log):
+    """The motion after what may be completed of the chatters of the two balls, where they have one.
 
     Their ends are noted last, in the order of their times and with the states at these times.
     """
+    boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
     for i in range(2):
-        if chatters[i] and touching[i] != 0:
-            boxes, balls, walls, touching, end = _complete(flow, boxes, balls, walls, touching, sine, cosine, i, ledger)
+        if chatters[i] and motion.touching[i] != 0:
+            motion, end = _complete(flow, motion, i, log.ledger)
             ends = pair(ends, i, end)
     for i in range(2):  # the other ball may be pulled off by it
-        if walls[i] != 0 and ends[i] < 0.0:
-            walls, touching, count = _rest(
-                flow.coefficients, boxes, balls, walls, touching, i, False, sine, cosine, elapsed, events, count
-            )
+        if motion.walls[i] != 0 and ends[i] < 0.0:
+            motion = _rest(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1
     for i in (sooner, 1 - sooner):
         if ends[i] >= 0.0:
-            later, there = glide(flow, boxes, balls, walls, sine, cosine, ends[i])
-            count = record(events, count, elapsed + ends[i], i, walls[i], STICK, later, there, inward[i])
-    return boxes, balls, walls, touching, count
+            then = glide(flow, motion, ends[i])
+            record(log, elapsed + ends[i], i, motion.walls[i], STICK, then.boxes, then.balls, inward[i])
+    return motion

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
-from vibroimpact.exact.engine.course import AFTER, BEFORE, LENGTH
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH
 from vibroimpact.exact.engine.variation import fill_event, fill_flight
 from vibroimpact.system.state import IMPACT
 
@@ -72,7 +72,7 @@ def _root(covariance):
     return math.sqrt(trace)
 
 
-@inlined
+@unfolded
 def _add_miss(covariance, flight, event):
     """Add to a covariance before an impact that the ball was put on its wall from where it was found."""
     if event[3] == IMPACT:

@@ -4,28 +4,39 @@ A row is [time since the start, module, wall, kind, state after, forcing phase w
 that completes a chatter is noted at the chatter's last simulated impact.
 """
 
+from typing import NamedTuple
+
+import numpy as np
+
 from vibroimpact.exact.engine.compiled import inlined
 
-FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED = range(6)
-"""Entries of a run's ledger: four counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
-neglect."""
+EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
+"""Entries of a run's ledger: five counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
+neglect; their number."""
+
+
+class Log(NamedTuple):
+    """Rows of events (n, ROW), as many as the ledger (ENTRIES,) counts, the rest free."""
+
+    rows: np.ndarray
+    ledger: np.ndarray
 
 
 PHASE, APPROACH, ROW = 12, 13, 14  # places in a row, and its length
 
 
 @inlined
-def record(events, count, time, i, wall, kind, boxes, balls, approach=0.0):
-    """Write an event to its row of the table (m, ROW), all but its phase; returns the number of events.
+def record(log, time, i, wall, kind, boxes, balls, approach):
+    """Write an event of module i (0, 1), all but its phase.
 
     approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
-    starts, at its stick.
+    starts, at its stick; else 0.
     """
-    row = events[count]
+    row = log.rows[int(log.ledger[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
     pack(boxes, balls, row[4:PHASE])
     row[APPROACH] = approach
-    return count + 1
+    log.ledger[EVENTS] += 1.0
 
 
 @inlined

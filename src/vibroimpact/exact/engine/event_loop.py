@@ -15,66 +15,61 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.compiled import compiled, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
-from vibroimpact.exact.engine.contact import resolve
-from vibroimpact.exact.engine.event_log import NEGLECTED, PHASE, ROW, pack
+from vibroimpact.exact.engine.contact import Moment, resolve
+from vibroimpact.exact.engine.event_log import ENTRIES, EVENTS, PHASE, ROW, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
-from vibroimpact.exact.engine.motion import glide
+from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
 
 FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
+MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
+"""A run with more events is given up: only kappa next to 1 can chatter so long."""
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, most_events):
+def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples):
     """Run a state over a number of forcing cycles.
 
     start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
-    when the run starts; samples (n, 8) is filled (at an event: the state after it). Gives up after most_events. Returns
-    the boxes and balls at the end, the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
+    when the run starts; samples (n, 8) is filled (at an event: the state after it). Returns the boxes and balls at the
+    end, the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
     """
     q = flow.coefficients
-    events, count = np.empty((64, ROW)), 0
-    ledger = np.zeros(NEGLECTED + 1)
-    walls, touching, due = (0, 0), (0, 0), -1
+    log = Log(np.empty((64, ROW)), np.zeros(ENTRIES))
+    motion, due = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1
     (first, first_tail), revolutions, elapsed = start_phase, 0, 0.0
     phase, tail = first, first_tail
-    sampled, stalled = 0, 0
+    sampled, stalled, status = 0, 0, FINISHED
+    most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
     while True:
         sine, cosine = math.sin(phase), math.cos(phase)
         sine, cosine = sine + cosine * tail, cosine - sine * tail
-        if count + MOST_AT_ONCE > len(events):
-            events = np.concatenate((events, np.empty_like(events)))
+        noted = int(log.ledger[EVENTS])
+        if noted + MOST_AT_ONCE > len(log.rows):
+            log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
         ahead_of_start = (phase - first) + (tail - first_tail)
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
-        noted = count
-        boxes, balls, walls, touching, count = resolve(
-            flow, boxes, balls, walls, touching, due, sine, cosine, elapsed, remaining, events, count, ledger
-        )
+        motion = Motion(motion.boxes, motion.balls, motion.walls, motion.touching, sine, cosine)
+        motion = resolve(flow, motion, Moment(elapsed, remaining, due), log)
+        count = int(log.ledger[EVENTS])
         for k in range(noted, count):
-            events[k, PHASE] = phase
+            log.rows[k, PHASE] = phase
         if remaining == 0.0:
             break
         most = most_proofs + MOST_PROOFS_PER_EVENT * count
-        t, due, later, there = fly(flow, boxes, balls, walls, touching, sine, cosine, remaining, most, ledger)
-        for i in range(2):
-            beyond = abs(later[i] - there[i]) - 1.0
-            if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, later, there, i):
-                return later, there, events[:count], PENETRATED, ledger
+        t, due, later, there = fly(flow, motion, remaining, most, log.ledger)
         stalled = 0 if t > 0.0 else stalled + 1
-        if stalled > PATIENCE or due == STUCK_IN_TIME:
-            return boxes, balls, events[:count], STALLED, ledger
-        if due == TIRED:
-            return boxes, balls, events[:count], EXHAUSTED, ledger
-        if count > most_events:
-            return boxes, balls, events[:count], CROWDED, ledger
+        status = _failure(q, later, there, due, stalled, count, most_events)
+        if status != FINISHED:
+            break
         if due < 0 and t >= remaining:
             revolutions, phase, tail = cycles, first, first_tail
         else:
@@ -83,12 +78,25 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
                 (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
         before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
         while sampled < len(sample_times) and sample_times[sampled] < start + elapsed:
-            lag = max(sample_times[sampled] - start - before, 0.0)
-            snapshot, flying = glide(flow, boxes, balls, walls, sine, cosine, lag)
-            pack(snapshot, flying, samples[sampled])
+            then = glide(flow, motion, max(sample_times[sampled] - start - before, 0.0))
+            pack(then.boxes, then.balls, samples[sampled])
             sampled += 1
-        boxes, balls, touching = later, there, (0, 0)
+        motion = Motion(later, there, motion.walls, (0, 0), sine, cosine)
     while sampled < len(sample_times):
-        pack(boxes, balls, samples[sampled])
+        pack(motion.boxes, motion.balls, samples[sampled])
         sampled += 1
-    return boxes, balls, events[:count], FINISHED, ledger
+    return motion.boxes, motion.balls, log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+
+
+@unfolded
+def _failure(q, boxes, balls, due, stalled, count, most_events):
+    """Why a run is given up after a flight, or FINISHED."""
+    for i in range(2):
+        beyond = abs(boxes[i] - balls[i]) - 1.0
+        if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):
+            return PENETRATED
+    if stalled > PATIENCE or due == STUCK_IN_TIME:
+        return STALLED
+    if due == TIRED:
+        return EXHAUSTED
+    return CROWDED if count > most_events else FINISHED

@@ -12,7 +12,7 @@ The tests are carried out in floating point. Callers lower c0 by a margin, the r
 
 import math
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.exact.engine.flow import slope, value
 
 MOMENT = 1e-300  # times do not go on shrinking below it
@@ -40,7 +40,7 @@ def least(c, t):
     return low
 
 
-@compiled
+@inlined
 def safe_time(c, horizon):
     """A time in [0, horizon] up to which the polynomial c (8,) is positive: close to its first zero if that is simple,
     and at least half as far as its Bernstein coefficients tell, or 0 if not c[0] > 0.
@@ -112,7 +112,7 @@ def nearby_zero(c, t):
     return math.nan
 
 
-@compiled
+@inlined
 def return_time(c, remainder, horizon):
     """The end of a very short hop, c0 = 0 and c1 > 0, to rounding, if it certainly ends so; else inf.
 
@@ -125,7 +125,7 @@ def return_time(c, remainder, horizon):
     return nearby_zero((c[1], c[2], c[3], c[4], c[5], c[6], c[7], 0.0), t)
 
 
-@compiled
+@inlined
 def spread(c, remainder, t):
     """Bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
@@ -191,7 +191,7 @@ def node(flow, mode, boxes, sine, cosine, j):
     return (y1, y2, w1, w2), sine * ca + cosine * sa, cosine * ca - sine * sa
 
 
-@compiled
+@inlined
 def advance(flow, mode, boxes, sine, cosine, t):
     """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
     j = int(t * flow.density + 0.5)

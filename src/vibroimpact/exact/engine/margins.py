@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import box_accelerations
-from vibroimpact.exact.engine.course import completes_chatter, end_of, start_of
 from vibroimpact.exact.engine.event_log import PHASE
 from vibroimpact.exact.engine.flow import acceleration, inverse_masses
 from vibroimpact.exact.engine.motion import mode_of
-from vibroimpact.exact.engine.turns import FORCE, GAP
+from vibroimpact.exact.engine.replay import completes_chatter, end_of, start_of
+from vibroimpact.exact.engine.turning_points import FORCE, GAP
 from vibroimpact.system.state import IMPACT, RELEASE
 
 DEPTH, DOUBT = 0, 1
@@ -44,16 +44,16 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
     """For each flight the least margin, in units of the error at its start and of that at its end: rows (m + 1, 2).
 
     At the start of the run a ball must be on a wall or off it, and its motion must say whether it stays. A flight must
-    keep its turns (turns_of), and its event its depth (hits_of) and its distance from the end of the run. An impact
-    must leave no doubt whether it releases the other ball. At the end no event may be about to happen.
+    keep its turns (turning_points), and its event its depth (hits_of) and its distance from the end of the run. An
+    impact must leave no doubt whether it releases the other ball. At the end no event may be about to happen.
     """
     margins = np.full((len(flights), 2), math.inf)
     for n in range(len(flights)):
         boxes, balls, walls = start_of(flights[n])
         for i in range(2):
             if walls[i] != 0:
-                margins[n] = np.minimum(margins[n], turns[n, FORCE] / _force_weight(q, walls, i))
-        margins[n] = np.minimum(margins[n], turns[n, GAP])
+                _lower(margins[n], turns[n, FORCE] / _force_weight(q, walls, i))
+        _lower(margins[n], turns[n, GAP])
         if n == 0:
             margins[n, 0] = min(margins[n, 0], _at_start(q, boxes, balls, start_phase))
         elif events[n - 1, 3] == IMPACT:
@@ -70,6 +70,13 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
 
 
 @inlined
+def _lower(margins, margin):
+    """Lower the margins of a flight, (2,), to one that counts at its start and at its end."""
+    for k in range(2):
+        margins[k] = np.minimum(margins[k], margin)
+
+
+@unfolded
 def _of_event(q, walls, boxes, balls, events, n, left):
     """By how much error an event misses the end of the run, a time left after it; of a release, its depth as well."""
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
@@ -85,7 +92,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
     return math.inf
 
 
-@inlined
+@unfolded
 def _at_start(q, boxes, balls, phase):
     """By how much error the balls are on their walls or off them, and those at rest there held or not."""
     margin = math.inf
@@ -98,7 +105,7 @@ def _at_start(q, boxes, balls, phase):
     return margin
 
 
-@inlined
+@unfolded
 def _at_end(q, walls, boxes, balls, phase):
     """By how much error the next event misses the end: of a ball on its way to a wall, or of one that is held less and
     less.

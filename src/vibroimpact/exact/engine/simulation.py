@@ -15,17 +15,15 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine.certificate import Certificate
-from vibroimpact.exact.engine.course import course_of
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
+from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, shown, whole
 from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.state import EVENT, KINDS
 
-MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
-"""A run with more events is given up: only kappa next to 1 can chatter so long."""
 FAILURES = {
     kernel.PENETRATED: "a ball went through a wall",
     kernel.STALLED: "time stands still",
@@ -96,10 +94,10 @@ class Run(Glance):
 
     @cached_property
     def course(self) -> tuple:
-        """The flow, the flights between the events and the events as `course_of` and `event_log` tell them."""
+        """The flow, the flights between the events and the events as `replayed` and `event_log` tell them."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
-        return flow, course_of(flow, self.start, self._rows, phase, duration), self._rows
+        return flow, replayed(flow, self.start, self._rows, phase, duration), self._rows
 
 
 def simulate(
@@ -185,11 +183,10 @@ def _report(runs):
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
     samples, tau0 = np.empty((len(times), 8)), float(begin)
-    most_events = min(MOST_EVENTS + MOST_EVENTS_PER_CYCLE * cycles, MOST_CYCLES)
     values = state.tolist()
     boxes, balls, phase = tuple(values[0::2]), tuple(values[1::2]), phase_at(begin, system.Omega)
     boxes, balls, rows, status, ledger = kernel.integrate(
-        flow_of(system), boxes, balls, phase, cycles, tau0, times, samples, most_events
+        flow_of(system), boxes, balls, phase, cycles, tau0, times, samples
     )
     if status != kernel.FINISHED:
         what = FAILURES[status]

@@ -9,12 +9,12 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.contact import impact
-from vibroimpact.exact.engine.course import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses, jet
 from vibroimpact.exact.engine.motion import mode_of
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
 from vibroimpact.system.state import IMPACT, STICK
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
@@ -23,7 +23,7 @@ PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 
 @compiled
 def jacobian(flow, flights, events):
-    """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (course_of)
+    """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (replayed)
     and its events (`event_log`).
     """
     total, matrix = np.eye(8), np.empty((8, 8))
@@ -47,7 +47,7 @@ def fill_flight(flow, flight, matrix):
     while left > 0.0:
         step, before = min(left, flow.longest), matrix.copy()
         _fill_free(flow, walls, step, matrix)
-        matrix[:] = matrix @ before
+        _copy(matrix @ before, matrix)
         left -= step
 
 
@@ -63,11 +63,19 @@ def _fill_free(flow, walls, t, matrix):
         matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = later
     for i in range(2):
         if walls[i] != 0:  # the ball goes where its box goes
-            matrix[4 + i, :4] = matrix[i, :4]
-            matrix[6 + i, :4] = matrix[2 + i, :4]
+            _copy(matrix[i : i + 1], matrix[4 + i : 5 + i])
+            _copy(matrix[2 + i : 3 + i], matrix[6 + i : 7 + i])
         else:
             matrix[4 + i, 4 + i] = matrix[6 + i, 6 + i] = 1.0
             matrix[4 + i, 6 + i] = t
+
+
+@inlined
+def _copy(rows, to):
+    """Copy rows (n, 8); assigned to a slice, they would take Numba's check of shapes along, slow to compile."""
+    for n in range(len(rows)):
+        for k in range(8):
+            to[n, k] = rows[n, k]
 
 
 @compiled
@@ -163,4 +171,4 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
         matrix[box, 2 + i] += speed
         matrix[box, 6 + i] -= speed
         if k == 0 or other_stuck:
-            matrix[ball, :] = matrix[box, :]
+            _copy(matrix[box : box + 1], matrix[ball : ball + 1])

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.constraints import (
     LOOKAHEAD,
     acceleration_rounding,
@@ -17,11 +17,11 @@ from vibroimpact.exact.engine.constraints import (
     own_remainder,
     remainder,
 )
-from vibroimpact.exact.engine.course import FORCING, LENGTH, start_of
 from vibroimpact.exact.engine.exclusion import least
 from vibroimpact.exact.engine.flow import advance, jet, value
-from vibroimpact.exact.engine.motion import carry, mode_of, pair
+from vibroimpact.exact.engine.motion import Motion, carry, mode_of, pair
 from vibroimpact.exact.engine.phase import ahead
+from vibroimpact.exact.engine.replay import FORCING, LENGTH, start_of
 
 SHORTEST = 1e-9  # in units of the flow: over so short a piece nothing moves by more than rounding
 SHARP = 1e-10  # in units of the flow: a gap is stationary at its turn, so half the digits of the time give all of it
@@ -31,7 +31,7 @@ GAP, FORCE, DOUBTS = 0, 1, 2
 
 
 @compiled
-def turns_of(flow, flights):
+def turning_points(flow, flights):
     """For each flight of a course the least gap and the least force (per unit of ball mass) at a turn, inf if there is
     none, and the number of turns within rounding of a wall: rows (m + 1, 3).
     """
@@ -42,18 +42,19 @@ def turns_of(flow, flights):
         left, phase, tail = flights[n, LENGTH], flights[n, FORCING], 0.0
         while left > 0.0:
             t = min(left, flow.longest)
-            boxes, balls = _search(flow, walls, boxes, balls, math.sin(phase), math.cos(phase), t, turns[n])
+            motion = Motion(boxes, balls, walls, (0, 0), math.sin(phase), math.cos(phase))
+            boxes, balls = _search(flow, motion, t, turns[n])
             phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
             left -= t
     return turns
 
 
-@inlined
-def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
+@unfolded
+def _search(flow, motion, length, least_of):
     """Note the turns of a flight no longer than flow.longest; boxes and balls at its end."""
-    q = flow.coefficients
+    q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
-    now, there, s, c, t = boxes, balls, sine, cosine, 0.0
+    now, there, s, c, t = motion.boxes, motion.balls, motion.sine, motion.cosine, 0.0
     sides, fastest = (0.0, 0.0), q.omega**6
     while t < length:
         jets = jet(q, mode, now, s, c)
@@ -69,12 +70,12 @@ def _search(flow, walls, boxes, balls, sine, cosine, length, least_of):
                 break
         sides = (rate1[0] if rate1[0] != 0.0 else sides[0], rate2[0] if rate2[0] != 0.0 else sides[1])
         end = t + step if t + step > t else length
-        now, s, c = advance(flow, mode, boxes, sine, cosine, end)
-        there = carry(balls, walls, now, end)
+        now, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, end)
+        there = carry(motion.balls, walls, now, end)
         for i in range(2):
             rate = _rate_at(q, walls, now, there, s, c, i)
             if rate * sides[i] < 0.0:
-                _note(flow, walls, boxes, balls, sine, cosine, i, t, end, sides[i], rate, least_of)
+                _note(flow, motion, i, (t, end), (sides[i], rate), least_of)
             if rate != 0.0:
                 sides = pair(sides, i, rate)
         t = end
@@ -134,13 +135,14 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
     return 6.0 * (jets[0] if i == 0 else jets[1])[3]
 
 
-@compiled
-def _note(flow, walls, boxes, balls, sine, cosine, i, low, high, early, late, least_of):
+@unfolded
+def _note(flow, motion, i, times, rates, least_of):
     """Find the turn of module i between two times of a flight, given the rates there; note it if it is a minimum."""
-    q, mode = flow.coefficients, mode_of(walls)
+    q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
+    (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
     for _ in range(MOST_STEPS):  # Newton on the rate, kept between the ends
-        x, s, c = advance(flow, mode, boxes, sine, cosine, t)
+        x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
         jets = jet(q, mode, x, s, c)
         p = jets[0] if i == 0 else jets[1]
         rate, bend = (p[1] - balls[2 + i], 2.0 * p[2]) if walls[i] == 0 else (6.0 * p[3], 24.0 * p[4])
@@ -152,7 +154,7 @@ def _note(flow, walls, boxes, balls, sine, cosine, i, low, high, early, late, le
         before, t = t, (newton if low < newton < high else 0.5 * (low + high))
         if abs(t - before) <= SHARP * flow.unit:
             break
-    x, s, c = advance(flow, mode, boxes, sine, cosine, t)
+    x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
     if walls[i] != 0:
         force = walls[i] * 2.0 * (jet(q, mode, x, s, c)[0 if i == 0 else 1])[2]
         if walls[i] * early < 0.0:

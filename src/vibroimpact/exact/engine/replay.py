@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import advance
 from vibroimpact.exact.engine.motion import carry, mode_of, pair
@@ -17,7 +17,7 @@ its start, the state (8,) at its end. States are ordered [boxes, balls]."""
 
 
 @compiled
-def course_of(flow, start, events, start_phase, duration):
+def replayed(flow, start, events, start_phase, duration):
     """The flights of a run, rows (m + 1, COLUMNS): one before each of its events (rows of the log), one to its end.
 
     start (8,) in public order. The flight before the stick that completes a chatter is empty: it is carried out at the
@@ -31,10 +31,10 @@ def course_of(flow, start, events, start_phase, duration):
         flight = flights[n]
         flight[WALLS], flight[WALLS + 1] = walls
         flight[FORCING] = phase
-        flight[BEFORE:AFTER] = state
+        _put(state, flight, BEFORE)
         completes = n < len(events) and completes_chatter(events, n)
         if completes:
-            flight[AFTER:] = state
+            _put(state, flight, AFTER)
         else:
             stop = events[n, 0] if n < len(events) else duration
             there = events[n, PHASE] if n < len(events) else start_phase
@@ -53,14 +53,14 @@ def course_of(flow, start, events, start_phase, duration):
     return flights
 
 
-@inlined
+@unfolded
 def _length(q, lapse, turned):
     """The time between two events: a difference of times, with the digits that the difference of phases has."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
 
-@inlined
+@unfolded
 def _land(flow, flight):
     """Fill in the end of a flight."""
     boxes, balls, walls = start_of(flight)
@@ -73,6 +73,12 @@ def _land(flow, flight):
         left -= t
     for k in range(4):
         flight[AFTER + k], flight[AFTER + 4 + k] = boxes[k], balls[k]
+
+
+@inlined
+def _put(state, flight, place):
+    for k in range(8):
+        flight[place + k] = state[k]
 
 
 @inlined
