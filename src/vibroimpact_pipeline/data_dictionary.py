@@ -7,6 +7,8 @@ from pathlib import Path
 
 import yaml
 
+from vibroimpact_pipeline.report.figure_texts import OWN
+
 CARDS, DATA, PAGE = "report/figures.yaml", "docs/data.yaml", "docs/data.md"
 
 
@@ -60,7 +62,7 @@ def compared(cards: dict) -> dict[str, dict]:
 def files(cards: dict, data: dict) -> list[File]:
     """All kinds of files, those of figures first; figures of one's own have the tables of those they are drawn like."""
     shared = each(data["shared"])
-    drawn = [card for card in cards if not card.startswith("own_")]
+    drawn = [card for card in cards if not card.startswith(OWN)]
     of_figures = [_file(name, table, shared) for card in drawn for name, table in _tables(card, cards[card]).items()]
     return of_figures + [_file("", entry, shared) for entry in data["files"]]
 

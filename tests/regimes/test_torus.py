@@ -47,9 +47,12 @@ def test_the_torus_begins_at_the_neimark_sacker_point_and_without_hysteresis(cha
     assert abs(found - crossing(path, 0.8168, 0.8177)) < max(5 * error, 2e-5)
 
 
-def test_a_sweep_needs_an_orbit_to_begin_with(chapter):
-    with pytest.raises(ValueError, match="values"):
-        sweep(Path(chapter(0.5, 0.5), ("f20_hat",)), [0.5, 0.4], 10, 10)
+def test_a_sweep_without_an_orbit_begins_at_rest(chapter):
+    path = Path(chapter(0.5, 0.5), ("f20_hat",))
+    (name, value, found), *_ = sweep(path, [0.5, 0.4], 10, 10)
+    pushed = np.zeros(8)
+    pushed[[4, 6]] = 1e-3
+    assert (name, value, found) == ("down", 0.5, size(path(0.5), pushed, 10, 10)[0])
 
 
 def test_the_torus_is_gone_a_little_further_on(chapter):

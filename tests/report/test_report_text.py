@@ -62,7 +62,7 @@ def test_on_paper_columns_share_the_width_by_what_they_hold():
     assert "%" not in convert("# Here\n\n" + markdown_table(["a", "b"], [["x", "y"]]), "typst", SOURCES, KNOWN)
 
 
-@pytest.mark.parametrize("caption", figure_texts(ROOT, CONFIG["cases"]))
+@pytest.mark.parametrize("caption", figure_texts(ROOT, CONFIG))
 def test_captions_fill_from_the_config(caption):
     pages = Pages(ROOT, None, SETTINGS, CONFIG, {})
     text = pages.caption(caption)

@@ -13,7 +13,6 @@ import numpy as np
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.system import System
 from vibroimpact.system.extras import need

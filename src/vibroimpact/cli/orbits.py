@@ -1,8 +1,8 @@
 """vibroimpact orbits"""
 
 from vibroimpact.cli.table import Table
+from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.exact.orbits.verdict import floquet
 
 HELP = "all periodic responses of the exact system with two impacts per cycle and module"
 SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")

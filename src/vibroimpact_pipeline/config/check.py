@@ -26,7 +26,7 @@ def checked(path) -> dict:
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
     if found := problems(config):
-        raise ValueError("\n".join(complaints(found, str(path), {})))
+        raise ValueError("\n".join(complaints(found, {str(path): config})))
     return config
 
 

@@ -8,6 +8,8 @@ import yaml
 from vibroimpact_pipeline.chapter import as_in_the_chapter
 
 SAID = ("title", "caption", "alt")
+OWN = "own_"
+"""Begins the names of cards for figures that have none of their own."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
@@ -24,12 +26,12 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
             heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
             if not as_in_the_chapter(config, figure, scene):
                 entry, heading = None, heading.replace(". ", " for other parameters. ")
-        entry = entry or texts[f"own_{scene.get('notebook', 'animation')}"]
+        entry = entry or texts[OWN + scene.get("notebook", "animation")]
         known = scene | _parameters(config, scene) | {"figure": figure}
         tables = {_filled(name, known): table for name, table in entry.get("tables", {}).items()}
         texts[figure] = entry | {name: _filled(entry[name], known) for name in SAID} | {"tables": tables}
         texts[figure]["title"] = heading + texts[figure]["title"]
-    return texts
+    return {name: entry for name, entry in texts.items() if not name.startswith(OWN)}
 
 
 def _parameters(config, scene):

@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import pytest
 
 from vibroimpact.exact.engine.compile_notice import ON_DEMAND, SIMULATION, _Notice
-from vibroimpact.exact.engine.course import course_of
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.rivals.equations import rates
+from vibroimpact.exact.engine.replay import replayed
+from vibroimpact.rivals.right_hand_side import rates
 
 
 @pytest.fixture
@@ -30,8 +30,8 @@ def said(capsys):
 def test_the_simulation_and_what_comes_after_are_said_once_each(said):
     assert said(integrate, advance).count(SIMULATION) == 1
     assert said(integrate, advance) == ""
-    assert said(course_of, advance).count(ON_DEMAND) == 1
-    assert said(course_of) == ""
+    assert said(replayed, advance).count(ON_DEMAND) == 1
+    assert said(replayed) == ""
 
 
 def test_what_others_compile_is_not_said(said):
