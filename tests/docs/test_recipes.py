@@ -107,6 +107,8 @@ def test_a_figure_can_be_added(project):
     limits = tolerances(compared(read(project.path)[0]))
     folder = project / "results/figures"
     assert check("companion_speed", folder, folder, limits)["reasons"] == []
+    for figure in ("strong_planes", "strong_motion"):
+        assert (folder / f"{figure}.png").stat().st_size > 1000
 
 
 def test_an_integrator_can_be_added(project):

@@ -177,11 +177,6 @@ def test_basins_name_every_start_and_the_orbit_in_its_own(tables):
     assert nearest["label"] == orbit["label"]
 
 
-def test_basins_need_a_stable_asymmetric_orbit():
-    with pytest.raises(ValueError, match="system"):
-        basins.compute(SYSTEMS["weak"], 3, OBSERVATION)
-
-
 @pytest.mark.parametrize("forces", [(0.0, 0.0), (0.5, 0.5)])
 def test_the_limit_of_small_epsilon_is_drawn_without_points_and_without_the_mixed_one(forces):
     system = SYSTEMS["weak"].with_(f10_hat=forces[0], f20_hat=forces[1])

@@ -90,7 +90,7 @@ def test_data_of_the_report_are_in_the_dictionary(reported):
     listed = files(*read(ROOT))
     made = [path for name in ("animations", "force_sweep") for path in (reported / f"results/{name}").glob("*.*")]
     data = [path for path in made if path.suffix in (".csv", ".json")]
-    assert len(data) == len(SETTINGS["animations"]) + 2
+    assert len(data) == len(CONFIG["report"]["animations"]) + 2
     for path in data:
         (file,) = (file for file in listed if file.has(str(path.relative_to(reported.path))))
         found = pd.read_csv(path).columns if path.suffix == ".csv" else json.loads(path.read_text(encoding="utf-8"))

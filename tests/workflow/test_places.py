@@ -91,7 +91,7 @@ module vibroimpact:
 use rule * from vibroimpact as chapter_*
 module weaker:
     snakefile: "{snakefile}"
-    config: {{"system": {{"kappa": 0.5}}}}
+    config: {{"system": {{"kappa": 0.6}}}}
     prefix: "weaker"
 use rule * from weaker as weaker_*
 """
@@ -106,7 +106,7 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
     outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}", prefix=[interpreter_in(outer)])
     assert_same(FIGURE, outer / "results", built)
     weaker = record_of(FIGURE, outer / "weaker/results")
-    assert weaker["config"]["system.kappa"] == 0.5
+    assert weaker["config"]["system.kappa"] == 0.6
     assert files_of(FIGURE, outer / "weaker/results") != files_of(FIGURE, outer / "results")
 
 

@@ -80,10 +80,14 @@ def test_an_edited_claim_rebuilds_the_claims_alone(rebuilt):
     assert rebuilt.planned("stability", "companion_stability", "claims") == {"claims"}
 
 
-def test_claims_are_left_out_of_a_build_with_other_parameters(rebuilt):
-    (rebuilt / "results/claims.json").unlink()
-    assert rebuilt.planned("stability", "companion_stability", "claims") == {"claims"}
-    assert "claims" not in rebuilt.planned("--config", "cases={weak: {f20_hat: 0.6}}")
+def test_claims_in_a_build_with_other_parameters_are_marked_and_wait_for_nothing(rebuilt):
+    other = ["--config", "cases={weak: {f20_hat: 0.6}}"]
+    assert rebuilt.planned("claims", *other) == {"claims"}
+    rebuilt.snakemake("claims", *other)
+    text = (rebuilt / "results/claims.md").read_text(encoding="utf-8")
+    assert "Not judged" in text
+    assert "- cases.weak.f20_hat is 0.6, not 0.5" in text
+    assert rebuilt.planned("claims") == {"claims"}
 
 
 def test_the_amplitude_of_a_case_rebuilds_its_orbits_and_what_shows_all_cases(rebuilt):

@@ -8,6 +8,7 @@ from vibroimpact_pipeline.config.section import Problem
 RULES = {
     "accuracy",
     "all",
+    "api",
     "claims",
     "coexistence",
     "companions",
@@ -16,6 +17,7 @@ RULES = {
     "figure_check",
     "figures",
     "fixed_points",
+    "force_sweep",
     "gather_fixed_points",
     "gather_orbits",
     "hazards",
@@ -27,7 +29,6 @@ RULES = {
     "scene_models",
     "simulation",
     "stability",
-    "force_sweep",
     "verdict_grid",
     "verdicts",
     "work_precision",
