@@ -16,6 +16,7 @@ from vibroimpact_pipeline.report.api import documented
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 PAGES = [page["name"] for page in SETTINGS["pages"]]
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 MEGABYTE = 1e6
 
 
