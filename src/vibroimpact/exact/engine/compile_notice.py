@@ -4,7 +4,7 @@ import sys
 
 from numba.core import event
 
-SIMULATION = "the simulation, some 20 s"
+SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "what certificates and Jacobians of runs need, some 10 s"
 """What is compiled apart, and about how long it takes."""
 
