@@ -43,6 +43,11 @@ def command(*arguments):
     return [*SNAKEMAKE, *arguments, "--keep-going", "--logger", "brief"]
 
 
+def hear_ctrl_c():
+    """A shell that starts the tests in the background has them ignore Ctrl-C, and all that they start."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Terminal:
     """A pseudo-terminal of 60 columns; what a program has written on it."""
 
@@ -54,7 +59,7 @@ class Terminal:
         """Exit status and output of a program, interrupted like Ctrl-C does once there is a file `interrupt`."""
         place = {"cwd": directory, "env": {**os.environ, "TERM": "xterm", **(environment or {})}}
         streams = dict.fromkeys(("stdin", "stdout", "stderr"), self.secondary)
-        process = subprocess.Popen(arguments, start_new_session=True, **place, **streams)
+        process = subprocess.Popen(arguments, start_new_session=True, preexec_fn=hear_ctrl_c, **place, **streams)
         while interrupt and not interrupt.exists():
             assert process.poll() is None, self.text()
             time.sleep(0.02)
