@@ -1,5 +1,8 @@
 """What the figures, claims and pages of the chapter need of a config: its parameters and its cases."""
 
+import hashlib
+import json
+
 from vibroimpact.system.chapter import CASES, PARAMETERS
 
 CASE_OF = {
@@ -35,3 +38,8 @@ def as_in_the_chapter(config: dict, figure: str, scene: dict) -> bool:
     forces = CASES[CASE_OF[figure]]
     shown = config["cases"][scene["case"]]
     return config["system"] == PARAMETERS and all(shown[name] == value for name, value in forces.items())
+
+
+def digest(entry) -> str:
+    """Tells whether an entry of the config is the one that somebody has seen."""
+    return hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()[:12]

@@ -136,7 +136,7 @@ UNUSUAL = [
     "cases.weak.simulation.samples_per_cycle = 1000",
     "figures = {fig10_01: {notebook: drawings}}",
     "figures = {mine: {notebook: simulation, model: simulation, case: equal}}",
-    "figures.fig10_12 = {notebook: theoretical_response, model: slow_flow, case: unequal, fixed_point: b, periods: 2}",
+    "figures.other = {notebook: theoretical_response, model: slow_flow, case: unequal, fixed_point: b, periods: 2}",
     "figures.fig10_10.C_max = ...",
     "figures.fig10_04 = ... & figures.fig10_11 = ...",
     "stability.verdict_grid.points = 2",

@@ -1,10 +1,8 @@
-"""Names that figures, animations and cases may not bear are exactly those that the pipeline takes itself."""
-
-from snakemake.iocontainers import Namedlist
+"""Names that figures and animations may not bear are exactly those that the pipeline takes itself."""
 
 from configs import GOOD
 from pipeline_trees import CORES, ROOT, run_module
-from vibroimpact_pipeline.config.names import COMPANIONS, RESERVED, RULES
+from vibroimpact_pipeline.config.names import COMPANIONS, RULES
 
 
 def test_every_rule_is_known():
@@ -13,7 +11,3 @@ def test_every_rule_is_known():
     own = {*GOOD["figures"], *GOOD["report"]["animations"]}
     assert own < rules, output
     assert {rule for rule in rules - own if not rule.startswith(COMPANIONS)} == RULES
-
-
-def test_names_of_inputs_that_snakemake_refuses_are_known():
-    assert {name for name in dir(Namedlist) if not name.startswith("_")} == RESERVED

@@ -1,7 +1,14 @@
 # The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
-# parameters: with others none is judged, and the files say why.
+# parameters and lean on some settings: with others none is judged, and the files say why.
+
+import yaml
+
+from vibroimpact_pipeline.chapter import digest
 
 CLAIMS = own("docs/claims.yaml")
+BEHIND = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))["judged_with"]
+OTHERS = [] if DEPARTURES else [path for path in BEHIND if digest(config_at(path)) != BEHIND[path]]
+UNLIKE = DEPARTURES + [f"{path} is not the one that docs/claims.yaml knows" for path in OTHERS]
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
 EVIDENCE = {
@@ -21,13 +28,13 @@ EVIDENCE = {
 
 rule claims:
     input:
-        **({} if DEPARTURES else EVIDENCE),
+        **({} if UNLIKE else EVIDENCE),
         claims=CLAIMS,
     output:
         **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
     params:
         systems=all_systems(),
-        departures=DEPARTURES,
+        unlike=UNLIKE,
         code=code("workflow/scripts/claims.py"),
     log:
         "results/logs/claims.log",

@@ -36,9 +36,9 @@ def one_build_at_a_time():
 
 if not ROOT.is_dir():
     refuse([f"{ROOT}: the pipeline reads notebooks and documents beside its rules; clone it and use it from the disk"])
-if not os.getenv("PYTHONPATH"):
+if not any(Path(folder, "vibroimpact_pipeline").is_dir() for folder in os.getenv("PYTHONPATH", "").split(os.pathsep)):
     # The library beside these rules, whichever one is installed.
-    os.environ.update(PYTHONPATH=LIBRARY)
+    os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [LIBRARY, os.getenv("PYTHONPATH")])))
     sys.path.insert(0, LIBRARY)
 if os.path.exists(sys.executable):
     # Snakemake puts it into the command of each job as it is, which a space in its path would break.

@@ -98,6 +98,7 @@ rule report:
         shown=REPORT_SHOWS,
         config={name: config[name] for name in ("system", "cases", "figures", "report")},
         departures=DEPARTURES,
+        judged=not UNLIKE,
         code=code("workflow/scripts/report.py"),
     log:
         "results/logs/report/report.log",

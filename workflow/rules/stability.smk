@@ -58,7 +58,7 @@ for name, per_case in GATHERED.items():
 
 rule proofs:
     input:
-        **{case: f"results/orbits/{case}.search.json" for case in all_systems()},
+        expand("results/orbits/{case}.search.json", case=all_systems()),
     output:
         "results/proofs.json",
     params:

@@ -32,4 +32,5 @@ def of_case(system, search: Path) -> dict:
 
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
-        main(snakemake.params.systems, dict(snakemake.input.items()), snakemake.output[0])
+        systems = snakemake.params.systems
+        main(systems, dict(zip(systems, snakemake.input, strict=True)), snakemake.output[0])

@@ -15,7 +15,7 @@ from vibroimpact_pipeline.report.site import write
 SETTINGS = "report/report.yaml"
 
 
-def main(root, results, shown: dict, tables, config: dict, departures: list[str], folder) -> None:
+def main(root, results, shown: dict, tables, config: dict, departures: list[str], judged: bool, folder) -> None:
     """Write the report into a new folder.
 
     Args:
@@ -25,9 +25,10 @@ def main(root, results, shown: dict, tables, config: dict, departures: list[str]
         tables: paths of further results to download.
         config: of the pipeline.
         departures: where it departs from the chapter's parameters, a line each.
+        judged: whether the claims have been judged.
     """
     settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
-    results, folder = Results(results, judged=not departures), Path(folder)
+    results, folder = Results(results, judged), Path(folder)
     for group in shown.values():
         for figure in group:
             collect(results, figure, folder)
@@ -61,4 +62,4 @@ if "snakemake" in globals():
     with logging_to(snakemake.log[0]):
         params, tables, folder = snakemake.params, snakemake.input.tables, Path(snakemake.output[0])
         root, results = root_of(snakemake), folder.parent
-        main(root, results, params.shown, tables, params.config, params.departures, folder)
+        main(root, results, params.shown, tables, params.config, params.departures, params.judged, folder)

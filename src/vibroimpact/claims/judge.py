@@ -12,7 +12,7 @@ from vibroimpact.claims.finding import VERDICTS
 MODULES = (equations, manifold, points, motion)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
 NOT_JUDGED = "not judged"
-NOT_ABOUT = "Not judged: the claims are about the chapter's parameters, and this build has others."
+NOT_ABOUT = "Not judged: the claims are about the chapter's parameters and lean on settings that are others here:"
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 
 
@@ -52,10 +52,10 @@ def leave_open(claims: list[dict]) -> list[dict]:
     return [{**claim, "verdict": NOT_JUDGED, "parts": {}, "numbers": {}} for claim in claims]
 
 
-def to_markdown(judged: list[dict], departures=()) -> str:
+def to_markdown(judged: list[dict], unlike=()) -> str:
     """A readable table of judged claims, after a count of verdicts; or why they were not judged, a line each."""
-    if departures:
-        lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in departures)]
+    if unlike:
+        lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in unlike)]
         return "\n".join(lines) + "\n"
     counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in VERDICTS}
     lines = [

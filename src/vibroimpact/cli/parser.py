@@ -65,9 +65,9 @@ def _tell(options) -> int:
         _put(table, options.output)
     except BrokenPipeError:  # the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (ValueError, ImportError, OSError) as error:
+    except (ValueError, ImportError) as error:
         options.parser.error(str(error))
-    except ArithmeticError as error:
+    except (ArithmeticError, OSError) as error:
         options.parser.exit(1, f"{options.parser.prog}: {error}\n")
     return 0
 
@@ -92,6 +92,10 @@ def _check_folders(options):
         path = getattr(options, name)
         if path is not None and not path.parent.is_dir():
             raise ValueError(f"{name}: there is no folder {path.parent}")
+        if path is not None and path.is_dir():
+            raise ValueError(f"{name}: {path} is a folder")
+        if path is not None and not os.access(path if path.exists() else path.parent, os.W_OK):
+            raise ValueError(f"{name}: {path} cannot be written to")
 
 
 def _put(table: Table, output: Path | None):

@@ -29,12 +29,13 @@ def compute(system, options) -> Table:
     if options.events and options.plot:
         raise ValueError("plot: it draws samples, not events")
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
+    if options.events:
+        run = simulate(system, options.state, cycles, options.tau0)
+        return Table(("tau", "module", "wall", "kind", *NAMES), [_event(*event) for event in run.events.tolist()])
     count = cycles * whole("samples-per-cycle", options.samples_per_cycle, 1, _MOST_SAMPLES)
     whole("cycles times samples-per-cycle", count, 0, _MOST_SAMPLES)
     times = options.tau0 + np.linspace(0.0, cycles * system.period, count + 1)
-    run = simulate(system, options.state, cycles, options.tau0, None if options.events else times)
-    if options.events:
-        return Table(("tau", "module", "wall", "kind", *NAMES), [_event(*event) for event in run.events.tolist()])
+    run = simulate(system, options.state, cycles, options.tau0, times)
     return Table(("tau", *NAMES), np.column_stack([times, run.samples]).tolist())
 
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.section import Problem
+from vibroimpact_pipeline.report.figure_texts import OWN
 
 RULES = {
     "accuracy",
@@ -37,38 +37,24 @@ RULES = {
 """Rules of workflow/rules/."""
 COMPANIONS = "companion_"
 """What the names of rules of companions begin with."""
-FIGURES = Figures.model_fields.keys()
-"""Rules of the chapter's figures."""
-RESERVED = {
-    "append",
-    "clear",
-    "copy",
-    "count",
-    "extend",
-    "get",
-    "index",
-    "insert",
-    "items",
-    "keys",
-    "pop",
-    "remove",
-    "reverse",
-    "sort",
-    "update",
-}
-"""Names that no input of a rule may bear."""
+CHAPTERS = "fig10_"
+"""What the names of the chapter's figures begin with."""
 
 
 def taken(config) -> Iterator[Problem]:
-    """Figures, animations and cases whose names mean something else already."""
-    for name in filter(_is_rule, config.figures.model_extra):
-        yield Problem(("figures", name), "the name is that of a rule")
+    """Figures and animations whose names mean something else already."""
+    for name in config.figures.model_extra:
+        yield from _meant(("figures", name), name)
     for name in config.report.animations:
-        if _is_rule(name) or name in FIGURES or name in config.figures.model_extra:
-            yield Problem(("report", "animations", name), "the name is that of a rule or a figure")
-    for name in filter(RESERVED.__contains__, config.cases):
-        yield Problem(("cases", name), "the name is reserved by Snakemake")
+        yield from _meant(("report", "animations", name), name)
+        if name in config.figures.model_extra:
+            yield Problem(("report", "animations", name), "the name is that of a figure")
 
 
-def _is_rule(name):
-    return name in RULES or name.startswith(COMPANIONS)
+def _meant(place, name):
+    if name in RULES or name.startswith(COMPANIONS):
+        yield Problem(place, "the name is that of a rule")
+    if name.startswith(CHAPTERS):
+        yield Problem(place, f"names with {CHAPTERS} are those of the chapter's figures")
+    if name.startswith(OWN):
+        yield Problem(place, f"names with {OWN} are those of the words for figures of one's own")

@@ -5,7 +5,10 @@ from typing import Annotated
 from pydantic import Field
 
 from vibroimpact_pipeline.config.fields import Amplitude, CaseName, ForceRange, Name, not_ascending, unit
-from vibroimpact_pipeline.config.section import Section, Sweep
+from vibroimpact_pipeline.config.section import Problem, Section, Sweep
+
+FINEST = 1e-6
+"""Least distance of values: they are written with six decimals."""
 
 
 class Animation(Section):
@@ -26,7 +29,10 @@ class ForceSweep(Section):
     C_max: Amplitude = Field(description="Right end of the planes")
 
     def conditions(self):
-        return not_ascending("range", self.range)
+        yield from not_ascending("range", self.range)
+        step = (self.range[1] - self.range[0]) / (self.values - 1)
+        if 0 < step < FINEST:
+            yield Problem(("values",), f"{self.values} values are {step:.2g} apart, less than {FINEST:g}")
 
     def sweeps(self):
         yield Sweep(("range",), self.case, ["f20_hat"], self.range)

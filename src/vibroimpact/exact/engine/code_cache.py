@@ -62,7 +62,7 @@ def _writable() -> Path:
     """Beside the library, else in the user's own cache, else a private temporary folder, which is said."""
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (PACKAGE / "__pycache__", own / "vibroimpact"):
-        if _takes_files(folder):
+        if folder.is_absolute() and _takes_files(folder):  # "~" stays where nobody knows the home
             return folder
     folder = _temporary()
     say(f"neither the installation nor {own} can be written to; compiled code is kept in {folder}")
