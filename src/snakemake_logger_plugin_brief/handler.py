@@ -9,7 +9,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_brief.build import Build
-from snakemake_logger_plugin_brief.results import open_first
+from snakemake_logger_plugin_brief.results import from_start, open_first
 from snakemake_logger_plugin_brief.screen import Screen
 from snakemake_logger_plugin_brief.words import count
 
@@ -119,7 +119,7 @@ class LogHandler(LogHandlerBase):
         elif self._build and text.startswith(STOPS):
             self._build.stop()
         elif self._build and text.startswith(FULL_LOG):
-            self._build.log = os.path.relpath(text.removeprefix(FULL_LOG))
+            self._build.log = from_start(text.removeprefix(FULL_LOG))
         elif record.levelno > logging.INFO or not (self._build or text.startswith(SAID)):
             self._screen.say(*[text] * (not text.startswith(SAID_AGAIN)))
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from logging import LogRecord
 from pathlib import Path
 
+from snakemake_logger_plugin_brief.results import from_start
 from snakemake_logger_plugin_brief.words import duration, words
 
 LONG = 15
@@ -63,6 +64,8 @@ def tail(log: str) -> list[str]:
 def failure(name: str, logs: list[str], cause: str) -> list[str]:
     """What is told of a job that failed: how it ended and the end of its log; the cause, where it is no exit status."""
     ended = ENDED.search(cause)
-    lines = [line for log in logs for line in (f"Its log {log} ends:", *(f"  {line}" for line in tail(log)))]
+    lines = [
+        line for log in logs for line in (f"Its log {from_start(log)} ends:", *(f"  {line}" for line in tail(log)))
+    ]
     lines += [] if ended else cause.splitlines()
     return [f"Failed: {name}{f' ({ended[0]})' if ended else ''}", *(f"  {line}" for line in lines)]

@@ -1,8 +1,11 @@
 """Where the results of a build are, and the page to open first."""
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
+START = os.getcwd()
+"""Where the command was given: Snakemake loads its plugins before it goes where `--directory` says."""
 FIGURES = "results/figures/"
 PAGES = {
     "report": "results/report/index.html",
@@ -23,10 +26,17 @@ def first_page(names: Iterable[str]) -> str | None:
 def open_first(names: Iterable[str]) -> list[str]:
     """The line about that page, if there is one."""
     page = first_page(names)
-    return [f"Open first: {page}"] if page else []
+    return [f"Open first: {from_start(page)}"] if page else []
 
 
 def made(outputs: Iterable[str]) -> str:
     """What the finished jobs have made, and where it is."""
     figures = sum(path.startswith(FIGURES) and path.endswith(".png") for path in outputs)
-    return f"{figures} figure{'s' * (figures != 1)} in {FIGURES}" if figures else "Results are in results/"
+    if figures:
+        return f"{figures} figure{'s' * (figures != 1)} in {from_start(FIGURES)}/"
+    return f"Results are in {from_start('results')}/"
+
+
+def from_start(path) -> str:
+    """A path as the user's shell finds it."""
+    return os.path.relpath(path, START)

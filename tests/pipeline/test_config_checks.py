@@ -8,7 +8,7 @@ import pytest
 
 from configs import GOOD, TEXT, edited
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import case_parameters, checked, complaints, problems, typed
+from vibroimpact_pipeline.config import case_parameters, checked, complaints, problems, typed, without_null
 from vibroimpact_pipeline.config.check import MOST
 from vibroimpact_pipeline.config.system import NAMES
 
@@ -92,7 +92,8 @@ def test_a_complaint_names_the_place_to_mend():
     found = [("system.kappa", "wrong"), ("cases.weak.simulation.initial_state[3]", "wrong")]
     found.append(("system.epsilon", "missing"))
     start = {"cases": {"weak": {"simulation": {"initial_state": REST}}}}
-    origins = {"config/config.yaml": start, "try.yaml": {"system": {"kappa": 2}} | start, "--config": start}
+    whole = {"system": {"kappa": 0.65}} | start
+    origins = {"config/config.yaml": whole, "try.yaml": {"system": {"kappa": 2}} | start, "--config": start}
     assert complaints(found, origins) == [
         "try.yaml: system.kappa: wrong",
         "--config: cases.weak.simulation.initial_state[3]: wrong",
@@ -138,3 +139,15 @@ def test_an_override_that_cannot_be_read_is_refused_with_its_key(given, line):
     with pytest.raises(ValueError, match=r".") as refusal:
         typed(given)
     assert str(refusal.value) == line
+
+
+def test_null_takes_an_entry_away():
+    taken = {"cases": {"weak": None}, "regimes": {"epsilon": {"mixed": None}}, "figures": {"fig10_10": None}}
+    left = without_null({"system": 1} | taken)
+    assert left == {"system": 1, "cases": {}, "regimes": {"epsilon": {}}, "figures": {}}
+
+
+def test_a_key_that_nobody_gives_is_missing_where_its_neighbours_are():
+    origins = {"config/config.yaml": {"cases": {"equal": {}}}, "--config": {"cases": {"mine": {"f10_hat": 1.0}}}}
+    assert complaints([("cases.mine.f20_hat", "missing")], origins) == ["--config: cases.mine.f20_hat: missing"]
+    assert complaints([("system.kappa", "missing")], origins) == ["config/config.yaml: system.kappa: missing"]

@@ -42,7 +42,7 @@ def test_a_missing_config_is_refused(tree):
     ("override", "line"),
     [
         ("cases={weak", "--config: cases: expected ',' or '}', but got '<stream end>'"),
-        ("cases=", "--config: cases: nothing is not a mapping"),
+        ("cases=", "--config: cases: missing"),
         ("cases=3", "--config: cases: 3 is not a mapping"),
         ("cases={weak: [1]}", "--config: cases.weak: [1] is not a mapping"),
         ("system={kappa: 0100}", "--config: system.kappa: 0100 means 64 in YAML: write that, or '0100' for the text"),

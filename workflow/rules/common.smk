@@ -47,6 +47,7 @@ def checked_config(origins):
     made = {}
     for entries in origins.values():
         update_config(made, entries)
+    made = config_checks.without_null(made)
     labels = remembered(".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
     if found := config_checks.problems(made, labels):
         refuse(config_checks.complaints(found, origins))

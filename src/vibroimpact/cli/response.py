@@ -41,19 +41,23 @@ def compute(system, options) -> Table:
     if not low < high:
         raise ValueError(f"to: {high} is not above {low}, where the path begins")
     path, seeds = Path(system, tuple(options.along)), whole("seeds", options.seeds, 1, _MOST_SEEDS)
-    for end in (low, high):
-        path(end)
+    for name, end in (("from", low), ("to", high)):
+        try:
+            path(end)
+        except ValueError as error:
+            raise ValueError(f"{name}: at {end}, {error}") from None
     rows = []
     for family in SIDES[options.of]:
         print(f"looking for every {family.name} ...", file=sys.stderr)
         found = branches(family, path, (low, high), np.linspace(low, high, seeds), (high - low) / 10)
-        rows += [row for number, branch in enumerate(found) for row in _rows(number, branch)]
+        rows += [row for number, branch in enumerate(found) for row in _rows(number, branch, low, high)]
     columns = (" = ".join(options.along), "C1", "C2")
     return Table(("family", "branch", "piece", *columns, "stable", "admissible", "special"), rows)
 
 
-def _rows(number, branch):
+def _rows(number, branch, low, high):
+    """The nodes within the range; the last step of a branch may go beyond it."""
     for piece, (inner, nodes) in enumerate(branch.pieces()):
-        for node in nodes:
+        for node in (node for node in nodes if low <= node.p <= high):
             C = node.amplitudes.tolist()
             yield branch.family.name, number, piece, node.p, *C, inner.stable, inner.admissible, node.kind

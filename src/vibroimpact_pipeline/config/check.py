@@ -44,7 +44,7 @@ def problems(config: dict, labels: Labels = labels) -> list[tuple[str, str]]:
 
 
 def complaints(found: Iterable[tuple[str, str]], origins: dict[str, dict]) -> list[str]:
-    """One line per problem, with the place to mend it: the last of the origins that has the key, or the first of all.
+    """One line per problem, with the place to mend it: the last origin that has the key, or the one that goes nearest.
 
     Args:
         origins: entries of the config by the name of what sets them; a later one overrides.
@@ -60,12 +60,16 @@ def case_parameters(config: dict, case: str) -> dict:
 
 
 def _origin(path, origins):
-    return next((name for name in reversed(origins) if _holds(origins[name], path)), next(iter(origins)))
+    keys = path.split("[")[0].split(".")
+    depths = {name: _depth(entries, keys) for name, entries in origins.items()}
+    having = [name for name, depth in depths.items() if depth == len(keys)]
+    return having[-1] if having else max(depths, key=depths.get)
 
 
-def _holds(entries, path):
-    for key in path.split("[")[0].split("."):
+def _depth(entries, keys):
+    """How many of the keys, one within the other, are there."""
+    for depth, key in enumerate(keys):
         if not isinstance(entries, dict) or key not in entries:
-            return False
+            return depth
         entries = entries[key]
-    return True
+    return len(keys)

@@ -53,6 +53,7 @@ def without_fixed_points(config, labels: Labels) -> Iterator[Problem]:
         case = _beside(config, place, "case")
         if label not in known.get(case, label):
             has = f"it has {', '.join(known[case])}" if known[case] else "it has none"
+            has += "; write null to leave the entry out" if "mixed" in place else ""
             yield Problem(place, f"the case {case} has no fixed point {label!r}: {has}")
 
 

@@ -4,6 +4,13 @@ from vibroimpact_pipeline.config.section import Place, written
 from vibroimpact_pipeline.config.text import parse_value
 
 
+def without_null(entries):
+    """Entries without those that say null: so an override takes one away, a case or what is optional."""
+    if isinstance(entries, dict):
+        return {key: without_null(value) for key, value in entries.items() if value is not None}
+    return entries
+
+
 def typed(overrides, place: Place = ()):
     """Overrides with numbers as numbers: inside a mapping, the command line of Snakemake hands over text only.
 
