@@ -14,6 +14,7 @@ import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from pipeline_trees import ROOT, SNAKEMAKE, Tree, run_module
+from snakemake_logger_plugin_brief import results
 from snakemake_logger_plugin_brief.handler import LogHandler
 from snakemake_logger_plugin_brief.screen import Screen
 from snakemake_logger_plugin_brief.words import duration, words
@@ -188,6 +189,7 @@ def said(message, level=logging.INFO):
 def handler(tmp_path, monkeypatch):
     """A handler that writes into a file; time passes when it is told so."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(results, "START", str(tmp_path))
     monkeypatch.setattr(LogHandler, "_clock", lambda self: None)
     asked = dict.fromkeys(("dryrun", "verbose", "printshellcmds", "debug_dag", "quiet", "nocolor"), False)
     handler = LogHandler(SimpleNamespace(**asked), None)

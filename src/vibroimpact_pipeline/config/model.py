@@ -37,6 +37,10 @@ class Config(Section):
         if not unsound_cases:
             yield from self._unsound_sweeps()
         yield from self._short_windows()
+        drawn, over = self.regimes.coexistence.case, self.regimes.branches.case
+        if drawn != over and {drawn, over} <= self.cases.keys():
+            what = f"{drawn!r} is not {over!r}, over whose branches it is drawn"
+            yield Problem(("regimes", "coexistence", "case"), what)
 
     def _unsound_cases(self):
         """Problems of the systems; those of shared parameters once."""

@@ -291,6 +291,3 @@ class Regimes(Section):
         yield from self.confusion.costs(once * self.observation.rounds, longest)
         yield from self.modulation.costs(once, longest)
         yield from self.basins.costs(once, longest)
-        if self.branches.case != self.coexistence.case:
-            what = f"{self.coexistence.case!r} is not {self.branches.case!r}, over whose branches it is drawn"
-            yield Problem(("coexistence", "case"), what)
