@@ -34,7 +34,7 @@ STEPS = re.compile(
 def project(built, tmp_path):
     """A copy of the project after a build, with its tests, which uses its own library."""
     tree = Tree(tmp_path / "project")
-    shutil.copytree(built.path, tree.path, symlinks=True)
+    shutil.copytree(built.path, tree.path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
     compiled_code.share(tree / "src/vibroimpact", tree / COMPILED)
     return tree

@@ -16,7 +16,10 @@ SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-
 def reported(built, tmp_path_factory) -> Tree:
     """The built project with its report. Read it, do not change it."""
     return made_once(
-        tmp_path_factory, "reported", lambda path: shutil.copytree(built.path, path, symlinks=True), "report"
+        tmp_path_factory,
+        "reported",
+        lambda path: shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks")),
+        "report",
     )
 
 

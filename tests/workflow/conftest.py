@@ -16,5 +16,5 @@ def tree(tmp_path) -> Tree:
 @pytest.fixture
 def rebuilt(built, tmp_path) -> Tree:
     """A built tree that a test may change."""
-    shutil.copytree(built.path, tmp_path / "tree", symlinks=True)
+    shutil.copytree(built.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
     return Tree(tmp_path / "tree")
