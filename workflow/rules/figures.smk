@@ -51,8 +51,8 @@ def figure_settings(scene):
     used = scene.get("parameters", [])
     system = system_of(scene["case"]) if "case" in scene else {name: config["system"][name] for name in used}
     observed = {"observation": config["regimes"]["observation"]} if simulated(scene) else {}
-    own = {name: value for name, value in scene.items() if name not in ("notebook", "model", "parameters")}
-    return {**own, "system": system, **observed}
+    given = {name: value for name, value in scene.items() if name not in ("notebook", "model", "parameters")}
+    return {**given, "system": system, **observed}
 
 
 def drawn_like(figure, scene):

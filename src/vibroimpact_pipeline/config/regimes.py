@@ -72,14 +72,22 @@ class Observation(Section):
         yield from above(("cycles",), CYCLES, "forcing cycles of a start", cycles=self.cycles, rounds=self.rounds)
 
 
-class BranchPath(Section):
-    """A line through the parameters."""
+class Line(Section):
+    """Parameters that move together."""
 
     along: Along = Field(description="The parameters that move together")
-    range: Annotated[list[Number], Field(min_length=2, max_length=2)] = Field(description="Where they begin and end")
 
     def conditions(self):
         yield from repeated("along", self.along)
+
+
+class BranchPath(Line):
+    """A line through the parameters."""
+
+    range: Annotated[list[Number], Field(min_length=2, max_length=2)] = Field(description="Where they begin and end")
+
+    def conditions(self):
+        yield from super().conditions()
         yield from not_ascending("range", self.range)
 
 
@@ -117,10 +125,9 @@ class Branches(Section):
             yield Sweep(("paths", number, "range"), self.case, path.along, path.range)
 
 
-class Lifetimes(Section):
+class Lifetimes(Line):
     """The mean life of the chaos."""
 
-    along: Along = Field(description="The parameters that move together")
     values: Annotated[list[Number], Field(min_length=1, max_length=1000)] = Field(description="What they are set to")
     starts: Starts
     seed: Seed
@@ -128,7 +135,7 @@ class Lifetimes(Section):
     longest: Cycles = Field(description="A start is given up after so many, two steps at least: one is not counted")
 
     def conditions(self):
-        yield from repeated("along", self.along)
+        yield from super().conditions()
         yield from repeated("values", self.values)
         if self.longest < 2 * self.step:
             yield Problem(("longest",), f"{self.longest} is below {2 * self.step}, twice `step`")
@@ -137,14 +144,13 @@ class Lifetimes(Section):
         yield from above(("step",), HELD, "forcing cycles in memory", starts=self.starts, step=self.step)
 
 
-class TorusPath(Section):
+class TorusPath(Line):
     """Values on both sides of a Neimark-Sacker point."""
 
-    along: Along = Field(description="The parameters that move together")
     values: Annotated[list[Number], Field(min_length=2, max_length=1000)] = Field(description="What they are set to")
 
     def conditions(self):
-        yield from repeated("along", self.along)
+        yield from super().conditions()
         yield from repeated("values", self.values)
 
 
