@@ -1,4 +1,4 @@
-"""Hazards: the scenes are what their names say, and the verdicts follow from what was measured."""
+"""Hazards: the problems are what their names say, and the verdicts follow from what was measured."""
 
 import numpy as np
 import pytest

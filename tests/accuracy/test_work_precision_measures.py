@@ -8,7 +8,7 @@ from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.accuracy.work_precision import Scene, fitted_order, measure
+from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system import System
@@ -19,7 +19,7 @@ SYSTEM = System(
     f10_hat=1.0,
     f20_hat=1.0,
 )
-SCENE = Scene("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
+PROBLEM = Problem("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
 
 
 class Reference:
@@ -91,7 +91,7 @@ class Missing(Refusing):
 
 
 def test_failed_and_missing_methods_keep_their_rows():
-    rows = measure(SCENE, [Refusing(), Missing()], seconds=0.0)
+    rows = measure(PROBLEM, [Refusing(), Missing()], seconds=0.0)
     assert [(row["method"], row["outcome"], row["reason"]) for row in rows] == [
         ("refusing", "refused", "not today"),
         ("refusing", "refused", "not today"),
@@ -101,22 +101,22 @@ def test_failed_and_missing_methods_keep_their_rows():
 
 def test_the_short_form_keeps_the_finest_setting():
     euler = next(method for method in METHODS if method.name == "Moreau-Jean")
-    settings = [row["setting"] for row in measure(SCENE, [euler], seconds=0.0, short=True)]
+    settings = [row["setting"] for row in measure(PROBLEM, [euler], seconds=0.0, short=True)]
     assert settings == [str(setting) for setting in euler.ladder[::2]]
     assert settings[-1] == str(euler.ladder[-1])
 
 
 def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
-    once = Scene("once", SYSTEM, SCENE.state, 1)
+    once = Problem("once", SYSTEM, PROBLEM.state, 1)
     mp.dps = 40
-    end = [mpf(text) for text in reference_run(SYSTEM, SCENE.state, 1, 40).final_text]
+    end = [mpf(text) for text in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_text]
     assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)
 
 
 def test_unavoidable_error_grows_with_the_sensitivity_of_the_motion():
     weak = SYSTEM.with_(f10_hat=0.5, f20_hat=0.5)
-    steady = benchmark.unavoidable_error(Scene("settled", SYSTEM, SCENE.state, 10))
-    modulated = benchmark.unavoidable_error(Scene("modulated", weak, (0.0,) * 8, 10))
+    steady = benchmark.unavoidable_error(Problem("settled", SYSTEM, PROBLEM.state, 10))
+    modulated = benchmark.unavoidable_error(Problem("modulated", weak, (0.0,) * 8, 10))
     assert 2.0**-54 < steady < 1e-14
     assert modulated > steady
 

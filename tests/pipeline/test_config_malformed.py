@@ -150,7 +150,7 @@ UNUSUAL = [
     "regimes.modulation.windows = [1]",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
     "regimes.epsilon.mixed = {case: weak, label: a}",
-    "accuracy.scenes = {one: {case: weak, initial_state: [0, 1, 0, 1, 0, 0, 0, 0], cycles: 1}}",
+    "accuracy.problems = {one: {case: weak, initial_state: [0, 1, 0, 1, 0, 0, 0, 0], cycles: 1}}",
     "report.animations = {fast: {case: weak, cycles: 120}}",
     "report.force_sweep.values = 2",
 ]

@@ -33,7 +33,7 @@ def renamed(config, old, new):
 def without_case(config, case):
     """A config without a case and what shows it."""
     del config["cases"][case]
-    for section in (config["figures"], config["accuracy"]["scenes"], config["report"]["animations"]):
+    for section in (config["figures"], config["accuracy"]["problems"], config["report"]["animations"]):
         for name in [name for name, scene in section.items() if scene.get("case") == case]:
             del section[name]
 

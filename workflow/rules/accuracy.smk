@@ -11,17 +11,17 @@ def accuracy_outputs(name):
     return figure_files(f"results/accuracy/{name}")
 
 
-def accuracy_scenes():
-    """Scenes of the chart with the parameters of their cases."""
-    scenes = config["accuracy"]["scenes"]
-    return {name: {"system": system_of(scene["case"]), "settings": scene} for name, scene in scenes.items()}
+def accuracy_problems():
+    """Test problems of the chart with the parameters of their cases."""
+    problems = config["accuracy"]["problems"]
+    return {name: {"system": system_of(problem["case"]), "settings": problem} for name, problem in problems.items()}
 
 
 def accuracy_provenance(name, seconds):
-    scenes = config["accuracy"]["scenes"]
-    cases = sorted({scene["case"] for scene in scenes.values()})
+    problems = config["accuracy"]["problems"]
+    cases = sorted({problem["case"] for problem in problems.values()})
     own = step(f"{COMPARED}; run times measured", DOUBLE, "workflow/scripts/work_precision.py")
-    return provenance(name, ["accuracy.scenes", f"accuracy.{seconds}"], cases, [own])
+    return provenance(name, ["accuracy.problems", f"accuracy.{seconds}"], cases, [own])
 
 
 for name, (short, seconds) in TIMED.items():
@@ -32,7 +32,7 @@ for name, (short, seconds) in TIMED.items():
         output:
             **in_report(accuracy_outputs(name), "Accuracy and speed"),
         params:
-            scenes=accuracy_scenes(),
+            problems=accuracy_problems(),
             seconds=config["accuracy"][seconds],
             short=short,
             provenance=accuracy_provenance(name, seconds),

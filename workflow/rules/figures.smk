@@ -55,19 +55,14 @@ def figure_settings(scene):
     return {**given, "system": system, **observed}
 
 
-def drawn_like(figure, scene):
-    """The figure of the chapter that a figure is drawn like; those of one notebook share a module."""
+def drawn_by(figure, scene):
+    """The module that draws a figure; those of one notebook share the module of a figure of the chapter."""
     shared = {
         "fixed_points": "fig10_06",
         "theoretical_response": "fig10_10" if "C_max" in scene else "fig10_07",
         "simulation": "fig10_08",
     }
-    return shared.get(scene["notebook"], figure)
-
-
-def drawn_by(figure, scene):
-    """The module that draws a figure."""
-    return f"vibroimpact.figures.chapter.{drawn_like(figure, scene)}"
+    return f"vibroimpact.figures.chapter.{shared.get(scene['notebook'], figure)}"
 
 
 def figure_step(figure, scene):

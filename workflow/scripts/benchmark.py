@@ -14,16 +14,16 @@ SECONDS = 0.5
 
 
 def main(config: dict, output) -> None:
-    from scenes import scene_of
+    from problems import problem_of
     from vibroimpact.accuracy.benchmark import comparison, measure, unavoidable_error
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.rivals import METHODS
 
     settings = config["accuracy"]["benchmark"]
-    scene = scene_of("benchmark", case_parameters(config, settings["case"]), settings)
-    rows = measure(scene, METHODS, SECONDS)
+    problem = problem_of("benchmark", case_parameters(config, settings["case"]), settings)
+    rows = measure(problem, METHODS, SECONDS)
     table = pd.DataFrame(rows)
-    compared = [f"{name}: {value:.3g}" for name, value in comparison(rows, unavoidable_error(scene)).items()]
+    compared = [f"{name}: {value:.3g}" for name, value in comparison(rows, unavoidable_error(problem)).items()]
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
     print(table.to_string(index=False, float_format="{:.3g}".format))
     print(*compared, footer, sep="\n")

@@ -1,9 +1,9 @@
-"""Work-precision measurements of all scenes -> work_precision.csv, and the chart."""
+"""Work-precision measurements on all test problems -> work_precision.csv, and the chart."""
 
 import pandas as pd
 
 from job_log import logging_to
-from scenes import scene_of
+from problems import problem_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
 from vibroimpact.figures.companions.work_precision import draw
@@ -13,10 +13,10 @@ from vibroimpact.rivals import METHODS
 from vibroimpact_pipeline.provenance.record import recorded
 
 
-def main(scenes: dict, seconds: float, short: bool, outputs: dict, provenance: dict) -> None:
+def main(problems: dict, seconds: float, short: bool, outputs: dict, provenance: dict) -> None:
     rows = []
-    for name, scene in scenes.items():
-        rows += measure(scene_of(name, scene["system"], scene["settings"]), METHODS, seconds, short)
+    for name, problem in problems.items():
+        rows += measure(problem_of(name, problem["system"], problem["settings"]), METHODS, seconds, short)
     table = pd.DataFrame(rows)
     tables.write(table, outputs["csv"])
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
@@ -26,4 +26,4 @@ def main(scenes: dict, seconds: float, short: bool, outputs: dict, provenance: d
 if "snakemake" in globals():
     with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
         params = snakemake.params
-        main(params.scenes, params.seconds, params.short, outputs, provenance)
+        main(params.problems, params.seconds, params.short, outputs, provenance)

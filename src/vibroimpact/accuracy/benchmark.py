@@ -5,43 +5,43 @@ from fractions import Fraction
 import numpy as np
 
 from vibroimpact.accuracy.reference.run import proven_run, reference_run
-from vibroimpact.accuracy.work_precision import Scene, climb
+from vibroimpact.accuracy.work_precision import Problem, climb
 
 OURS, TAYLOR, EXPLICIT = "this engine", "heyoka", "DOP853"
 EXPLICIT_ACCURACY = 1e-8
 SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
-def measure(scene: Scene, methods, seconds: float) -> list[dict]:
+def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     """One row per method and setting: time per impact [us], ratio to ours, errors, over one motion on one core.
 
     Args:
         seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
     """
-    reference = proven_run(scene.system, scene.state, scene.cycles).run
-    per_impact = 1e6 * scene.cycles / len(reference.events)
+    reference = proven_run(problem.system, problem.state, problem.cycles).run
+    per_impact = 1e6 * problem.cycles / len(reference.events)
     available = [method for method in methods if not method.available()]
     rows = [
         {**row, "us_per_impact": row["seconds_per_cycle"] * per_impact}
         for method in available
-        for row in climb(scene, method, method.ladder, reference, seconds)
+        for row in climb(problem, method, method.ladder, reference, seconds)
     ]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
     return [{**{name: row[name] for name in SHOWN}, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
-def unavoidable_error(scene: Scene, digits: int = 40) -> float:
+def unavoidable_error(problem: Problem, digits: int = 40) -> float:
     """Error that rounding the state to float64 once per forcing cycle causes, all else being exact.
 
-    The largest difference of a coordinate, at any whole cycle of the scene, between the motion and the one whose state
+    The largest difference of a coordinate, at any whole cycle of the problem, between the motion and the one whose state
     is rounded there: what no method can avoid whose states are float64 numbers, the conditioning of the motion
     included.
     """
-    exact = rounded = [Fraction(repr(float(value))) for value in scene.state]
+    exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
     largest = Fraction(0)
-    for _ in range(scene.cycles):
-        exact = _after_one_cycle(scene.system, exact, digits)
-        rounded = [Fraction(float(value)) for value in _after_one_cycle(scene.system, rounded, digits)]
+    for _ in range(problem.cycles):
+        exact = _after_one_cycle(problem.system, exact, digits)
+        rounded = [Fraction(float(value)) for value in _after_one_cycle(problem.system, rounded, digits)]
         largest = max(largest, *(abs(a - b) for a, b in zip(exact, rounded, strict=True)))
     return float(largest)
 

@@ -1,4 +1,4 @@
-"""Where methods fail: scenes that are hard for a known reason, and the verdict on every method in each of them.
+"""Where methods fail: problems that are hard for a known reason, and the verdict on every method in each of them.
 
 Adding a hazard is adding a few lines to `hazards`.
 """
@@ -33,7 +33,7 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 @dataclass(frozen=True)
 class Hazard:
-    """A scene: group (what is hard), name, system, start (8,) at tau = 0, forcing cycles.
+    """A test problem: group (what is hard), name, system, start (8,) at tau = 0, forcing cycles.
 
     faint: impacts with a slower rebound need not be found (0: every one counts); reference_cycles: how many of the
     cycles the reference computes, where the motion is known to have settled by then (see settled); quick: in the
@@ -66,9 +66,9 @@ def hazards() -> list[Hazard]:
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
     still = system.with_(f10_hat=0.0, f20_hat=0.0)
-    scenes = [_grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
-    scenes += [Hazard("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
-    scenes += [
+    problems = [_grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
+    problems += [Hazard("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
+    problems += [
         Hazard("sticking", "stick and release", system, RESTING, 2),
         Hazard("sticking", "modulated response", weak, MODULATED, 8),
         Hazard("coincidence", "both balls, same wall", twins, TOGETHER, 3),
@@ -86,11 +86,11 @@ def hazards() -> list[Hazard]:
         Hazard("chaos", "within the horizon", weak, REST, 20),
         Hazard("chaos", "far beyond the horizon", weak, REST, 120, quick=False),
     ]
-    return scenes
+    return problems
 
 
 def judge(hazard: Hazard, methods) -> list[dict]:
-    """One row per method: the verdict on its careful setting in this scene, and the numbers behind it."""
+    """One row per method: the verdict on its careful setting for this problem, and the numbers behind it."""
     reference = reference_of(hazard)
     return [_row(hazard, method, reference) for method in methods]
 

@@ -15,7 +15,7 @@ RESOLVED = 0.03, 1e-11
 
 
 @dataclass(frozen=True)
-class Scene:
+class Problem:
     """A motion to compute: state (8,) at tau = 0, number of forcing cycles."""
 
     name: str
@@ -24,43 +24,43 @@ class Scene:
     cycles: int
 
 
-def measure(scene: Scene, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
+def measure(problem: Problem, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
     """One row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
 
     Args:
         seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
         short: every second setting of each ladder only.
     """
-    reference = proven_run(scene.system, scene.state, scene.cycles).run
+    reference = proven_run(problem.system, problem.state, problem.cycles).run
     rows = []
     for method in methods:
         ladder = method.ladder[::-2][::-1] if short else method.ladder
-        rows += climb(scene, method, ladder, reference, seconds)
+        rows += climb(problem, method, ladder, reference, seconds)
     return rows
 
 
-def climb(scene: Scene, method: Method, ladder, reference, seconds: float) -> list[dict]:
-    """The rows of one method, one per setting of the ladder, against the reference run of the scene."""
+def climb(problem: Problem, method: Method, ladder, reference, seconds: float) -> list[dict]:
+    """The rows of one method, one per setting of the ladder, against the reference run of the problem."""
     missing = method.available()
     if missing:
-        return [_row(scene, method, None, outcome="unavailable", reason=missing)]
+        return [_row(problem, method, None, outcome="unavailable", reason=missing)]
     rows, points = [], []
     for setting in ladder:
-        run = _run(scene, method, setting)
-        time = shortest_time(lambda setting=setting: _run(scene, method, setting), seconds)
-        errors = compare(run, reference, scene.system.period)
+        run = _run(problem, method, setting)
+        time = shortest_time(lambda setting=setting: _run(problem, method, setting), seconds)
+        errors = compare(run, reference, problem.system.period)
         if run.failure is None and errors.missed == errors.spurious == 0:
             points.append((method.scale(setting, run), errors.final))
         rows.append(
             _row(
-                scene,
+                problem,
                 method,
                 setting,
                 error_state=errors.final,
                 error_time=errors.times,
                 missed=errors.missed,
                 spurious=errors.spurious,
-                seconds_per_cycle=time / scene.cycles,
+                seconds_per_cycle=time / problem.cycles,
                 steps=run.steps,
                 evaluations=run.evaluations,
                 outcome=run.failure.kind if run.failure else "finished",
@@ -71,13 +71,13 @@ def climb(scene: Scene, method: Method, ladder, reference, seconds: float) -> li
     return [{**row, "order": order} for row in rows]
 
 
-def _run(scene, method, setting) -> RivalRun:
-    return method.run(scene.system, scene.state, scene.cycles, 0.0, setting)
+def _run(problem, method, setting) -> RivalRun:
+    return method.run(problem.system, problem.state, problem.cycles, 0.0, setting)
 
 
-def _row(scene, method, setting, **measured):
+def _row(problem, method, setting, **measured):
     text = "" if setting is None else str(setting)
-    return {"scene": scene.name, "method": method.name, "family": method.family, "setting": text, **measured}
+    return {"problem": problem.name, "method": method.name, "family": method.family, "setting": text, **measured}
 
 
 def fitted_order(points) -> float | None:

@@ -8,8 +8,8 @@ from vibroimpact_pipeline.config.fields import Motion, Title, unit
 from vibroimpact_pipeline.config.section import Section
 
 
-class Scene(Motion):
-    """A scene of the work-precision chart."""
+class Problem(Motion):
+    """A test problem of the work-precision chart."""
 
     cycles: Annotated[int, Field(ge=1, le=100)] = Field(
         description="Length; every method and the reference in arbitrary precision run it many times",
@@ -34,5 +34,5 @@ class Accuracy(Section):
     full_seconds: Annotated[float, Field(ge=1e-3, le=60)] = Field(
         description="The same in the full form", json_schema_extra=unit("s")
     )
-    scenes: Annotated[dict[Title, Scene], Field(min_length=1, max_length=3)]
+    problems: Annotated[dict[Title, Problem], Field(min_length=1, max_length=3)]
     benchmark: Benchmark

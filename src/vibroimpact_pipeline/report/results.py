@@ -74,18 +74,18 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """For each scene and method the finished run with the smallest error, and its time as a multiple of ours."""
+        """For each problem and method the finished run with the smallest error, and its time as a multiple of ours."""
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
-        best = whole.loc[whole.groupby(["scene", "method"], sort=False)["error_state"].idxmin()]
-        ours = best[best["method"] == table["method"].iloc[0]].set_index("scene")["seconds_per_cycle"]
-        return best.assign(ratio=best["seconds_per_cycle"] / best["scene"].map(ours))
+        best = whole.loc[whole.groupby(["problem", "method"], sort=False)["error_state"].idxmin()]
+        ours = best[best["method"] == table["method"].iloc[0]].set_index("problem")["seconds_per_cycle"]
+        return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def failed_runs(self) -> pd.DataFrame:
-        """Scene, method, outcome and reason of every run of the chart that gave no result, and how many they are."""
+        """Problem, method, outcome and reason of every run of the chart that gave no result, and how many they are."""
         table = self.table("accuracy/work_precision.csv")
         failed = table[table["outcome"] != "finished"].fillna({"reason": ""})
-        keys = ["scene", "method", "outcome", "reason"]
+        keys = ["problem", "method", "outcome", "reason"]
         return failed.groupby(keys, sort=False).size().rename("runs").reset_index()
 
     def verdict_counts(self) -> pd.DataFrame:

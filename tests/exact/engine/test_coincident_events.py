@@ -1,7 +1,7 @@
 """Events that coincide: with one another, with the start, the end or a sample, in every contact state.
 
 The definitions are in docs/engine.md. Truth is the arbitrary-precision reference, closed forms and the swap of the
-modules: every scene is run with them swapped too, so that "the other ball sticks" is ball 2 once and ball 1 once.
+modules: every problem is run with them swapped too, so that "the other ball sticks" is ball 2 once and ball 1 once.
 """
 
 from functools import cache
@@ -30,7 +30,7 @@ STICKS = (-2.5, -3.5, 0.0, 0.0)
 RELEASES = (-0.9, -1.9, 0.0, 0.0)
 CHATTERS = (-1.5, -2.49, 0.0, 0.0)
 # Two parts, and the event of module 1 that is looked at.
-SCENES = {
+PROBLEMS = {
     "impact, other flies": (MEETS, FLIES, IMPACT),
     "impact, other sticks": (MEETS, STICKS, IMPACT),
     "impact that releases the other": ((0.1, -0.3, 0.2, -6.0), (-0.4, -1.4, 0.0, 0.0), IMPACT),
@@ -106,9 +106,9 @@ def coincident(pair):
 
 
 @cache
-def ending(scene):
-    """The system whose forcing period is the time until the event of a scene."""
-    *parts, kind = SCENES[scene]
+def ending(problem):
+    """The system whose forcing period is the time until the event of a problem."""
+    *parts, kind = PROBLEMS[problem]
 
     def lag(sigma):
         system = SYSTEM.with_(sigma_e_hat=sigma)
@@ -134,17 +134,17 @@ def test_two_events_in_one_instant_or_almost(pair, swap, nudge):
 
 @pytest.mark.parametrize("nudge", NUDGES)
 @SWAPPED
-@pytest.mark.parametrize("scene", SCENES)
-def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(scene, swap, nudge):
-    system = ending(scene)
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(problem, swap, nudge):
+    system = ending(problem)
     system = system.with_(sigma_e_hat=system.sigma_e_hat * (1.0 + nudge))
-    *parts, kind = SCENES[scene]
+    *parts, kind = PROBLEMS[problem]
     start, module = start_of(*parts), 1
     if swap:
         system, start, module = swapped(system), start[SWAP], 2
     whole, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS)
     assert_same_motion(whole, truth.events, truth.final)
-    if scene == "impact that releases the other":
+    if problem == "impact that releases the other":
         assert events_of(whole.events, 3 - module, RELEASE)["tau"] == events_of(whole.events, module, IMPACT)["tau"]
     first = vi.simulate(system, start, 1)
     if kind != STICK:  # the many impacts before it may end on either side of the end
@@ -170,9 +170,9 @@ def test_an_impact_within_rounding_of_the_end_is_reported(module, late):
 
 @SWAPPED
 @pytest.mark.parametrize("tau0", [0.0, 0.3, 1234.5])
-@pytest.mark.parametrize("scene", SCENES)
-def test_a_sample_at_an_event_is_the_state_after_it(scene, tau0, swap):
-    *parts, kind = SCENES[scene]
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_a_sample_at_an_event_is_the_state_after_it(problem, tau0, swap):
+    *parts, kind = PROBLEMS[problem]
     system, start, module = SYSTEM, start_of(*parts), 1
     if swap:
         system, start, module = swapped(system), start[SWAP], 2

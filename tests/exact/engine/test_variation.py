@@ -28,7 +28,7 @@ def jacobian_in_high_precision(system, state, cycles, digits=60):
     return np.array(columns).T
 
 
-SCENES = {
+PROBLEMS = {
     # name: (changes of the chapter's system, forcing, start, cycles, kinds of events that must occur)
     "impacts": ({}, (1.0, 1.0), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3, {IMPACT}),
     "chatter, stick, release": (
@@ -45,7 +45,7 @@ SCENES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("changes", "force", "start", "cycles", "kinds"), SCENES.values(), ids=SCENES)
+@pytest.mark.parametrize(("changes", "force", "start", "cycles", "kinds"), PROBLEMS.values(), ids=PROBLEMS)
 def test_jacobian_against_high_precision_differences(chapter, changes, force, start, cycles, kinds):
     system = chapter(*force, **changes)
     run = vi.simulate(system, start, cycles)

@@ -1,4 +1,4 @@
-"""The work-precision chart: error against time per forcing cycle, one column per scene, one curve per method."""
+"""The work-precision chart: error against time per forcing cycle, one column per problem, one curve per method."""
 
 import numpy as np
 import pandas as pd
@@ -22,28 +22,28 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
     right, at their cost: runs that gave no result, each with a number that the list below the panels explains.
 
     Args:
-        table: columns scene, method, setting, error_state, error_time, missed, spurious, seconds_per_cycle, outcome,
+        table: columns problem, method, setting, error_state, error_time, missed, spurious, seconds_per_cycle, outcome,
             reason, order.
         footer: versions, printed below.
     """
     figure = new_figure(DOUBLE_COLUMN, 158.0)
-    scenes, look = list(dict.fromkeys(table["scene"])), looks(table["method"])
+    problems, look = list(dict.fromkeys(table["problem"])), looks(table["method"])
     failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
     numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
     upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.28))
-    grid = upper.subplots(len(ERRORS), len(scenes), sharex=True, sharey=True, squeeze=False)
+    grid = upper.subplots(len(ERRORS), len(problems), sharex=True, sharey=True, squeeze=False)
     for row, (error, label) in enumerate(ERRORS.items()):
-        for column, scene in enumerate(scenes):
+        for column, problem in enumerate(problems):
             axes = grid[row, column]
-            here = table[table["scene"] == scene]
+            here = table[table["problem"] == problem]
             _panel(axes, here, error, look)
             _lane(axes, here, look, numbers)
             axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel=label)
             axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
             axes.minorticks_off()
             axes.tick_params(labelbottom=True)
-            letter_panel(axes, "abcdef"[row * len(scenes) + column])
-            axes.set_title(scene if row == 0 else "", pad=3)
+            letter_panel(axes, "abcdef"[row * len(problems) + column])
+            axes.set_title(problem if row == 0 else "", pad=3)
         grid[row, 0].set_ylabel("time per cycle [s]")
     _legend(lower, table, look)
     _notes(lower, numbers, table, footer)
@@ -51,7 +51,7 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
 
 
 def _panel(axes, here, error, look):
-    """The curves of one scene."""
+    """The curves of one problem."""
     for method, style in look.items():
         rows = here[(here["method"] == method) & np.isfinite(here[error]) & (here["outcome"] == "finished")]
         x, y = rows[error].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
