@@ -14,8 +14,8 @@ SOURCES = Sources()
 
 
 def test_imports_are_followed_through_the_library():
-    used = SOURCES.modules_used(["vibroimpact.theory.printed_limit"])
-    assert "vibroimpact.theory.printed_limit" in used
+    used = SOURCES.modules_used(["vibroimpact.theory.masri_printed"])
+    assert "vibroimpact.theory.masri_printed" in used
     assert "vibroimpact" in used
     assert not any(name.startswith(("vibroimpact.exact", "vibroimpact.figures")) for name in used)
     assert "vibroimpact.system.restitution" in SOURCES.modules_used(["vibroimpact.exact.engine.simulation"])
@@ -54,7 +54,7 @@ def test_of_a_notebook_only_what_its_cells_say_counts(tmp_path):
 
     before = fingerprint("from vibroimpact.theory import manifold")
     assert fingerprint("from vibroimpact.theory import manifold", outputs=[{"text": "1"}]) == before
-    assert fingerprint("from vibroimpact.theory import printed_limit") != before
+    assert fingerprint("from vibroimpact.theory import masri_printed") != before
 
 
 @pytest.mark.parametrize(

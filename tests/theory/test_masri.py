@@ -16,7 +16,7 @@ from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory import masri
-from vibroimpact.theory.printed_limit import limit_with_squares, printed_limit
+from vibroimpact.theory.masri_printed import limit_with_squares, printed_limit
 
 kappas = st.floats(0.05, 0.95)
 FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)

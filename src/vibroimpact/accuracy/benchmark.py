@@ -33,9 +33,8 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
 def unavoidable_error(problem: Problem, digits: int = 40) -> float:
     """Error that rounding the state to float64 once per forcing cycle causes, all else being exact.
 
-    The largest difference of a coordinate, at any whole cycle of the problem, between the motion and the one whose state
-    is rounded there: what no method can avoid whose states are float64 numbers, the conditioning of the motion
-    included.
+    The largest difference of a coordinate, at any whole cycle, between the motion and the one whose state is rounded
+    there: what no method can avoid whose states are float64 numbers, the conditioning of the motion included.
     """
     exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
     largest = Fraction(0)

@@ -6,8 +6,8 @@ from scipy.optimize import minimize_scalar
 from vibroimpact.claims.finding import Finding
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
+from vibroimpact.theory.masri_printed import limit_with_squares, printed_limit
 from vibroimpact.theory.penetration import largest_C
-from vibroimpact.theory.printed_limit import limit_with_squares, printed_limit
 from vibroimpact.theory.sawtooth import sawtooth
 
 CHECKS = (

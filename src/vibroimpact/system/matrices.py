@@ -1,4 +1,4 @@
-"""Mass, damping and stiffness matrices of the boxes in each contact state of the balls."""
+"""The smooth part of (10.2): mass, damping, stiffness of the boxes by contact state; impacts are in restitution.py."""
 
 import numpy as np
 
@@ -28,7 +28,7 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Rate matrix A of d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
+    """Rate matrix A of (10.2), d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
 
     Carrying the forcing phase as two states keeps the flow one matrix exponential for every parameter,
     repeated, defective, undamped and resonant spectra included.

@@ -16,7 +16,7 @@ LARGEST = 1e15
 class System:
     """Two coupled vibro-impact modules under forcing f_i sin(Omega tau).
 
-    All parameters are dimensionless. The hatted ones are those of (10.4) and (10.6): the physical effect
+    All parameters are dimensionless. The hatted ones are those of (10.4), (10.5) and (10.6): the physical effect
     is epsilon times the hatted value. A negative forcing amplitude means forcing in anti-phase.
 
     Raises:
@@ -82,12 +82,12 @@ class System:
 
     @property
     def stiffness2(self) -> float:
-        """Stiffness Omega_20^2 of box 2 to ground, (10.5)."""
+        """Stiffness Omega_20^2 of box 2 to ground, (10.5), with the detuning sigma_20 of (10.6)."""
         return 1.0 + self.epsilon * self.sigma20_hat
 
     @property
     def Omega(self) -> float:
-        """Forcing frequency Omega_1 = Omega_2, (10.5)."""
+        """Forcing frequency Omega_1 = Omega_2, (10.5), with the detuning sigma_e of (10.6)."""
         return 1.0 + self.epsilon * self.sigma_e_hat
 
     @property

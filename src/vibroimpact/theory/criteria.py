@@ -10,7 +10,7 @@ from scipy.linalg import eig
 from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
 from vibroimpact.theory.manifold import B_of_C, impact_phase, rho
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.slow_flow import linearisation, rates
 
 CRITERIA = ("printed_10_26", "masri_derived", "slow_flow")

@@ -1,6 +1,6 @@
 """Masri's perturbation analysis of two impacts per cycle, B and phi held: multipliers, limits, verdict.
 
-What the chapter prints of it, (10.26), is in printed_limit.py and does not agree.
+What the chapter prints of it, (10.26), is in masri_printed.py and does not agree.
 
 Derived in docs/stability.md. Perturbations of impact time and ball speed pass from each impact to the next by a map
 with determinant kappa^2 and trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), seen mirrored. A multiplier leaves the

@@ -6,7 +6,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory import manifold
 from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 
 def labelled(f20_hat):

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
 

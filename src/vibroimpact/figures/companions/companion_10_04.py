@@ -10,8 +10,8 @@ from vibroimpact.figures.kit.style import BLACK, LIGHT_GREY, SINGLE_COLUMN, STAB
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.masri import lower_limit, upper_limit
+from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.penetration import largest_C
-from vibroimpact.theory.printed_limit import printed_limit
 
 PIECES = {"SIM left": UNSTABLE, "SIM stable": STABLE, "SIM right": UNSTABLE}
 """The manifold from left to right: below the fold, between the limits, above the upper one."""

@@ -8,8 +8,8 @@ from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUM
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import lower_limit, upper_limit
+from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.penetration import largest_C
-from vibroimpact.theory.printed_limit import printed_limit
 
 BORDER = {"color": BLACK, "linewidth": 1.0, "linestyle": "-"}
 LIMITS = {

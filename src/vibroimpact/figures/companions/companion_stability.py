@@ -24,7 +24,7 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import lower_limit, upper_limit
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 HEADINGS = ("(10.26)", "Masri", "slow\nflow", "exact")
 FACES = {STABLE: BLACK, UNSTABLE: "white", UNDECIDED: GREY}

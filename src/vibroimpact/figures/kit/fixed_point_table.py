@@ -7,7 +7,7 @@ import pandas as pd
 
 from vibroimpact.system.verdict import all_stable
 from vibroimpact.theory.manifold import C_min, overshoot, rho
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ from string import ascii_lowercase
 import numpy as np
 
 from vibroimpact.theory.manifold import rho
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 
 def labels(system, points) -> list[str]:

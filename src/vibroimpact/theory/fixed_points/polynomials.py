@@ -1,4 +1,4 @@
-"""The fixed-point conditions (10.23) without the phases, which is (10.24), as polynomials in C_1 and C_2.
+"""The fixed-point conditions (10.23) as polynomials in C_1 and C_2, free of phases: roots of (10.24) without its poles.
 
 On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
 linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):
@@ -43,7 +43,7 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """|u_1| = |u_2| = 1 without denominators, and the same formed with moduli throughout, each (3, 3, 3).
+        """What stands for (10.24): |u_1| = |u_2| = 1 without denominators, and with moduli throughout, each (3, 3, 3).
 
         |n_2|^2 - |n_1|^2, |Delta|^2 - |n_1|^2 and |Delta|^2 - |n_2|^2, where u_i = n_i / Delta: n_1 depends on C_2
         alone and n_2 on C_1 alone. Entry [:, j, k] belongs to C_1^j C_2^k.

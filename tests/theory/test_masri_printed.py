@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from vibroimpact.theory import manifold
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers
-from vibroimpact.theory.printed_limit import printed_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 
 @given(st.floats(0.001, 0.999))
