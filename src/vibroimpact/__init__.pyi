@@ -1,4 +1,7 @@
 from vibroimpact.exact.engine.certificate import Certificate as Certificate
+from vibroimpact.exact.engine.ensemble import OUTCOME as OUTCOME
+from vibroimpact.exact.engine.ensemble import STATUSES as STATUSES
+from vibroimpact.exact.engine.ensemble import ensemble as ensemble
 from vibroimpact.exact.engine.simulation import Run as Run
 from vibroimpact.exact.engine.simulation import simulate as simulate
 from vibroimpact.exact.engine.simulation import simulate_many as simulate_many

@@ -1,8 +1,9 @@
-"""Compile the simulation and what its certificates need beforehand: `python -m vibroimpact.compile`.
+"""Compile the simulation, what its certificates need and ensembles beforehand: `python -m vibroimpact.compile`.
 
 Numba keeps the code beside the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
 """
 
+from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
@@ -10,8 +11,9 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 def main() -> None:
     """Compile all that is not compiled yet."""
-    run = simulate(System(**PARAMETERS, **CASES["equal"]), [0.0] * 8, cycles=1)
-    _ = run.certificate, run.jacobian
+    system, rest = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
+    run = simulate(system, rest, cycles=1)
+    _ = run.certificate, run.jacobian, ensemble(system, rest, cycles=1)
 
 
 if __name__ == "__main__":

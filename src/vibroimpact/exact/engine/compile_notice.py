@@ -6,7 +6,9 @@ from numba.core import event
 
 SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "what certificates and Jacobians of runs need, some 10 s"
-"""What is compiled apart, and about how long it takes."""
+ENSEMBLE = "the simulation of ensembles, some 25 s"
+APART = {"event_loop": SIMULATION, "ensemble": ENSEMBLE}
+"""What is compiled apart, by the module that it starts from, and about how long it takes."""
 
 
 class _Notice(event.Listener):
@@ -17,7 +19,7 @@ class _Notice(event.Listener):
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
-        what = SIMULATION if module.endswith(".event_loop") else ON_DEMAND
+        what = APART.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
         if not self.within and module.startswith(__package__) and what not in self.said:
             self.said.add(what)
             say(f"compiling {what}, once (python -m vibroimpact.compile does it beforehand)")

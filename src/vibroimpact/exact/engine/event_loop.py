@@ -24,6 +24,12 @@ from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
 
 FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
+FAILURES = {
+    PENETRATED: "a ball went through a wall",
+    STALLED: "time stands still",
+    CROWDED: "there are too many events",
+    EXHAUSTED: "there are too many exclusions",
+}
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""

@@ -23,7 +23,15 @@ def replayed(flow, start, events, start_phase, duration):
     start (8,) in public order. The flight before the stick that completes a chatter is empty: it is carried out at the
     chatter's last impact, ahead of the time it ends.
     """
-    q = flow.coefficients
+    flights = departures(flow.coefficients, start, events, start_phase, duration)
+    for n in range(len(flights)):
+        _land(flow, flights[n])
+    return flights
+
+
+@unfolded
+def departures(q, start, events, start_phase, duration):
+    """The flights of a run (see `replayed`) without the states at their ends."""
     flights = np.zeros((len(events) + 1, COLUMNS))
     state, walls, now, phase = np.empty(8), (0, 0), 0.0, start_phase
     to_internal(start, state)
@@ -33,13 +41,10 @@ def replayed(flow, start, events, start_phase, duration):
         flight[FORCING] = phase
         _put(state, flight, BEFORE)
         completes = n < len(events) and completes_chatter(events, n)
-        if completes:
-            _put(state, flight, AFTER)
-        else:
+        if not completes:
             stop = events[n, 0] if n < len(events) else duration
             there = events[n, PHASE] if n < len(events) else start_phase
             flight[LENGTH] = _length(q, stop - now, there - phase)
-            _land(flow, flight)
             now, phase = stop, there
         if n == len(events):
             break

@@ -1,10 +1,5 @@
 """Direct integration of the equations of motion, (10.1) in the form (10.2)."""
 
-import math
-import numbers
-import os
-import sys
-from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -14,28 +9,17 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
+from vibroimpact.exact.engine.all_cores import on_all_cores
 from vibroimpact.exact.engine.certificate import Certificate
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
+from vibroimpact.exact.engine.request import NO_TIMES, checked_state, checked_times, checked_window
 from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, real, reals, shown, whole
+from vibroimpact.system.arguments import instance, reals
 from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.state import EVENT, KINDS
-
-FAILURES = {
-    kernel.PENETRATED: "a ball went through a wall",
-    kernel.STALLED: "time stands still",
-    kernel.CROWDED: "there are too many events",
-    kernel.EXHAUSTED: "there are too many exclusions",
-}
-NO_TIMES = np.empty(0)
-LATEST = 2.0**43
-"""From here on floats are further apart than 1e-3, and times of a run cannot be told."""
-MOST_CYCLES = 2**53
-ROUNDED = 1e-12
-"""So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,9 +112,9 @@ def simulate(
             were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
     instance("system", system, System)
-    state = _checked_state(state)
-    begin, cycles = _checked_window(system, cycles, tau0)
-    times = _checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
+    state = checked_state(state)
+    begin, cycles = checked_window(system, cycles, tau0)
+    times = checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
     return _run(system, state, cycles, begin, times)
 
 
@@ -158,26 +142,13 @@ def simulate_many(
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
         try:
-            _checked_state(state)
+            checked_state(state)
         except ValueError as error:
             raise ValueError(f"states[{row}]: {error}") from None
-    begin, cycles = _checked_window(system, cycles, tau0)
+    begin, cycles = checked_window(system, cycles, tau0)
     flow_of(system)  # built once, before the threads share it
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:  # the kernel releases the interpreter's lock
-        runs = [pool.submit(_run, system, state, cycles, begin, NO_TIMES) for state in states]
-        if progress:
-            _report(runs)
-        return [run.result() for run in runs]
-
-
-def _report(runs):
-    """Count finished runs on standard error until all are done."""
-    pending = set(runs)
-    while pending:
-        _, pending = wait(pending, timeout=1.0)
-        print(
-            f"\r{len(runs) - len(pending)}/{len(runs)} runs", end="" if pending else "\n", file=sys.stderr, flush=True
-        )
+    pieces = [(system, state, cycles, begin, NO_TIMES) for state in states]
+    return on_all_cores(_run, pieces, [1] * len(pieces), progress)
 
 
 def _run(system, state, cycles, begin, times):
@@ -189,7 +160,7 @@ def _run(system, state, cycles, begin, times):
         flow_of(system), boxes, balls, phase, cycles, tau0, times, samples
     )
     if status != kernel.FINISHED:
-        what = FAILURES[status]
+        what = kernel.FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
@@ -204,50 +175,3 @@ def _table(rows, tau0):
         table[name] = rows[:, column]
     table["state"] = rows[:, 4 : event_log.PHASE]
     return table
-
-
-def _checked_state(state):
-    state = reals("state", state)
-    values = state.tolist()
-    if state.shape != (8,) or not all(map(math.isfinite, values)):
-        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
-    x1, y1, x2, y2 = values[:4]
-    for module, box, ball in ((1, x1, y1), (2, x2, y2)):
-        relative = abs(box - ball)
-        if relative > 1.0 and relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
-            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
-    return state
-
-
-def _checked_window(system, cycles, tau0):
-    """The start of a run, exactly, and its number of cycles."""
-    cycles = whole("cycles", cycles, 0, MOST_CYCLES)
-    begin = _instant(tau0)
-    start = float(begin)
-    for name, tau in (("tau0", start), ("cycles", start + cycles * system.period)):
-        if not abs(tau) < LATEST:
-            raise ValueError(
-                f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
-                "its times (the forcing is the same whole periods earlier)"
-            )
-    return begin, cycles
-
-
-def _instant(tau0):
-    """The time that tau0 stands for, exactly."""
-    if isinstance(tau0, Instant):
-        return tau0
-    number = real("tau0", tau0)
-    return exactly(tau0) if isinstance(tau0, numbers.Rational) else number
-
-
-def _checked_times(sample_times, start, end):
-    if sample_times is None:
-        return NO_TIMES
-    times = reals("sample_times", sample_times)
-    if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
-        raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
-    slack = 4.0 * math.ulp(max(abs(start), abs(end)))
-    if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
-        raise ValueError(f"sample_times: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
-    return times

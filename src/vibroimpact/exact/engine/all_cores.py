@@ -1,0 +1,32 @@
+"""Many pieces of work on all cores, in threads: the compiled engine does without the interpreter's lock."""
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+
+
+def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
+    """What `work(*piece)` gives for each piece, in their order; the first error of any is raised.
+
+    Args:
+        runs: how many runs each piece has.
+        progress: count finished runs on standard error, about once a second.
+    """
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        todo = {pool.submit(work, *piece): count for piece, count in zip(pieces, runs, strict=True)}
+        try:
+            if progress:
+                _report(todo)
+            return [one.result() for one in todo]
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _report(todo):
+    total, pending = sum(todo.values()), set(todo)
+    while pending:
+        _, pending = wait(pending, timeout=1.0)
+        done = total - sum(todo[one] for one in pending)
+        print(f"\r{done}/{total} runs", end="" if pending else "\n", file=sys.stderr, flush=True)

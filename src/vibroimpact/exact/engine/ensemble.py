@@ -1,0 +1,142 @@
+"""Very many runs, over starts and systems, told by what they amount to instead of by their events."""
+
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vibroimpact.exact.engine.all_cores import on_all_cores
+from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.event_log import pack
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
+from vibroimpact.exact.engine.flow import flow_of
+from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
+from vibroimpact.exact.engine.phase import Instant, phase_at
+from vibroimpact.exact.engine.replay import departures
+from vibroimpact.exact.engine.request import MOST_CYCLES, checked_window, within_walls
+from vibroimpact.exact.engine.squares import squares_of
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance, reals, whole
+
+INADMISSIBLE = max(FAILURES) + 1
+STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
+"""What the status of a run means."""
+
+OUTCOME = np.dtype(
+    [
+        ("status", "i1"),
+        ("final", "f8", (8,)),
+        ("impacts", "i8", (2,)),
+        ("sticks", "i8", (2,)),
+        ("largest", "f8", (2,)),
+        ("mean_square", "f8", (2,)),
+        ("ball_speed", "f8", (2,)),
+    ]
+)
+"""What a run amounts to: status, a key of STATUSES; the final state; of each module, while it is observed, the numbers
+of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and that of |Y_i'|."""
+
+PLACES = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
+NO_FORMS = np.empty((0, 0, 0, 0))
+MOST_AT_ONCE = 1024
+"""Runs in one piece of work: enough that handing it out costs nothing, few enough to share among the cores."""
+
+
+def ensemble(
+    systems: System | ArrayLike,
+    states: ArrayLike,
+    cycles: int,
+    tau0: float | Fraction | Instant = 0.0,
+    settle: int = 0,
+    progress: bool = False,
+) -> np.ndarray:
+    """Run many starts, of one system or of many, on all cores, in memory of the order of the starts.
+
+    Every run is that of `simulate`, its final state bit by bit; for the events, the samples or the certificate of one
+    of them ask `simulate`.
+
+    Args:
+        systems: a System, or an array of them (a list, or lists in a list).
+        states: (..., 8) starts, as for `simulate`. Systems and starts are combined as NumPy combines arrays: n systems
+            and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all with all.
+        cycles, tau0: as for `simulate`.
+        settle: cycles before a run is observed, from 0 to cycles; if all, nothing but the final state is told.
+        progress: count finished runs on standard error, about once a second.
+
+    Returns:
+        A structured array (OUTCOME) in the shape of the combination. A run that could not be finished, or not begun,
+        says why in its status (STATUSES) and leaves the others alone; its numbers are nan and its counts 0. So are the
+        numbers of a run that was not observed. The largest |X_i| is exact but for turns of a box that nearly rests
+        (1e-5 of its path); the means are exact to rounding.
+
+    Raises:
+        ValueError: an argument is malformed, or systems and states cannot be combined.
+    """
+    known, numbers, states = _combined(systems, states)
+    cycles = whole("cycles", cycles, 0, MOST_CYCLES)
+    settle = whole("settle", settle, 0, cycles)
+    begins = [checked_window(system, cycles, tau0)[0] for system in known]
+    outcomes = np.empty(numbers.shape, OUTCOME)
+    filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
+    order, ends = (
+        np.argsort(numbers, axis=None, kind="stable"),
+        np.cumsum(np.bincount(numbers.ravel(), minlength=len(known))),
+    )
+    pieces = [
+        (system, starts, cycles, begin, settle, filled, order[first : min(first + MOST_AT_ONCE, end)])
+        for system, begin, opening, end in zip(known, begins, [0, *ends[:-1]], ends, strict=True)
+        for first in range(opening, end, MOST_AT_ONCE)
+    ]
+    on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
+    return outcomes
+
+
+def _combined(systems, states):
+    """The different systems, and in the shape of the combination the number of each one's system and its start."""
+    states = reals("states", states)
+    if states.ndim == 0 or states.shape[-1] != 8:
+        raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
+    systems, known = np.array(systems, dtype=object), {}
+    numbers = [known.setdefault(instance("systems", system, System), len(known)) for system in systems.flat]
+    try:
+        shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
+    except ValueError:
+        raise ValueError(
+            f"states: starts in the shape {states.shape[:-1]} do not combine with systems in the shape {systems.shape}"
+        ) from None
+    numbers = np.array(numbers, dtype=int).reshape(systems.shape)
+    return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
+
+
+def _run(system, starts, cycles, begin, settle, outcomes, places):
+    """Run the starts at some places and fill in their outcomes there."""
+    starts = np.ascontiguousarray(starts[places])
+    table, seen = np.empty(len(places), OUTCOME), np.zeros((len(places), SEEN))
+    observed = cycles - settle
+    status, final = np.where(within_walls(starts), FINISHED, INADMISSIBLE), np.full((len(places), 8), np.nan)
+    forms = squares_of(system) if observed else NO_FORMS
+    phase = phase_at(begin, system.Omega)
+    _loop(flow_of(system), forms, starts, phase, cycles, system.period, settle, status, final, seen)
+    seen[:, SQUARE:] /= observed * system.period or np.nan
+    table["status"], table["final"] = status, final
+    for name, place in PLACES.items():
+        table[name] = seen[:, place : place + 2]
+    outcomes[places] = table
+
+
+@compiled
+def _loop(flow, forms, starts, phase, cycles, period, settle, status, final, seen):
+    """Run the starts (n, 8) of a piece whose status is FINISHED; fill in what they end with and amount to."""
+    no_times, no_samples = np.empty(0), np.empty((0, 8))
+    for n in range(len(starts)):
+        s = starts[n]
+        if status[n] == FINISHED:
+            boxes, balls = (s[0], s[2], s[4], s[6]), (s[1], s[3], s[5], s[7])
+            boxes, balls, events, status[n], _ = integrate(flow, boxes, balls, phase, cycles, 0.0, no_times, no_samples)
+        if status[n] == FINISHED:
+            pack(boxes, balls, final[n])
+        if status[n] != FINISHED or settle == cycles:
+            seen[n, LARGEST:] = np.nan
+        else:
+            flights = departures(flow.coefficients, s, events, phase[0], cycles * period)
+            observe(flow, forms, flights, events, settle * period, seen[n])

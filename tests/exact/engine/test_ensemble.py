@@ -1,0 +1,202 @@
+"""Ensembles: every run is that of `simulate`, and what it amounts to is what its events and samples say."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from hard_starts import example
+from vibroimpact.exact.engine.ensemble import INADMISSIBLE
+from vibroimpact.exact.engine.request import ROUNDED, checked_state, within_walls
+from vibroimpact.system.state import BALLS, BOXES
+
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(20)
+
+
+def starts(n, seed=3):
+    states = np.random.default_rng(seed).uniform(-0.5, 0.5, (n, 8))
+    states[:, BALLS[:2]] += states[:, BOXES[:2]]
+    return states
+
+
+def mixed(chapter, n):
+    """Systems of very different kinds."""
+    rng = np.random.default_rng(8)
+    return [
+        chapter(
+            epsilon=10.0 ** rng.uniform(-3, 0), kappa=rng.uniform(0.05, 0.95), alpha12_hat=rng.choice([0.0, 1.0, 5.0]),
+            gamma1_hat=rng.choice([0.0, 0.2]), gamma12_hat=rng.choice([0.0, 0.3]), sigma20_hat=rng.uniform(-0.5, 1.0),
+            sigma_e_hat=rng.uniform(0.1, 0.7), f10_hat=rng.uniform(-2, 2), f20_hat=rng.uniform(-2, 2),
+        )
+        for _ in range(n)
+    ]  # fmt: skip
+
+
+def test_a_thousand_runs_of_mixed_systems_end_as_simulate_says_bit_by_bit(chapter):
+    systems, states = mixed(chapter, 200), starts(1000)
+    owners = [systems[n // 5] for n in range(1000)]
+    outcomes = vi.ensemble(owners, states, 12, tau0=0.4, settle=12)
+    assert (outcomes["status"] == 0).all()
+    for system, state, outcome in zip(owners, states, outcomes, strict=True):
+        np.testing.assert_array_equal(vi.simulate(system, state, 12, 0.4).final, outcome["final"])
+
+
+def test_observed_runs_end_the_same_whatever_is_settled(case):
+    states = starts(20)
+    ends = [vi.ensemble(case, states, 9, settle=settle)["final"] for settle in (0, 4, 9)]
+    np.testing.assert_array_equal(ends[0], ends[1])
+    np.testing.assert_array_equal(ends[0], ends[2])
+
+
+def flights(run, opening):
+    """Ends of the flights of a run, cut where observation begins."""
+    times = run.events["tau"]
+    return np.unique([opening, *times[times > opening], float(run.end)])
+
+
+def told(system, state, cycles, tau0, settle):
+    """What a run amounts to, by its events and by Gauss's rule and a fine grid in every flight."""
+    run = vi.simulate(system, state, cycles, tau0)
+    opening = tau0 + settle * system.period
+    ends = flights(run, opening)
+    middle, half = (ends[1:] + ends[:-1]) / 2, (ends[1:] - ends[:-1]) / 2
+    pieces = np.ceil(half / 0.2).astype(int)  # short ones: polynomials of degree 39 know them to rounding
+    cut = [m + h * np.linspace(-1, 1, k + 1) for m, h, k in zip(middle, half, pieces, strict=True)]
+    edges = np.unique(np.concatenate(cut))
+    half = np.diff(edges) / 2
+    times = ((edges[1:] + edges[:-1]) / 2)[:, None] + half[:, None] * POINTS
+    samples = vi.simulate(system, state, cycles, tau0, np.sort(times.ravel())).samples.reshape(*times.shape, 8)
+    seconds, weights = ends[-1] - ends[0], half[:, None, None] * WEIGHTS[:, None]
+    events = run.events[run.events["tau"] >= opening]
+    counts = {kind: [np.sum((events["kind"] == kind) & (events["module"] == m)) for m in (1, 2)] for kind in vi.KINDS}
+    boxes, balls = samples[..., BOXES[:2]], samples[..., BALLS[2:]]
+    return {
+        "impacts": counts[vi.IMPACT],
+        "sticks": counts[vi.STICK],
+        "largest": abs(boxes).max(axis=(0, 1)),
+        "mean_square": (weights * boxes**2).sum(axis=(0, 1)) / seconds,
+        "ball_speed": (weights * abs(balls)).sum(axis=(0, 1)) / seconds,
+    }
+
+
+@pytest.mark.parametrize("settle", [0, 3])
+def test_what_runs_amount_to(chapter, settle):
+    systems, states = mixed(chapter, 12), starts(12)
+    outcomes = vi.ensemble(systems, states, 5, 0.4, settle)
+    for system, state, outcome in zip(systems, states, outcomes, strict=True):
+        expected = told(system, state, 5, 0.4, settle)
+        for name in ("impacts", "sticks"):
+            np.testing.assert_array_equal(outcome[name], expected[name])
+        np.testing.assert_allclose(outcome["mean_square"], expected["mean_square"], rtol=1e-11)
+        np.testing.assert_allclose(
+            outcome["ball_speed"], expected["ball_speed"], rtol=1e-3
+        )  # |Y'| of a stuck ball bends
+        assert (outcome["largest"] >= expected["largest"] * (1 - 1e-15)).all()
+        np.testing.assert_allclose(outcome["largest"], expected["largest"], rtol=2e-3)
+
+
+def test_balls_that_stick_travel_with_their_boxes(chapter):
+    system, state = chapter(f10_hat=0.5, f20_hat=0.5), [-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0]
+    (outcome,) = vi.ensemble([system], state, 2)
+    events = vi.simulate(system, state, 2).events["tau"]
+    times = np.unique(np.concatenate([np.linspace(0.0, 2 * system.period, 200_001), events]))
+    balls = vi.simulate(system, state, 2, sample_times=times).samples[:, BALLS[:2]]
+    assert outcome["sticks"][0] >= 1
+    np.testing.assert_allclose(outcome["ball_speed"], abs(np.diff(balls, axis=0)).sum(axis=0) / times[-1], rtol=1e-8)
+
+
+def test_the_largest_excursion_is_where_the_box_turns(case):
+    state = starts(1)[0]
+    (outcome,) = vi.ensemble([case], state, 3)
+    grid = np.linspace(0.0, 3 * case.period, 400_001)
+    boxes = vi.simulate(case, state, 3, sample_times=np.minimum(grid, 3 * case.period)).samples[:, BOXES[:2]]
+    step, bend = grid[1], 3.0  # |X''| stays below
+    above = outcome["largest"] - abs(boxes).max(axis=0)
+    assert (above >= -1e-15).all()
+    assert (above <= bend * step**2 / 8).all()
+
+
+def test_hard_starts_are_all_told(chapter):
+    chosen = [example(number) for number in range(0, 60)]
+    systems, states = [one[0] for one in chosen], [one[1] for one in chosen]
+    outcomes = vi.ensemble(systems, states, 1)
+    for system, state, outcome in zip(systems, states, outcomes, strict=True):
+        if outcome["status"]:
+            with pytest.raises(ArithmeticError, match=vi.STATUSES[outcome["status"]]):
+                vi.simulate(system, state, 1)
+            assert np.isnan(outcome["final"]).all()
+        else:
+            final = vi.simulate(system, state, 1).final
+            np.testing.assert_array_equal(outcome["final"], final)
+            assert np.isfinite(outcome["mean_square"]).all()
+            assert (outcome["largest"] >= 0).all()
+
+
+def test_systems_and_starts_combine_as_arrays_do(case):
+    systems = [case, case.with_(f20_hat=0.3)]
+    states = starts(3)
+    table = vi.ensemble([[one] for one in systems], states, 2)
+    assert table.shape == (2, 3)
+    for row, system in enumerate(systems):
+        np.testing.assert_array_equal(table[row], vi.ensemble(system, states, 2))
+    assert vi.ensemble(systems, states[0], 2).shape == (2,)
+    assert vi.ensemble(case, states[0], 2).shape == ()
+    assert vi.ensemble(case, np.empty((0, 8)), 2).shape == (0,)
+
+
+def test_a_start_that_fails_harms_no_other(case):
+    states = starts(4)
+    states[1, 1], states[2, 6] = 9.0, np.nan
+    outcomes = vi.ensemble(case, states, 3)
+    assert outcomes["status"].tolist() == [0, INADMISSIBLE, INADMISSIBLE, 0]
+    assert vi.STATUSES[INADMISSIBLE] == "the start is not finite, or has a ball beyond a wall"
+    for name in ("final", "largest", "mean_square", "ball_speed"):
+        assert np.isnan(outcomes[name][1:3]).all()
+    np.testing.assert_array_equal(outcomes[[0, 3]], vi.ensemble(case, states[[0, 3]], 3))
+
+
+def test_a_start_is_within_the_walls_where_simulate_says_so():
+    rng = np.random.default_rng(2)
+    states = np.zeros((400, 8))
+    states[:, 0] = 10.0 ** rng.uniform(-3, 6, 400)
+    states[:, 1] = states[:, 0] - 1.0 - rng.choice([0.0, 0.5, 0.99, 1.01, 2.0], 400) * ROUNDED
+    expected = []
+    for state in states:
+        try:
+            expected.append(len(checked_state(state)) == 8)
+        except ValueError:
+            expected.append(False)
+    assert 50 < sum(expected) < 350
+    assert within_walls(states).tolist() == expected
+
+
+def test_nothing_is_observed_when_all_cycles_settle(case):
+    outcome = vi.ensemble(case, starts(1)[0], 3, settle=3)
+    assert np.isfinite(outcome["final"]).all()
+    assert np.isnan(outcome["largest"]).all()
+    assert not outcome["impacts"].any()
+
+
+def test_progress_is_reported(case, capsys):
+    vi.ensemble(case, starts(5), 3, progress=True)
+    assert capsys.readouterr().err.endswith("5/5 runs\n")
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    {
+        "systems": dict(systems="equal"),
+        "systems of another kind": dict(systems=[None]),
+        "states": dict(states=np.zeros(7)),
+        "states do not": dict(systems=2, states=np.zeros((3, 8))),
+        "cycles": dict(cycles=-1),
+        "settle": dict(settle=4),
+        "settle below": dict(settle=-1),
+        "tau0": dict(tau0=np.nan),
+    }.items(),
+)
+def test_malformed_arguments_are_refused(case, name, arguments):
+    given = dict(systems=case, states=np.zeros(8), cycles=3) | arguments
+    if given["systems"] == 2:
+        given["systems"] = [case, case.with_(kappa=0.5)]
+    with pytest.raises(ValueError, match=f"^{name.split()[0]}: "):
+        vi.ensemble(**given)
