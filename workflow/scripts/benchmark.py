@@ -1,4 +1,4 @@
-"""Speed of every method on one motion -> the table on the screen, and CSV with the versions below it."""
+"""Speed of every method on one motion, and of ensembles -> the table on the screen, and CSV with the versions below it."""
 
 import argparse
 from pathlib import Path
@@ -10,12 +10,13 @@ from vibroimpact_pipeline.config import case_parameters, checked
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
-SECONDS = 0.5
+SECONDS, STARTS = 0.5, 1_000_000
 
 
 def main(config: dict, output) -> None:
     from problems import problem_of
     from vibroimpact.accuracy.benchmark import comparison, measure, unavoidable_error
+    from vibroimpact.accuracy.throughput import throughput
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.rivals import METHODS
 
@@ -23,7 +24,8 @@ def main(config: dict, output) -> None:
     problem = problem_of("benchmark", case_parameters(config, settings["case"]), settings)
     rows = measure(problem, METHODS, SECONDS)
     table = pd.DataFrame(rows)
-    compared = [f"{name}: {value:.3g}" for name, value in comparison(rows, unavoidable_error(problem)).items()]
+    found = comparison(rows, unavoidable_error(problem)) | throughput(problem.system, STARTS)
+    compared = [f"{name}: {value:.3g}" for name, value in found.items()]
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
     print(table.to_string(index=False, float_format="{:.3g}".format))
     print(*compared, footer, sep="\n")

@@ -13,7 +13,7 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
         runs: how many runs each piece has.
         progress: count finished runs on standard error, about once a second.
     """
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ThreadPoolExecutor(max_workers=cores()) as pool:
         todo = {pool.submit(work, *piece): count for piece, count in zip(pieces, runs, strict=True)}
         try:
             if progress:
@@ -22,6 +22,11 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
+
+
+def cores() -> int:
+    """Cores that this process may use: all, but those that a cluster or the user keeps from it."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _report(todo):
