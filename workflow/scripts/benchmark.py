@@ -1,4 +1,4 @@
-"""Speed of every method on one motion, and of ensembles -> the table on the screen, and CSV with the versions below it."""
+"""Speed of every method on one motion, and of ensembles -> a table on the screen, and CSV with the versions below."""
 
 import argparse
 from pathlib import Path

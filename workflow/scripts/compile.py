@@ -21,10 +21,9 @@ def certificate(system, start):
 
     from vibroimpact.exact.engine.event_log import ENTRIES, ROW
     from vibroimpact.exact.engine.simulation import Run
-    from vibroimpact.system.state import EVENT
 
     state, samples = np.array(start, dtype=float), np.empty((0, 8))
-    run = Run(system, state, 0.0, 1, np.empty(0, EVENT), samples, state, np.empty((0, ROW)), np.zeros(ENTRIES))
+    run = Run(system, state, 0.0, 1, samples, state, np.empty((0, ROW)), np.zeros(ENTRIES))
     _ = run.certificate, run.jacobian
 
 

@@ -65,7 +65,7 @@ def reals(name: str, values) -> np.ndarray:
 
 
 def _is_real(value):
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+    return type(value) in (int, float) or (isinstance(value, numbers.Real) and not isinstance(value, bool))
 
 
 def shown(value) -> str:

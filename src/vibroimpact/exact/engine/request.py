@@ -66,7 +66,7 @@ def _instant(tau0):
     if isinstance(tau0, Instant):
         return tau0
     number = real("tau0", tau0)
-    return exactly(tau0) if isinstance(tau0, numbers.Rational) else number
+    return exactly(tau0) if not isinstance(tau0, float) and isinstance(tau0, numbers.Rational) else number
 
 
 def checked_times(sample_times, start, end) -> np.ndarray:

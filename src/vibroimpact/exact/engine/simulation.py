@@ -40,7 +40,6 @@ class Run(Glance):
     start: np.ndarray
     begin: float | Instant
     cycles: int
-    events: np.ndarray
     samples: np.ndarray
     final: np.ndarray
     _rows: np.ndarray = field(repr=False)
@@ -55,6 +54,15 @@ class Run(Glance):
             "samples": str(len(self.samples)),
             "final": brief(self.final),
         }
+
+    @cached_property
+    def events(self) -> np.ndarray:
+        table = np.empty(len(self._rows), EVENT)
+        table["tau"] = self.tau0 + self._rows[:, 0]
+        for column, name in enumerate(("module", "wall", "kind"), start=1):
+            table[name] = self._rows[:, column]
+        table["state"] = self._rows[:, 4 : event_log.PHASE]
+        return table
 
     @property
     def tau0(self) -> float:
@@ -164,14 +172,4 @@ def _run(system, state, cycles, begin, times):
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
     final = np.empty(8)
     final[0::2], final[1::2] = boxes, balls
-    return Run(system, state, begin, cycles, _table(rows, tau0), samples, final, rows, ledger)
-
-
-def _table(rows, tau0):
-    """Rows of the kernel (`event_log`) as a structured array."""
-    table = np.empty(len(rows), EVENT)
-    table["tau"] = tau0 + rows[:, 0]
-    for column, name in enumerate(("module", "wall", "kind"), start=1):
-        table[name] = rows[:, column]
-    table["state"] = rows[:, 4 : event_log.PHASE]
-    return table
+    return Run(system, state, begin, cycles, samples, final, rows, ledger)
