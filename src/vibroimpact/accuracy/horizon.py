@@ -13,10 +13,7 @@ def departure(system, state, truth: np.ndarray):
     and the horizon in forcing cycles (inf if it is not reached).
     """
     cycles = len(truth) - 1
-    whole = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period)
+    times = np.arange(cycles + 1) * system.period
+    whole = simulate(system, state, cycles, sample_times=times)
     difference = np.abs(whole.samples - truth).max(axis=1)
-    horizon = whole.certificate.horizon / system.period
-    known = range(min(cycles, int(min(horizon, cycles))) + 1)
-    expected = np.full(cycles + 1, np.inf)
-    expected[: len(known)] = [simulate(system, state, n).certificate.error for n in known]
-    return difference, expected, horizon
+    return difference, whole.errors(times), whole.certificate.horizon / system.period

@@ -106,3 +106,19 @@ def test_samples_far_from_time_zero(chapter):
     system, tau0 = chapter(), 1e12
     run = vi.simulate(system, np.zeros(8), 2, tau0, [tau0, tau0 + system.period, tau0 + 2 * system.period])
     np.testing.assert_array_equal(run.samples[[0, 2]], [np.zeros(8), run.final])
+
+
+def test_the_errors_along_a_run_are_those_of_shorter_runs(chapter):
+    system, cycles = chapter(0.5, 0.5), 60
+    start = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
+    run = vi.simulate(system, start, cycles, tau0=0.4)
+    times = run.tau0 + np.minimum(np.arange(1, cycles + 1) * system.period, float(run.end) - run.tau0)
+    shorter = [vi.simulate(system, start, n, tau0=0.4).certificate.error for n in range(1, cycles + 1)]
+    assert 20 < np.isfinite(shorter).sum() < cycles
+    np.testing.assert_allclose(run.errors(times), shorter, rtol=1e-6)
+
+
+def test_errors_are_asked_for_within_the_run(chapter):
+    run = vi.simulate(chapter(), [0.0] * 8, 1)
+    with pytest.raises(ValueError, match=r"^times: "):
+        run.errors([2 * run.system.period])

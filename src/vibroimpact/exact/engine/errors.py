@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, LENGTH, land
 from vibroimpact.exact.engine.variation import fill_event, fill_flight
 from vibroimpact.system.state import IMPACT
 
@@ -31,13 +31,54 @@ def errors_of(flow, flights, events, limit):
             _carry(matrix, covariance, product)
             errors[n, 1] = UNIT * _root(covariance)
         if n < len(events):
-            _add_miss(covariance, flights[n], events[n])
-            fill_event(q, flights, events, n, matrix)
-            _carry(matrix, covariance, product)
+            _pass(q, flights, events, n, covariance, matrix, product)
         _add_rounding(q, covariance, flights[n + 1, BEFORE:AFTER] if n < len(events) else flights[n, AFTER:])
         if not _root(covariance) <= known:  # also where it is no number: an impact without velocity
             return errors, math.inf
     return errors, UNIT * _root(covariance)
+
+
+@compiled
+def errors_at(flow, flights, events, times, limit):
+    """Estimated errors (n,) of the states of a course at ascending times since its start: what `errors_of` would say of
+    the end of a run that ends there.
+    """
+    q = flow.coefficients
+    errors, known, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
+    covariance, there, matrix, product = np.zeros((8, 8)), np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8))
+    part = np.empty(COLUMNS)
+    _add_rounding(q, covariance, flights[0, BEFORE:AFTER])
+    for n in range(len(flights)):
+        last = n == len(events)
+        while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
+            part[:], there[:] = flights[n], covariance
+            part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
+            land(flow, part)
+            fill_flight(flow, part, matrix)
+            _carry(matrix, there, product)
+            _add_rounding(q, there, part[AFTER:])
+            if _root(there) <= known:
+                errors[k] = UNIT * _root(there)
+            k += 1
+        if last:
+            break
+        if flights[n, LENGTH] > 0.0:
+            fill_flight(flow, flights[n], matrix)
+            _carry(matrix, covariance, product)
+        _pass(q, flights, events, n, covariance, matrix, product)
+        _add_rounding(q, covariance, flights[n + 1, BEFORE:AFTER])
+        if not _root(covariance) <= known:
+            break
+        start += flights[n, LENGTH]
+    return errors
+
+
+@inlined
+def _pass(q, flights, events, n, covariance, matrix, product):
+    """Carry a covariance over event n."""
+    _add_miss(covariance, flights[n], events[n])
+    fill_event(q, flights, events, n, matrix)
+    _carry(matrix, covariance, product)
 
 
 @inlined

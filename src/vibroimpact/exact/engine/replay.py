@@ -25,7 +25,7 @@ def replayed(flow, start, events, start_phase, duration):
     """
     flights = departures(flow.coefficients, start, events, start_phase, duration)
     for n in range(len(flights)):
-        _land(flow, flights[n])
+        land(flow, flights[n])
     return flights
 
 
@@ -66,8 +66,8 @@ def _length(q, lapse, turned):
 
 
 @unfolded
-def _land(flow, flight):
-    """Fill in the end of a flight."""
+def land(flow, flight):
+    """Fill in the state at the end of a flight."""
     boxes, balls, walls = start_of(flight)
     left, phase, tail = flight[LENGTH], flight[FORCING], 0.0
     while left > 0.0:

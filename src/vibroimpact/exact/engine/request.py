@@ -69,18 +69,18 @@ def _instant(tau0):
     return exactly(tau0) if not isinstance(tau0, float) and isinstance(tau0, numbers.Rational) else number
 
 
-def checked_times(sample_times, start, end) -> np.ndarray:
+def checked_times(name, times, start, end) -> np.ndarray:
     """Sample times (n,) of a run from start to end.
 
     Raises:
         ValueError: they are not ascending, not finite or not within the run.
     """
-    if sample_times is None:
+    if times is None:
         return NO_TIMES
-    times = reals("sample_times", sample_times)
+    times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
-        raise ValueError("sample_times: needs a one-dimensional ascending array of finite times")
+        raise ValueError(f"{name}: needs a one-dimensional ascending array of finite times")
     slack = 4.0 * math.ulp(max(abs(start), abs(end)))
     if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
-        raise ValueError(f"sample_times: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
+        raise ValueError(f"{name}: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
     return times

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine.all_cores import on_all_cores
-from vibroimpact.exact.engine.certificate import Certificate
+from vibroimpact.exact.engine.certificate import KNOWN, Certificate
+from vibroimpact.exact.engine.errors import errors_at
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
@@ -84,6 +85,19 @@ class Run(Glance):
         """What the run can vouch for."""
         return Certificate.of(self)
 
+    def errors(self, times: ArrayLike) -> np.ndarray:
+        """Estimated errors of the states at some times, shape (n,): what `certificate.error` is of the final one.
+
+        Args:
+            times: ascending tau within the run.
+
+        Raises:
+            ValueError: they are not.
+        """
+        begin = self.tau0
+        times = checked_times("times", times, begin, begin + self.cycles * self.system.period)
+        return errors_at(*self.course, times - begin, KNOWN)
+
     @cached_property
     def course(self) -> tuple:
         """The flow, the flights between the events and the events as `replayed` and `event_log` tell them."""
@@ -122,7 +136,7 @@ def simulate(
     instance("system", system, System)
     state = checked_state(state)
     begin, cycles = checked_window(system, cycles, tau0)
-    times = checked_times(sample_times, float(begin), float(begin) + cycles * system.period)
+    times = checked_times("sample_times", sample_times, float(begin), float(begin) + cycles * system.period)
     return _run(system, state, cycles, begin, times)
 
 
