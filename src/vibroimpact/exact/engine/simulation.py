@@ -33,7 +33,8 @@ FAILURES = {
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
 """From here on floats are further apart than 1e-3, and times of a run cannot be told."""
-MOST_CYCLES = 2**53
+MOST_CYCLES = 10_000_000
+"""Of one run, which holds all its events: a kilobyte or so for a cycle."""
 ROUNDED = 1e-12
 """So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
 
@@ -112,7 +113,8 @@ def simulate(
     Args:
         system: parameters.
         state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
-        cycles: forcing periods to run, a whole number >= 0.
+        cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
+            motion is a run from `run.final` with tau0=run.end.
         tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
             the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
