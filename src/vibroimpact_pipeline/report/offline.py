@@ -79,8 +79,8 @@ class OfflineExporter(HTMLExporter):
 
 
 def markdown_to_html(source: str) -> str:
-    """HTML of the Markdown in a notebook; what looks like HTML in it is text."""
-    renderer = MathMLRenderer(escape=True, exclude_anchor_links=True)
+    """HTML of the Markdown in a notebook; what looks like HTML in it is text, and no link leads to a program."""
+    renderer = MathMLRenderer(escape=True, allow_harmful_protocols=False, exclude_anchor_links=True)
     return markdown_mistune.MarkdownWithMath(renderer=renderer).render(source)
 
 

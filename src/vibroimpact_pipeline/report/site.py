@@ -29,21 +29,35 @@ def write(folder, root, pages, settings: dict, footer: str) -> None:
     folder, sources = Path(folder), Path(root) / "report"
     shutil.copy(sources / STYLE, folder / STYLE)
     titles = {"site": settings["title"], "footer": footer}
-    chapters = []
     for page in settings["pages"]:
-        known = {"page": page["name"], "pagetitle": page["title"], **titles}
-        nav = [{**other, "current": other is page} for other in settings["pages"]]
-        known |= {"nav": nav, "pdf": PDF}
-        reader = FILLED if is_template(page) else READER
-        text = convert(pages.markdown(page, "html"), "html", sources, known, "page.html", reader)
-        text = guarded(text, lambda name: (sources / name).read_text(encoding="utf-8"))
+        text = site_page(page, sources, pages, settings, titles)
         (folder / f"{page['name']}.html").write_text(text, encoding="utf-8")
-        chapters.append(convert(pages.markdown(page, "pdf"), "typst", sources, known, reader=reader))
+    write_document(folder, sources, pages, settings, titles)
+
+
+def site_page(page: dict, sources: Path, pages, settings: dict, titles: dict) -> str:
+    """One page of the site."""
+    nav = [{**other, "current": other is page} for other in settings["pages"]]
+    known = {"page": page["name"], "pagetitle": page["title"], "nav": nav, "pdf": PDF, **titles}
+    text = convert(pages.markdown(page, "html"), "html", sources, known, "page.html", reader_of(page))
+    return guarded(text, lambda name: (sources / name).read_text(encoding="utf-8"))
+
+
+def write_document(folder: Path, sources: Path, pages, settings: dict, titles: dict) -> None:
+    """All pages as one PDF."""
+    chapters = [
+        convert(pages.markdown(page, "pdf"), "typst", sources, {"page": page["name"]}, reader=reader_of(page))
+        for page in settings["pages"]
+    ]
     document = (sources / "document.typ").read_text(encoding="utf-8")
     titles = {name: pypandoc.convert_text(text, "typst", FILLED).strip() for name, text in titles.items()}
     for name, text in {**titles, "body": "\n\n".join(chapters)}.items():
         document = document.replace(f"${name}$", text)
     typst.compile(document.encode(), output=folder / PDF, root=folder, ignore_system_fonts=True)
+
+
+def reader_of(page: dict) -> str:
+    return FILLED if is_template(page) else READER
 
 
 def convert(
