@@ -31,6 +31,7 @@ def test_a_malformed_config_is_refused(edits, lines):
     assert " | ".join(said(edited, edits)) == lines
 
 
+MOVING = "    periodic: {case: equal, cycles: 1}\n"
 SYSTEM, CASES, EPSILON, KAPPA = "system:\n", "cases:\n", "epsilon: 0.1\n", "kappa: 0.65\n"
 
 
@@ -73,6 +74,17 @@ SYSTEM, CASES, EPSILON, KAPPA = "system:\n", "cases:\n", "epsilon: 0.1\n", "kapp
         (CASES, CASES + "  {a: b}: {}\n", "line 18, column 3: a mapping is not text, as a key has to be"),
         (CASES, CASES + "  ? [a, b]\n  : {}\n", "line 18, column 5: a sequence is not text, as a key has to be"),
         (CASES, CASES + "  : {}\n", "line 18, column 3: expected <block end>, but found ':'"),
+        (
+            MOVING,
+            MOVING + '    "weak\\n": {case: weak, cycles: 1}\n',
+            "report.animations.'weak\\n': 'weak\\n' is not a name",
+        ),
+        (
+            MOVING,
+            MOVING + "    <b>: {case: weak, cycles: 1}\n",
+            "report.animations.'<b>': '<b>' is not a name: a small",
+        ),
+        (MOVING, MOVING + "    '`x`': {case: weak, cycles: 1}\n", "report.animations.'`x`': '`x`' is not a name: a sm"),
         (SYSTEM, SYSTEM + '  "a\\nb": 1\n', "system.'a\\nb': unknown key"),
         (SYSTEM, SYSTEM + '  "\\e[31m": 1\n', "system.'\\x1b[31m': unknown key"),
         (SYSTEM, SYSTEM + f"  ? {'k' * 80_000}\n  : 1\n", "system.'kkkkkkkkkkkkkkkkkkkkkkkkkkk...kkk"),
