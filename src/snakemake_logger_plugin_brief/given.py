@@ -27,11 +27,17 @@ class LogHandlerSettings(LogHandlerSettingsBase):
 
 
 def refusals(arguments: list[str]) -> Iterator[str]:
-    """A line for each file and each override on a command line that Snakemake could not read."""
+    """A line for each file and each override on a command line that Snakemake could not read.
+
+    None for a job of a build (--mode), which is given what was read.
+    """
     parser = ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--config", "-C", nargs="*", action="extend", default=[])
     parser.add_argument("--configfile", "--configfiles", nargs="+", action="extend", default=[])
+    parser.add_argument("--mode", default="default")
     given, _ = parser.parse_known_args(arguments)
+    if given.mode != "default":
+        return
     reader = runpy.run_path(str(READER)) if given.config or given.configfile else {}
     for file in given.configfile:
         try:
