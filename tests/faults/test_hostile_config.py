@@ -3,6 +3,7 @@
 import pytest
 
 from pipeline_trees import ROOT, Tree, copied, run_module
+from snakemake_logger_plugin_brief.given import refusals
 
 SNAKEMAKES = ("Using workflow specific profile", "Config file ")
 """What Snakemake says before it reads a config, by its beginnings."""
@@ -102,3 +103,10 @@ def test_a_file_that_cannot_be_opened_is_refused_in_a_line(tree, name, line):
 def test_all_that_is_wrong_with_a_command_line_is_said_at_once(tree):
     lines = said(tree, "--config", "system.kappa=1", "cases", "--configfile", "none.yaml")
     assert len(lines) == 3
+
+
+def test_a_job_of_a_build_is_not_asked_again():
+    """It is given what was read, in Snakemake's own words."""
+    given = ["fig10_03", "--configfile", "none.yaml", "--config", "system.kappa=0.7"]
+    assert len(list(refusals(given))) == 2
+    assert list(refusals([*given, "--mode", "subprocess"])) == []
