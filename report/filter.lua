@@ -57,6 +57,8 @@ function Link(link)
     link.target = "#" .. page .. "-" .. link.target:sub(2)
     return link
   end
+  -- No page of the report leads outside, least of all to a program.
+  if link.target:match("^%s*%a[%w+.-]*:") then return link.content end
   local picture = figure(link.target)
   if picture then
     if is_typst() then return link.content end
@@ -96,7 +98,7 @@ end
 
 function Table(tbl)
   if not is_typst() then
-    local attributes = { tabindex = "0", role = "region", ["aria-label"] = "Table" }
+    local attributes = { { "tabindex", "0" }, { "role", "region" }, { "aria-label", "Table" } }
     return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, attributes))
   end
   local most, total, wide = widths(tbl)

@@ -11,6 +11,8 @@ import pytest
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.cli.parser import main
+from vibroimpact.cli.plots import curves
+from vibroimpact.cli.table import Table
 
 
 def table(capsys, *arguments):
@@ -135,6 +137,28 @@ def test_pictures_beside_the_table(capsys, tmp_path, words):
     assert capsys.readouterr().out == ""
     assert len(paths[0].read_text().splitlines()) > 1
     assert "<svg" in paths[1].read_text()
+
+
+@pytest.mark.parametrize(
+    ("families", "titles"),
+    [
+        (["fixed point"], ["theory"]),
+        (["symmetric orbit", "asymmetric orbit"], ["exact"]),
+        (["symmetric orbit", "fixed point"], ["theory", "exact"]),
+        ([], ["theory"]),
+    ],
+)
+def test_a_picture_of_a_response_has_panels_for_what_is_there_and_a_key(families, titles):
+    rows = [(family, 0, 0, p, 1.0, 1.1, stable, True, "") for stable, family in enumerate(families) for p in (0.9, 1.0)]
+    figure = curves(
+        Table(("family", "branch", "piece", "f20_hat", "C1", "C2", "stable", "admissible", "special"), rows)
+    )
+    assert [axes.get_title() for axes in figure.axes if axes.get_title()] == titles
+    assert len(figure.axes) == 2 * len(titles)
+    [key] = figure.legends
+    assert [text.get_text() for text in key.get_texts()] == ["stable", "unstable"]
+    solid, dashed = key.get_lines()
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
 
 
 def test_a_reader_that_has_seen_enough_is_no_error():

@@ -3,6 +3,7 @@
 Snakemake's own output goes to its log, .snakemake/log/, as ever.
 """
 
+from snakemake_logger_plugin_brief.given import LogHandlerSettings
 from snakemake_logger_plugin_brief.handler import LogHandler
 
-__all__ = ["LogHandler"]
+__all__ = ["LogHandler", "LogHandlerSettings"]

@@ -8,7 +8,7 @@ import pytest
 
 from configs import GOOD, TEXT, edited
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import case_parameters, checked, complaints, problems, typed, without_null
+from vibroimpact_pipeline.config import case_parameters, checked, combined, complaints, problems, typed
 from vibroimpact_pipeline.config.check import MOST
 from vibroimpact_pipeline.config.system import NAMES
 
@@ -143,8 +143,33 @@ def test_an_override_that_cannot_be_read_is_refused_with_its_key(given, line):
 
 def test_null_takes_an_entry_away():
     taken = {"cases": {"weak": None}, "regimes": {"epsilon": {"mixed": None}}, "figures": {"fig10_10": None}}
-    left = without_null({"system": 1} | taken)
-    assert left == {"system": 1, "cases": {}, "regimes": {"epsilon": {}}, "figures": {}}
+    there = {"cases": {"weak": {}}, "regimes": {"epsilon": {"mixed": {}}}, "figures": {"fig10_10": {}}}
+    left = {"system": 1, "cases": {}, "regimes": {"epsilon": {}}, "figures": {}}
+    assert combined([{"system": 1} | there, taken]) == left
+
+
+def test_null_leaves_out_what_may_be_left_out():
+    assert combined([edited("regimes.epsilon.mixed = null")]) == edited("regimes.epsilon.mixed = ...")
+
+
+@pytest.mark.parametrize(
+    ("given", "line"),
+    [
+        ({"system": {"kappa:0.7": None}}, "system.'kappa:0.7': unknown key, did you mean 'kappa'?; a space belongs"),
+        ({"cases": {"week": None}}, "cases.week: nothing is not a mapping"),
+        ({"cases": {"weak": {"f20_hat:0.4": None}}}, "cases.weak.'f20_hat:0.4': unknown key, did you mean 'f20_hat'?"),
+    ],
+)
+def test_null_takes_nothing_away_that_is_not_there(given, line):
+    """As YAML reads `{kappa:0.7}`; the complaint is about who has said so."""
+    [complaint] = complaints(problems(combined([GOOD, given])), {"config/config.yaml": GOOD, "--config": given})
+    assert complaint.startswith(f"--config: {line}")
+
+
+def test_later_origins_override_and_leave_the_rest():
+    below = {"a": {"b": 1, "c": [1, 2]}, "d": 2}
+    assert combined([below, {"a": {"c": [3]}}, {"d": {"e": 4}}]) == {"a": {"b": 1, "c": [3]}, "d": {"e": 4}}
+    assert below == {"a": {"b": 1, "c": [1, 2]}, "d": 2}
 
 
 def test_a_key_that_nobody_gives_is_missing_where_its_neighbours_are():

@@ -61,6 +61,14 @@ def test_links_are_alive(site, pages, name):
             assert parts.fragment in pages[target].names, f"{link} leads to no place on its page"
 
 
+def test_every_page_says_first_what_it_may_do(site):
+    """Notebooks and the library among them."""
+    pages = list(site.rglob("*.html"))
+    assert len(pages) > 2 * len(PAGES)
+    policy = '<head>\n<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
+    assert [page for page in pages if policy not in page.read_text(encoding="utf-8")] == []
+
+
 @pytest.fixture(scope="module")
 def library(site):
     """The pages on the library, by the module that they show."""

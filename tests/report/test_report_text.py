@@ -48,6 +48,10 @@ def test_numbers_behind_a_claim_are_one_line():
     assert said(numbers) == expected
 
 
+def test_a_name_of_a_number_ends_no_cell():
+    assert said({"smallest |eigenvalue|": 0.5}) == r"smallest \|eigenvalue\|: 0.5"
+
+
 def test_a_table_survives_what_its_cells_say():
     html = convert("# Here\n\n" + markdown_table(["a", "b"], [["x | y", "two\nlines"]]), "html", SOURCES, KNOWN)
     assert "<td>x | y</td>" in html.replace(' style="text-align: left;"', "")

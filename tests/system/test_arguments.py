@@ -47,7 +47,7 @@ NO_STATES = {
     "infinite": [np.inf, *REST[1:]],
     "beyond a wall": [1.5, *REST[1:]],
 }
-NO_CYCLES = {**NO_NUMBERS, "negative": -1, "half": 2.5, "huge": 2**53 + 1, "array of one": [3]}
+NO_CYCLES = {**NO_NUMBERS, "negative": -1, "half": 2.5, "huge": 10**12, "very huge": 10**5000, "array of one": [3]}
 NO_START = {**NO_NUMBERS, "huge": 1e300, "huge, whole": 10**30, "huge, rational": Fraction(10**30)}
 NO_TIMES = {
     **{name: value for name, value in NO_ARRAYS.items() if name != "nothing"},

@@ -1,7 +1,6 @@
 # What every stage needs: settled surroundings, a valid config, fingerprints of code.
 
-from snakemake.utils import update_config
-
+from snakemake_logger_plugin_brief.results import from_start
 from vibroimpact_pipeline import config as config_checks
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
@@ -22,17 +21,20 @@ prepare(ROOT, SOURCES)
 def config_origins():
     """What sets entries of the config, by the name under which to complain about it; a later one overrides."""
     given = workflow.config_settings
-    files = [CONFIG_FILE, *map(os.path.normpath, given.configfiles)][given.replace_workflow_config :]
+    files = [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
     if IS_MODULE:
-        return {CONFIG_FILE: in_file(CONFIG_FILE)} | as_typed(f"config of module {__name__}", config)
-    return {file: in_file(file) for file in files} | as_typed("--config", dict(given.config))
+        return in_file(CONFIG_FILE) | as_typed(f"config of module {__name__}", config)
+    return {name: entries for file in files for name, entries in in_file(file).items()} | as_typed(
+        "--config", dict(given.config)
+    )
 
 
 def in_file(file):
+    name = from_start(file)
     try:
-        return config_checks.read(file)
+        return {name: config_checks.read(file)}
     except ValueError as error:
-        refuse([f"{file}: {error}"])
+        refuse([f"{name}: {error}"])
 
 
 def as_typed(origin, entries):
@@ -44,10 +46,7 @@ def as_typed(origin, entries):
 
 def checked_config(origins):
     """The config that its origins make together, if all is right with it."""
-    made = {}
-    for entries in origins.values():
-        update_config(made, entries)
-    made = config_checks.without_null(made)
+    made = config_checks.combined(origins.values())
     labels = remembered(".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
     if found := config_checks.problems(made, labels):
         refuse(config_checks.complaints(found, origins))

@@ -6,6 +6,7 @@ from pathlib import Path
 import yaml
 
 from job_log import logging_to
+from vibroimpact.figures.kit.markdown import plain
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.report.pages import Pages
@@ -36,7 +37,7 @@ def main(root, results, shown: dict, tables, config: dict, departures: list[str]
         copy(table, folder / "data")
     shutil.copytree(results.root / "api", folder / "api")
     pages = Pages(root, results, settings, config, shown, tables, departures)
-    write(folder, root, pages, settings, f"Built from {version(root)}.")
+    write(folder, root, pages, settings, f"Built from {plain(version(root))}.")
 
 
 def collect(results, figure: str, folder: Path) -> None:

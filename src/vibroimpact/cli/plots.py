@@ -37,21 +37,30 @@ def motion(table):
 
 @styled
 def curves(table):
-    """C_1 and C_2 over the parameter, theory beside exact; stable bold solid, unstable dashed."""
-    figure = new_figure(DOUBLE_COLUMN, 110.0)
-    grid = figure.subplots(2, 2, sharex=True, sharey="row")
+    """C_1 and C_2 over the parameter, theory beside exact where both are there; stable bold solid, unstable dashed."""
+    sides = sorted({_side(row[0]) for row in table.rows}, reverse=True) or ["theory"]
+    figure = new_figure(DOUBLE_COLUMN if len(sides) > 1 else SINGLE_COLUMN, 110.0)
+    grid = figure.subplots(2, len(sides), sharex=True, sharey="row", squeeze=False)
     for (family, _, _), rows in groupby(table.rows, key=lambda row: row[:3]):
         piece = list(rows)
         p, C1, C2, stable, admissible = zip(*(row[3:8] for row in piece), strict=True)
-        column = int(family != FixedPoints.name)
-        for axes, C in zip(grid[:, column], (C1, C2), strict=True):
+        for axes, C in zip(grid[:, sides.index(_side(family))], (C1, C2), strict=True):
             if admissible[0]:
                 axes.plot(p, C, **(STABLE if stable[0] else UNSTABLE))
-    for i in (0, 1):
-        grid[0, i].set_title(("theory", "exact")[i])
-        grid[i, 0].set_ylabel(f"$C_{i + 1}$")
-        grid[1, i].set_xlabel(table.columns[3])
+    for column, side in enumerate(sides):
+        grid[0, column].set_title(side)
+        grid[1, column].set_xlabel(table.columns[3])
+    for i, axes in enumerate(grid[:, 0], start=1):
+        axes.set_ylabel(f"$C_{i}$")
+    key = [
+        grid[0, 0].plot([], [], **look, label=name)[0] for name, look in (("stable", STABLE), ("unstable", UNSTABLE))
+    ]
+    figure.legend(handles=key, loc="outside upper center", ncols=len(key))
     return figure
+
+
+def _side(family):
+    return "theory" if family == FixedPoints.name else "exact"
 
 
 DRAW = {"fixed-points": points, "orbits": points, "simulate": motion, "response": curves}

@@ -5,7 +5,7 @@ values, as they stand in the file.
 """
 
 from vibroimpact_pipeline.config.check import case_parameters, checked, complaints, problems
-from vibroimpact_pipeline.config.overrides import typed, without_null
+from vibroimpact_pipeline.config.overrides import combined, typed
 from vibroimpact_pipeline.config.text import parse, read
 
-__all__ = ["case_parameters", "checked", "complaints", "parse", "problems", "read", "typed", "without_null"]
+__all__ = ["case_parameters", "checked", "combined", "complaints", "parse", "problems", "read", "typed"]

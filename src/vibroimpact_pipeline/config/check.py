@@ -60,16 +60,15 @@ def case_parameters(config: dict, case: str) -> dict:
 
 
 def _origin(path, origins):
-    keys = path.split("[")[0].split(".")
-    depths = {name: _depth(entries, keys) for name, entries in origins.items()}
-    having = [name for name, depth in depths.items() if depth == len(keys)]
-    return having[-1] if having else max(depths, key=depths.get)
+    left = {name: _left(entries, path) for name, entries in origins.items()}
+    having = [name for name, rest in left.items() if not rest or rest.startswith("[")]
+    return having[-1] if having else min(left, key=lambda name: len(left[name]))
 
 
-def _depth(entries, keys):
-    """How many of the keys, one within the other, are there."""
-    for depth, key in enumerate(keys):
-        if not isinstance(entries, dict) or key not in entries:
-            return depth
-        entries = entries[key]
-    return len(keys)
+def _left(entries, path):
+    """What is left of a path after the keys, one within the other, that are there."""
+    for key, value in entries.items() if isinstance(entries, dict) else ():
+        name = written((key,))
+        if path == name or path.startswith((f"{name}.", f"{name}[")):
+            return _left(value, path.removeprefix(name).removeprefix("."))
+    return path

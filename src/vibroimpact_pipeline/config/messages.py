@@ -49,7 +49,7 @@ def problems_of(error: ValidationError, given, known: Callable = lambda place: (
             *section, key = place
             meant = nearest(key, known(section))
             misspelt.add((*section, meant))
-            found[place] = f"unknown key{_question(meant)}"
+            found[place] = f"unknown key{_question(meant)}{_colon(key)}"
         else:
             more, what = _described(details)
             found[(*place, *more)] = what
@@ -68,6 +68,10 @@ def hint(name, known) -> str:
 
 def _question(meant):
     return f", did you mean '{meant}'?" if meant else ""
+
+
+def _colon(key):
+    return "; a space belongs after a colon" if ":" in str(key) else ""
 
 
 def _described(details) -> Problem:

@@ -1,5 +1,6 @@
 """From the text of a config to plain values: YAML in which nothing means another thing than it seems to."""
 
+import math
 import re
 import reprlib
 
@@ -24,9 +25,22 @@ is 90, `yes` is true, which later versions and most readers take for something e
 FORMS = {"seq": "sequence", "map": "mapping"}
 """What stands in the text for a value that is not a single word or number."""
 
+PROGRAM = "__use_yte__"
+"""The key by which Snakemake's own reading takes a config for a program, and runs it."""
+
 LONGEST = 120
 """Characters of a value in an error message."""
-_REPR = reprlib.Repr()
+
+
+class _Short(reprlib.Repr):
+    """Values in few characters, integers of more digits than Python prints among them."""
+
+    def repr_int(self, value, level):
+        digits = int(value.bit_length() * math.log10(2)) + 1
+        return super().repr_int(value, level) if digits < 1000 else f"a whole number of some {digits} digits"
+
+
+_REPR = _Short()
 _REPR.maxstring = _REPR.maxother = 60
 
 
@@ -54,12 +68,14 @@ def parse(text: str) -> dict:
     """The config that a YAML text holds.
 
     Raises:
-        ValueError: the text is not YAML, is not a mapping, gives a key twice, or holds a value that versions of YAML
-            take for different things; in one line, with line and column.
+        ValueError: the text is not YAML, is not a mapping, gives a key twice, holds a value that versions of YAML
+            take for different things, or would be run as a program; in one line, with line and column.
     """
     config = _load(text)
     if not isinstance(config, dict):
         raise ValueError(f"{show(config)} is not a mapping of system, cases and figures")
+    if PROGRAM in config:
+        raise ValueError(f"{PROGRAM}: unknown key; a config is data, no part of it is run")
     return config
 
 
@@ -104,17 +120,20 @@ def _load(text, place=_line_and_column):
 
 
 class _Loader(yaml.SafeLoader):
-    """YAML with keys that are texts given once, without nested aliases, and numbers in decimal digits."""
+    """YAML with keys that are texts given once, few and plain aliases, and numbers in decimal digits."""
 
     def __init__(self, text):
         super().__init__(text)
         self.above = []
+        self.repeated = 0
 
     def compose_node(self, parent, index):
         """A node, once it is known that it can be taken apart in reasonable time."""
         event = self.peek_event()
-        if isinstance(event, yaml.AliasEvent) and any(self.above):
-            _refuse(event, f"alias *{event.anchor} stands inside a value that has a name itself")
+        if isinstance(event, yaml.AliasEvent):
+            self.repeat(event)
+        elif event.anchor in self.anchors:
+            _refuse(event, f"name &{event.anchor} given twice")
         if len(self.above) == DEEPEST:
             _refuse(event, f"nested deeper than {DEEPEST} levels")
         self.above.append(getattr(event, "anchor", None))
@@ -122,18 +141,29 @@ class _Loader(yaml.SafeLoader):
         self.above.pop()
         return node
 
+    def repeat(self, alias):
+        """Count what an alias stands for, so that a short text holds no long config."""
+        if any(self.above):
+            _refuse(alias, f"alias *{alias.anchor} stands inside a value that has a name itself")
+        if node := self.anchors.get(alias.anchor):
+            self.repeated += node.end_mark.index - node.start_mark.index
+        if self.repeated > LARGEST:
+            _refuse(alias, f"aliases repeat more than {LARGEST} characters")
+
     def construct_object(self, node, deep=False):
         kind = node.tag.removeprefix("tag:yaml.org,2002:")
         if kind not in PLAIN:
-            _refuse(node, f"{_text(node)} is of the kind {kind}; a config holds numbers, text, lists and mappings")
+            _refuse(
+                node, f"{_text(node)} is of the kind {_word(kind)}; a config holds numbers, text, lists and mappings"
+            )
         if node.id != FORMS.get(kind, "scalar"):
             _refuse(node, f"{_text(node)} cannot be read as {kind}")
         try:
             value = super().construct_object(node, deep)
-        except (ValueError, LookupError):
+        except (ValueError, LookupError, ArithmeticError):
             _refuse(node, f"{_text(node)} cannot be read as {kind}")
         if PLAIN[kind] and not re.fullmatch(PLAIN[kind], node.value):
-            _refuse(node, f"{_text(node)} means {show(value)} in YAML: write that, or '{node.value}' for the text")
+            _refuse(node, f"{_text(node)} means {show(value)} in YAML: write that, or {show(node.value)} for the text")
         return value
 
     def construct_mapping(self, node, deep=False):
@@ -154,4 +184,9 @@ def _refuse(node, problem):
 def _text(node):
     if not isinstance(node, yaml.ScalarNode):
         return f"a {node.id}"
-    return node.value if re.fullmatch(r"[\w.:+-]{1,60}", node.value) else show(node.value)
+    return _word(node.value)
+
+
+def _word(text):
+    """A word as it is; with spaces, odd characters or of great length as an error message shows it."""
+    return text if re.fullmatch(r"[\w.:+!/-]{1,60}", text) else show(text)

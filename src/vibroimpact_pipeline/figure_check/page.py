@@ -8,6 +8,7 @@ from jinja2 import Environment
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.compare import UNREADABLE, largest, lines
 from vibroimpact_pipeline.figure_check.tables import UNITS
+from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SHRINK = 2
@@ -19,13 +20,15 @@ def page(verdicts: list[dict], reference, new, limits: dict) -> str:
     template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(
         TEMPLATE.read_text(encoding="utf-8")
     )
-    return template.render(
-        verdicts=verdicts,
-        said=lines(verdicts),
-        pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
-        largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
-        limits=limits,
-        units=UNITS,
+    return guarded(
+        template.render(
+            verdicts=verdicts,
+            said=lines(verdicts),
+            pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
+            largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
+            limits=limits,
+            units=UNITS,
+        )
     )
 
 

@@ -5,6 +5,7 @@ from importlib import import_module
 from pathlib import Path
 
 import vibroimpact
+from vibroimpact_pipeline.report.policy import guarded
 
 LIBRARY = Path(vibroimpact.__file__).parent
 
@@ -33,4 +34,4 @@ def write(folder, names: list[str], templates) -> None:
     for name, module in modules.items():
         page = Path(folder, *name.split(".")).with_suffix(".html")
         page.parent.mkdir(parents=True, exist_ok=True)
-        page.write_text(html_module(module, modules), encoding="utf-8")
+        page.write_text(guarded(html_module(module, modules)), encoding="utf-8")

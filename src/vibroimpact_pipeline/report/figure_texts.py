@@ -1,13 +1,15 @@
 """What is said of each figure and table, as report/figures.yaml has it: title, caption, alternative text, equations."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import yaml
 
 from vibroimpact_pipeline.chapter import as_in_the_chapter
 
-SAID = ("title", "caption", "alt")
+SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
+"""What is said of a figure, and how a text is written there as it is: titles are plain, captions reStructuredText."""
 OWN = "own_"
 """Begins the names of cards for figures that have none of their own."""
 
@@ -29,7 +31,9 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
         entry = entry or texts[OWN + scene.get("notebook", "animation")]
         known = scene | _parameters(config, scene) | {"figure": figure}
         tables = {_filled(name, known): table for name, table in entry.get("tables", {}).items()}
-        texts[figure] = entry | {name: _filled(entry[name], known) for name in SAID} | {"tables": tables}
+        texts[figure] = (
+            entry | {name: _filled(entry[name], known, as_is) for name, as_is in SAID.items()} | {"tables": tables}
+        )
         texts[figure]["title"] = heading + texts[figure]["title"]
     return {name: entry for name, entry in texts.items() if not name.startswith(OWN)}
 
@@ -39,6 +43,11 @@ def _parameters(config, scene):
     return config["system"] | {name: value for name, value in case.items() if name != "simulation"}
 
 
-def _filled(text, known):
+def _filled(text, known, as_is: Callable[[str], str] = str):
     """The text with {name} replaced where the name is known; other braces belong to formulas."""
-    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), text)
+
+    def value(name):
+        given = known.get(name[1], name[0])
+        return as_is(given) if isinstance(given, str) and name[1] in known else str(given)
+
+    return re.sub(r"\{(\w+)\}", value, text)

@@ -5,6 +5,8 @@ from nbconvert import HTMLExporter
 from nbconvert.filters import markdown_mistune
 from traitlets.config import Config
 
+from vibroimpact_pipeline.report.policy import guarded
+
 PAGE = """\
 {#- A page that needs nothing but itself: no script, no font and no style from elsewhere. -#}
 {%- extends 'classic/base.html.j2' -%}
@@ -77,11 +79,12 @@ class OfflineExporter(HTMLExporter):
 
 
 def markdown_to_html(source: str) -> str:
-    renderer = MathMLRenderer(escape=False, exclude_anchor_links=True)
+    """HTML of the Markdown in a notebook; what looks like HTML in it is text, and no link leads to a program."""
+    renderer = MathMLRenderer(escape=True, allow_harmful_protocols=False, exclude_anchor_links=True)
     return markdown_mistune.MarkdownWithMath(renderer=renderer).render(source)
 
 
 def page(notebook, title: str) -> str:
     """The HTML page of an executed notebook."""
     html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}})
-    return html
+    return guarded(html)

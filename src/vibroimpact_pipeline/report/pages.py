@@ -1,13 +1,17 @@
 """The pages of the report as Markdown: templates and documents, filled with what the results say."""
 
+import json
 import re
 from collections import Counter
 from functools import lru_cache
+from html import escape
 from pathlib import Path
+from urllib.parse import quote
 
 import jinja2
 import pypandoc
 
+from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
@@ -43,7 +47,7 @@ class Pages:
             lstrip_blocks=True,
             keep_trailing_newline=True,
         )
-        self.environment.filters |= {"digits": digits, "cell": cell, "said": said, "setting": setting}
+        self.environment.filters |= FILTERS
         self.environment.globals |= {
             "results": results,
             "config": config,
@@ -58,20 +62,25 @@ class Pages:
 
     def markdown(self, page: dict, target: str) -> str:
         """One page for a target, "html" or "pdf". Documents are taken as they are, templates are filled."""
-        if page["source"].startswith("docs/"):
-            text = (self.root / page["source"]).read_text(encoding="utf-8")
-        else:
+        if is_template(page):
             text = self.environment.get_template(page["source"]).render(target=target)
+        else:
+            text = (self.root / page["source"]).read_text(encoding="utf-8")
         return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
 
     def _notice(self):
         """What a page begins with where the config has other parameters than the chapter."""
-        return f"\n\n::: notice\n{NOTICE} {'; '.join(self.departures)}.\n:::\n"
+        return f"\n\n::: notice\n{NOTICE} {'; '.join(map(plain, self.departures))}.\n:::\n"
 
     def caption(self, figure: str) -> str:
         """The caption of a figure, written for `snakemake --report` too, as Markdown in one line."""
         text = self.about[figure]["caption"]
         return pypandoc.convert_text(text, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
+
+
+def is_template(page: dict) -> bool:
+    """Whether a page is filled from results, and no document of the repository."""
+    return not page["source"].startswith("docs/")
 
 
 def digits(value, number: int = 3) -> str:
@@ -91,11 +100,11 @@ def setting(value) -> str:
     try:
         return digits(float(value))
     except ValueError:
-        return cell(value)
+        return plain(value)
 
 
 def cell(text) -> str:
-    """Text that can stand in a cell of a table."""
+    """Markdown of the repository that can stand in a cell of a table."""
     return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
 
 
@@ -104,15 +113,49 @@ def said(numbers) -> str:
     if numbers is None or isinstance(numbers, bool):
         return {True: "yes", False: "no", None: "open"}[numbers]
     if isinstance(numbers, dict):
-        return "; ".join(f"{name.replace('_', ' ')}: {said(value)}" for name, value in numbers.items())
+        return "; ".join(f"{plain(name.replace('_', ' '))}: {said(value)}" for name, value in numbers.items())
     if isinstance(numbers, list):
         return ", ".join(said(value) for value in numbers)
     if not isinstance(numbers, int | float):
-        return cell(numbers)
+        return plain(numbers)
     return digits(numbers, 4)
 
 
 def markdown_table(heads: list[str], rows) -> str:
-    """A pipe table."""
-    lines = [heads, ["---"] * len(heads), *([cell(value) for value in row] for row in rows)]
+    """A pipe table of plain texts."""
+    lines = [map(plain, heads), ["---"] * len(heads), *(map(plain, row) for row in rows)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def anchor(name) -> str:
+    """The name of a place on a page."""
+    return re.sub(r"[^\w-]", "-", str(name))
+
+
+def attribute(text) -> str:
+    """A text in HTML, between quotation marks or tags."""
+    return escape(one_line(text))
+
+
+def data(text: str) -> str:
+    """JSON that can stand in a page: nothing in it ends the element.
+
+    Raises:
+        ValueError: it is no JSON.
+    """
+    return json.dumps(json.loads(text), separators=(",", ":")).replace("<", r"\u003c")
+
+
+FILTERS = {
+    "anchor": anchor,
+    "attribute": attribute,
+    "cell": cell,
+    "code": code,
+    "data": data,
+    "digits": digits,
+    "plain": plain,
+    "said": said,
+    "setting": setting,
+    "url": quote,
+}
+"""How values stand in a page: each of them that is no number goes through one of these."""

@@ -11,35 +11,59 @@ import pypandoc
 import typst
 
 from vibroimpact_pipeline.report.offline import MATHEMATICS
+from vibroimpact_pipeline.report.pages import is_template
+from vibroimpact_pipeline.report.policy import guarded
 
 READER = "markdown-fancy_lists+gfm_auto_identifiers"
 """Headings can be linked to; no list begins with "(3)": here that is an equation at the start of a paragraph."""
+FILLED = READER + "-raw_html-raw_tex-native_divs-native_spans"
+"""For pages that are filled from results: what looks like HTML is text there."""
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
 PDF = "report.pdf"
-SHARED = ("style.css", "animation.js", "force_sweep.js")
+STYLE = "style.css"
 
 
 def write(folder, root, pages, settings: dict, footer: str) -> None:
-    """Write the site and its PDF into a folder that has the figures already."""
+    """Write the site and its PDF into a folder that has the figures already; the footer is Markdown."""
     folder, sources = Path(folder), Path(root) / "report"
-    for name in SHARED:
-        shutil.copy(sources / name, folder / name)
-    chapters = []
+    shutil.copy(sources / STYLE, folder / STYLE)
+    titles = {"site": settings["title"], "footer": footer}
     for page in settings["pages"]:
-        known = {"page": page["name"], "pagetitle": page["title"], "site": settings["title"], "footer": footer}
-        nav = [{**other, "current": other is page} for other in settings["pages"]]
-        text = convert(pages.markdown(page, "html"), "html", sources, {**known, "nav": nav, "pdf": PDF}, "page.html")
+        text = site_page(page, sources, pages, settings, titles)
         (folder / f"{page['name']}.html").write_text(text, encoding="utf-8")
-        chapters.append(convert(pages.markdown(page, "pdf"), "typst", sources, known))
+    write_document(folder, sources, pages, settings, titles)
+
+
+def site_page(page: dict, sources: Path, pages, settings: dict, titles: dict) -> str:
+    """One page of the site."""
+    nav = [{**other, "current": other is page} for other in settings["pages"]]
+    known = {"page": page["name"], "pagetitle": page["title"], "nav": nav, "pdf": PDF, **titles}
+    text = convert(pages.markdown(page, "html"), "html", sources, known, "page.html", reader_of(page))
+    return guarded(text, lambda name: (sources / name).read_text(encoding="utf-8"))
+
+
+def write_document(folder: Path, sources: Path, pages, settings: dict, titles: dict) -> None:
+    """All pages as one PDF."""
+    chapters = [
+        convert(pages.markdown(page, "pdf"), "typst", sources, {"page": page["name"]}, reader=reader_of(page))
+        for page in settings["pages"]
+    ]
     document = (sources / "document.typ").read_text(encoding="utf-8")
-    for name, text in {"site": settings["title"], "footer": footer, "body": "\n\n".join(chapters)}.items():
+    titles = {name: pypandoc.convert_text(text, "typst", FILLED).strip() for name, text in titles.items()}
+    for name, text in {**titles, "body": "\n\n".join(chapters)}.items():
         document = document.replace(f"${name}$", text)
     typst.compile(document.encode(), output=folder / PDF, root=folder, ignore_system_fonts=True)
 
 
-def convert(markdown: str, target: str, sources: Path, known: dict, template: str | None = None) -> str:
-    """One page in HTML or Typst; `known` is its metadata.
+def reader_of(page: dict) -> str:
+    return FILLED if is_template(page) else READER
+
+
+def convert(
+    markdown: str, target: str, sources: Path, known: dict, template: str | None = None, reader: str = READER
+) -> str:
+    """One page in HTML or Typst; `known` is its metadata, in Markdown.
 
     Raises:
         math_core.LatexError: a formula cannot be translated to MathML.
@@ -52,7 +76,7 @@ def convert(markdown: str, target: str, sources: Path, known: dict, template: st
         options += ["--mathjax", "--fail-if-warnings", "--wrap=none"]
         if template:
             options += [f"--template={sources / template}", "--toc", "--toc-depth=3"]
-        text = pypandoc.convert_text(markdown, target, READER, options)
+        text = pypandoc.convert_text(markdown, target, reader, options)
     return FORMULA.sub(as_mathml, text) if target == "html" else text
 
 

@@ -11,7 +11,8 @@ from vibroimpact.system.arguments import real, reals, shown, whole
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
 """From here on floats are further apart than 1e-3, and times of a run cannot be told."""
-MOST_CYCLES = 2**53
+MOST_CYCLES = 10_000_000
+"""Of one run, which holds all its events: a kilobyte or so for a cycle."""
 ROUNDED = 1e-12
 """So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
 

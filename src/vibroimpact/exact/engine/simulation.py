@@ -118,7 +118,8 @@ def simulate(
     Args:
         system: parameters.
         state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
-        cycles: forcing periods to run, a whole number >= 0.
+        cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
+            motion is a run from `run.final` with tau0=run.end.
         tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
             the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.

@@ -1,0 +1,43 @@
+"""What a page may do, in a content security policy: show what lies beside it, and run the report's own scripts alone.
+
+Texts from the config and from results are escaped where a page is made; this holds should one of them slip through.
+"""
+
+import base64
+import hashlib
+import re
+from collections.abc import Callable
+
+FILES = "'self' file:"
+"""Of this site, and of this disk: opened from there, a page is of no site in some browsers."""
+POLICY = (
+    f"default-src 'none'; img-src {FILES} data:; style-src {FILES} 'unsafe-inline'; script-src {{scripts}}; "
+    "base-uri 'none'; form-action 'none'"
+)
+HEAD = re.compile(r"<head>\n?")
+SCRIPT = re.compile(r'<script src="(\w+\.js)"></script>')
+
+
+def guarded(page: str, script: Callable[[str], str] | None = None) -> str:
+    """A page with its policy. Its own scripts are put into it, since no browser runs a file beside it by its content.
+
+    Args:
+        page: HTML with a head, and <script src="NAME.js"></script> where a script of the report belongs.
+        script: the text of a script, by its name; without it the page has none.
+
+    Raises:
+        ValueError: the page has no head.
+    """
+    own = {name: script(name) for name in SCRIPT.findall(page)} if script else {}
+    for name, text in own.items():
+        page = page.replace(f'<script src="{name}"></script>', f"<script>{text}</script>", 1)
+    allowed = " ".join(f"'sha256-{_digest(text)}'" for text in own.values()) or "'none'"
+    policy = POLICY.format(scripts=allowed)
+    page, found = HEAD.subn(f'<head>\n<meta http-equiv="Content-Security-Policy" content="{policy}">\n', page, count=1)
+    if not found:
+        raise ValueError("page: has no head to say in what it may do")
+    return page
+
+
+def _digest(script):
+    return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()

@@ -1,0 +1,255 @@
+"""Texts from the config, results and git that are made to be markup or programs: every page shows them as text."""
+
+import html
+import re
+import shutil
+from urllib.parse import urlsplit
+
+import nbformat
+import pandas as pd
+import pytest
+import yaml
+from IPython.display import Markdown
+
+import hostile
+from headless_browser import Browser, executable
+from hostile import HOSTILE, RUN, STATEMENT, Markup
+from pipeline_trees import ROOT
+from vibroimpact.figures.kit.markdown import code, one_line, plain
+from vibroimpact_pipeline.figure_check.compare import tolerances
+from vibroimpact_pipeline.figure_check.page import page as check_page
+from vibroimpact_pipeline.report import api, offline
+from vibroimpact_pipeline.report.pages import Pages, anchor, attribute, data
+from vibroimpact_pipeline.report.policy import guarded
+from vibroimpact_pipeline.report.results import Results
+from vibroimpact_pipeline.report.site import FILLED, PDF, READER, STYLE, convert, site_page, write_document
+
+SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+FILLED_PAGES = [page for page in SETTINGS["pages"] if page["source"].startswith("report/")]
+SOURCES = ROOT / "report"
+TITLES = {"site": SETTINGS["title"], "footer": f"Built from {plain(HOSTILE)}."}
+OWN_SCRIPTS = {"motion": "animation.js", "fixed_points": "force_sweep.js"}
+DATA = {"type": "application/json"}
+KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
+KINDS = ("iframe", "object", "embed", "base", "form", "marquee")
+"""Elements that no page has of its own."""
+TEXTS = [
+    HOSTILE,
+    *(HOSTILE[start : start + 25] for start in range(0, len(HOSTILE), 9)),
+    *(
+        "<!--",
+        "&amp;",
+        "&#60;b>",
+        "a\n\n# b",
+        "- a",
+        "1. a",
+        "> a",
+        "```\n<b>\n```",
+        "~~~",
+        "[a]: b",
+        "<http://a.b>",
+        "a@b.c",
+    ),
+    *(
+        "\\<b>",
+        "\\\\(x\\\\)",
+        "$x$",
+        "$$x$$",
+        "^a^",
+        "~a~",
+        ":::",
+        "---",
+        "a  \nb",
+        "|",
+        "+-+",
+        "é — ²",
+        "@a [@b]",
+        "[^1]",
+    ),
+]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The pages that are filled from results, where every text from elsewhere is hostile."""
+    folder = tmp_path_factory.mktemp("hostile") / "site"
+    pages = hostile_pages(folder)
+    shutil.copy(SOURCES / STYLE, folder / STYLE)
+    for page in FILLED_PAGES:
+        text = site_page(page, SOURCES, pages, SETTINGS, TITLES)
+        (folder / f"{page['name']}.html").write_text(text, encoding="utf-8")
+    return folder
+
+
+def hostile_pages(folder):
+    """Pages from results beside a folder, which gets their pictures."""
+    results = hostile.results(folder.parent / "results")
+    (folder / "figures").mkdir(parents=True)
+    tables = [results / "fixed_points.csv"]
+    pages = Pages(ROOT, Results(results), SETTINGS, hostile.config(), hostile.SHOWN, tables, [HOSTILE])
+    for name in pages.about:
+        (folder / f"figures/{name}.svg").write_text(hostile.PICTURE)
+    return pages
+
+
+def notebook(folder):
+    """The page of an executed notebook that shows hostile texts in every way that notebooks have."""
+    said = Markdown(f"Case {code(HOSTILE)}, point **{plain(HOSTILE)}**, as it is: {STATEMENT}").data
+    table = pd.DataFrame({HOSTILE: [HOSTILE]})._repr_html_()
+    pixel = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+    bundles = [{"text/markdown": said}, {"text/html": table}, {"image/png": pixel}, {"text/plain": HOSTILE}]
+    new = nbformat.v4
+    outputs = [new.new_output("display_data", data, metadata={"image/png": {"alt": HOSTILE}}) for data in bundles]
+    outputs.append(new.new_output("stream", text=HOSTILE))
+    cell = new.new_code_cell(f"case = {HOSTILE!r}", outputs=outputs)
+    return offline.page(new.new_notebook(cells=[cell]), HOSTILE)
+
+
+def figure_check(folder):
+    """The page of a figure check in which all texts are hostile."""
+    row = dict.fromkeys(("table", "column", "kind", "unit", "where", "reference", "new"), HOSTILE)
+    drawn = {"reference drawn with": {HOSTILE: HOSTILE}, "drawn with": {HOSTILE: HOSTILE}}
+    verdict = {
+        "figure": HOSTILE,
+        "status": HOSTILE,
+        "reasons": [HOSTILE] * 30,
+        "tables": [row | {"distance": 1.0, "limit": 2.0}],
+        "artists": {"distance": 1.0, "limit": 2.0},
+        "picture": {"status": "not comparable", **drawn},
+    }
+    return check_page([verdict], folder, folder, tolerances({}))
+
+
+def library(folder):
+    """A page on a module of the library, which has no text from elsewhere."""
+    api.write(folder, ["vibroimpact.theory.manifold"], ROOT / "report/api")
+    return (folder / "vibroimpact/theory/manifold.html").read_text(encoding="utf-8")
+
+
+def assert_nothing_is_live(markup, scripts=()):
+    """No element, attribute or link but those of the page, and a policy that lets nothing else run."""
+    assert [element for element in markup.elements if element[0] in KINDS] == []
+    assert [values for tag, values in markup.elements if tag == "script" and not values.items() >= DATA.items()] == [
+        {} for _ in scripts
+    ]
+    assert markup.programs == []
+    assert {urlsplit(link).scheme for link in markup.links} <= {"", "data"}
+    assert [values for tag, values in markup.elements if tag == "img" and values["src"] == "x"] == []
+    assert re.search(r"script-src ('none'|('sha256-[^']{44}' ?)+);", markup.policy)
+    assert markup.policy.startswith("default-src 'none'; ")
+    first_of_head = [tag for tag, _ in markup.elements].index("head") + 1
+    assert markup.elements[first_of_head][1].get("content") == markup.policy
+
+
+@pytest.mark.parametrize("page", [page["name"] for page in FILLED_PAGES])
+def test_a_page_of_the_report_shows_texts_as_texts(site, page):
+    html_text = (site / f"{page}.html").read_text(encoding="utf-8")
+    markup = Markup(html_text)
+    assert_nothing_is_live(markup, [OWN_SCRIPTS[page]] if page in OWN_SCRIPTS else [])
+    assert one_line(HOSTILE) in markup.text
+
+
+def test_the_report_is_printed_with_texts_as_texts(tmp_path):
+    """In Typst, too, a text could be a program, which would fail here: there is nothing for it to read."""
+    pages = hostile_pages(tmp_path / "site")
+    write_document(tmp_path / "site", SOURCES, pages, SETTINGS, TITLES)
+    assert (tmp_path / "site" / PDF).read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("made", [notebook, figure_check, library])
+def test_other_pages_show_texts_as_texts(made, tmp_path):
+    markup = Markup(made(tmp_path))
+    assert_nothing_is_live(markup)
+    assert made is library or one_line(HOSTILE) in markup.text
+
+
+@pytest.mark.parametrize("reader", [READER, FILLED])
+@pytest.mark.parametrize("written", [plain, code])
+def test_any_text_is_shown_by_pandoc_as_it_is(written, reader):
+    """In a cell of a table, which is the narrowest place."""
+    rows = "\n".join(f"| {written(text)} |" for text in TEXTS)
+    page = convert(f"# Here\n\n| head |\n| --- |\n{rows}\n", "html", SOURCES, KNOWN, reader=reader)
+    cells = re.findall(r"<td[^>]*>(.*?)</td>", page, re.DOTALL)
+    assert [" ".join(Markup(cell).text.split()) for cell in cells] == [one_line(text) for text in TEXTS]
+
+
+@pytest.mark.parametrize("written", [plain, code])
+def test_any_text_is_shown_by_a_notebook_as_it_is(written):
+    for text in TEXTS:
+        shown = Markup(offline.markdown_to_html(f"Case {written(text)} is"))
+        assert shown.text == f"Case {one_line(text)} is"
+        assert {tag for tag, _ in shown.elements} <= {"p", "code"}
+
+
+def test_values_in_other_places_stay_there():
+    assert Markup(f'<p title="{attribute(HOSTILE)}">').elements == [("p", {"title": one_line(HOSTILE)})]
+    assert re.fullmatch(r"[\w-]+", anchor(HOSTILE))
+    assert "<" not in data('{"a": "</script>"}')
+    with pytest.raises(ValueError, match="Expecting"):
+        data("</script><script>")
+
+
+def test_a_page_without_a_head_gets_no_policy_and_is_refused():
+    with pytest.raises(ValueError, match="head"):
+        guarded("<p>text</p>")
+
+
+@pytest.fixture(scope="module")
+def browser():
+    path = executable()
+    if path is None:
+        pytest.skip("no page was opened in a browser: there is no Chromium here (Debian: apt install chromium)")
+    browser = Browser(path)
+    yield browser
+    browser.close()
+
+
+@pytest.mark.parametrize("page", [page["name"] for page in FILLED_PAGES])
+def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, page):
+    browser.open((site / f"{page}.html").as_uri())
+    assert browser.problems == []
+    assert browser.run("document.title") != "taken"
+    assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
+    assert browser.run("getComputedStyle(document.querySelector('.skip')).position") == "absolute"
+    drawn = browser.run("[...document.querySelectorAll('.live svg')].map(svg => svg.childElementCount)")
+    assert all(count > 3 for count in drawn)
+    assert bool(drawn) == (page in OWN_SCRIPTS)
+
+
+def test_the_slider_moves_the_points_of_hostile_results(browser, site):
+    browser.open((site / "fixed_points.html").as_uri())
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("End")
+    assert browser.run("document.querySelector('output').textContent") == "0.50"
+    assert HOSTILE in browser.run("document.querySelector('.live tbody').textContent")
+
+
+@pytest.mark.parametrize("made", [notebook, figure_check, library])
+def test_a_browser_runs_nothing_on_other_pages(browser, made, tmp_path):
+    (tmp_path / "page.html").write_text(made(tmp_path), encoding="utf-8")
+    browser.open((tmp_path / "page.html").as_uri())
+    assert browser.problems == []
+    assert browser.run("document.title") != "taken"
+
+
+ATTACKS = [
+    f"<script>{RUN}</script>",
+    f'<img src="data:," onerror="{RUN}">',
+    f'<iframe srcdoc="{html.escape(f"<script>parent.{RUN[5:-1]}</script>")}"></iframe>',
+    '<script src="attack.js"></script>',
+    f'<a id="a" href="javascript:{RUN}">a</a>',
+]
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+@pytest.mark.parametrize("policy", [True, False], ids=["with the policy", "without"])
+def test_what_slips_through_the_escapes_is_stopped_by_the_policy(browser, tmp_path, attack, policy):
+    """Without it, every one of these takes over the page: the tests above could fail."""
+    page = f"<!DOCTYPE html><html><head>\n<title>own</title></head><body>{attack}</body></html>"
+    (tmp_path / "attack.js").write_text(RUN)
+    (tmp_path / "page.html").write_text(guarded(page) if policy else page, encoding="utf-8")
+    browser.open((tmp_path / "page.html").as_uri())
+    browser.run("document.querySelector('#a')?.click()")
+    browser.run("new Promise(done => setTimeout(done, 100))")
+    assert browser.run("document.title") == ("own" if policy else "taken")
+    assert any("Content Security Policy" in problem for problem in browser.problems) == policy

@@ -1,0 +1,116 @@
+"""Texts made to be more than text, what is live on a page, and results that are full of such texts."""
+
+import copy
+import json
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pandas as pd
+
+from configs import GOOD
+
+RUN = "void(document.title='taken')"
+HOSTILE = (
+    "\"'><script>RUN</script> <img src=x onerror=RUN> [x](javascript:RUN) ![y](http://127.0.0.1:9/y) "
+    r"`a``<marquee onclick=RUN>` `b`{=html} {#id onclick=RUN} | ::: *c* **d** $e$ \( \end{x} #read('x') "
+    "&lt; </script> --> {{ 7 * 7 }} {% if %}"
+).replace("RUN", RUN)
+"""Ends attributes, elements, spans of code, cells and formulas, in HTML, Markdown, TeX, Typst and templates."""
+STATEMENT = (
+    f"Words of the repository, with $C_1$; what is live in them is none: <script>{RUN}</script> [x](javascript:{RUN})"
+)
+"""In Markdown, as `docs/claims.yaml` has them."""
+SHOWN = {
+    "chapter": ["fig10_06"],
+    "own": ["mine"],
+    "companions": ["companion_basins"],
+    "accuracy": ["work_precision", "hazards"],
+    "models": ["scene_models"],
+    "animations": ["waves"],
+    "force_sweep": ["force_sweep"],
+}
+PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="9" height="9"/></svg>'
+
+
+class Markup(HTMLParser):
+    """What is live on a page: elements by their kind, attributes that are programs, where links lead; and its text."""
+
+    def __init__(self, html: str):
+        super().__init__()
+        self.elements, self.programs, self.links, self.texts, self.policy = [], [], [], [], ""
+        self.feed(html)
+
+    @property
+    def text(self) -> str:
+        return " ".join("".join(self.texts).split())
+
+    def handle_starttag(self, tag, attrs):
+        values = dict(attrs)
+        self.elements.append((tag, values))
+        self.programs += [name for name in values if name.startswith("on") or name == "srcdoc"]
+        self.links += [values[name] for name in ("href", "src", "action", "formaction", "data") if values.get(name)]
+        if values.get("http-equiv") == "Content-Security-Policy":
+            self.policy = values["content"]
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+
+def config() -> dict:
+    """A config with texts that its check would refuse."""
+    made = copy.deepcopy(GOOD)
+    made["cases"] = {HOSTILE: made["cases"]["weak"], "equal": made["cases"]["equal"]}
+    made["figures"] = {
+        "fig10_06": made["figures"]["fig10_06"],
+        "mine": {"notebook": "theoretical_response", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
+    }
+    made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
+    made["system"][HOSTILE] = HOSTILE
+    return made
+
+
+def results(folder: Path) -> Path:
+    """Results in which every text is hostile."""
+    numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
+    point = {"track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE}}
+    sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
+    motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
+    moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
+    run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}
+    run |= {"problem": HOSTILE, "method": HOSTILE, "setting": HOSTILE}
+    claim = {"id": HOSTILE, "verdict": HOSTILE, "place": "(10.1)", "statement": STATEMENT, "parts": {HOSTILE: True}}
+    record = dict.fromkeys(("commit", "tree", "lock"), HOSTILE) | {"config": {HOSTILE: HOSTILE}}
+    record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
+    places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
+    places |= dict.fromkeys(("work_precision", "hazards", "scene_models"), "accuracy")
+    places |= {"waves": "animations", "force_sweep": "force_sweep"}
+    texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
+    texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
+    texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
+    texts |= {
+        "api/vibroimpact.html": "<!DOCTYPE html><head></head>",
+        "animations/waves.json": json.dumps(moving),
+        "force_sweep/force_sweep.json": json.dumps(sweep),
+        "claims.json": json.dumps(
+            [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
+        ),
+    }
+    tables = {
+        "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE} | numbers],
+        "accuracy/work_precision.csv": [
+            run | {"outcome": "finished", "reason": ""},
+            run | {"outcome": HOSTILE, "reason": HOSTILE},
+        ],
+        "accuracy/hazards.csv": [{"method": HOSTILE, "verdict": HOSTILE}],
+        "accuracy/scene_models.csv": [{HOSTILE: HOSTILE, "note": HOSTILE}],
+    }
+    for name, text in texts.items():
+        _made(folder / name).write_text(text, encoding="utf-8")
+    for name, rows in tables.items():
+        pd.DataFrame(rows).to_csv(_made(folder / name), index=False)
+    return folder
+
+
+def _made(path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
