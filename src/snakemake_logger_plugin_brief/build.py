@@ -3,6 +3,7 @@
 import re
 from logging import LogRecord
 
+from snakemake_logger_plugin_brief.disks import full
 from snakemake_logger_plugin_brief.jobs import LONG, Job, failure
 from snakemake_logger_plugin_brief.results import made, open_first
 from snakemake_logger_plugin_brief.words import count, duration, words
@@ -81,7 +82,11 @@ class Build:
             return [f"Stopped after {took}, {self.progress().strip()} done. The same command goes on from here."]
         if len(self.finished) < self.total:
             failed = f" Failed: {', '.join(self.failed.values())}." if self.failed else ""
-            return [f"Not finished after {took}, {self.progress().strip()} done.{failed} The full log: {self.log}"]
+            no_room = [f"No room on the disk of {folder}/: the same command goes on when there is." for folder in full()]
+            return [
+                *no_room,
+                f"Not finished after {took}, {self.progress().strip()} done.{failed} The full log: {self.log}",
+            ]
         outputs = [path for job in self.finished for path in job.outputs]
         done = f"Done in {took}: {count(self.total, 'job')}. {made(outputs)}."
         return [done, *open_first(job.rule for job in reversed(self.finished))]
