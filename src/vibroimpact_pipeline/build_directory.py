@@ -18,8 +18,8 @@ OWN = (".cache", ".snakemake", "results")
 WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP)
 """What a file system says that has no locks, as some over a network."""
 WITHOUT = "Builds of this directory on other machines are not waited for: start none meanwhile."
-MENDED_BY = "Results, records and locks come into the working directory: make it writable and see that its disk has room, \
-or build in another one, with --directory."
+MENDED_BY = "Results, records and locks come into the working directory: see that it can be written to and that its \
+disk has room, or build in another one, with --directory."
 LITTER = ("results/**/.*.partial", ".snakemake/scripts/tmp*", ".cache/labels.json.*")
 """What a process leaves behind that was killed while it wrote, in folders where a build is alone."""
 SHARED_LITTER = (".cache/numba/*/**/*.tmp.*", ".cache/numba/*.partial", ".cache/matplotlib/*.matplotlib-lock")
@@ -58,8 +58,8 @@ def check_room() -> None:
 def lock() -> TextIO | None:
     """Wait for another build of this directory. The system frees the lock with the process, however it ends.
 
-    Where the file system of the directory has no locks, the lock is a file on this machine. It is of the process, not of
-    the file, since a workflow may use this one as a module several times.
+    Where the file system of the directory has no locks, the lock is a file on this machine. It is of the process, not
+    of the file, since a workflow may use this one as a module several times.
 
     Returns:
         What holds the lock as long as it is open; None where there are no locks at all.

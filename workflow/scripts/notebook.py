@@ -40,8 +40,8 @@ def main(notebook, executed, html, parameters: dict) -> None:
 def execute(notebook, executed, parameters: dict):
     """The notebook after execution.
 
-    Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a path
-    of 107 characters at most.
+    Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
+    path of 107 characters at most.
     """
     with TemporaryDirectory(prefix=SCRATCH) as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
