@@ -4,8 +4,10 @@ RUNS ?= 20000
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
+export WHEELS
+export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock clean set-up
+.PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock wheels clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -52,6 +54,11 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 lock:  ## pin every package anew into environment.lock (needs uv)
 	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
 		--no-header --no-emit-find-links --no-emit-index-url --cache-dir .cache/uv pyproject.toml -o environment.lock
+
+wheels:  ## fill a folder with all packages (WHEELS=folder); `make figures WHEELS=folder` sets up from it, without a network
+	@test -n "$$WHEELS" || { echo "Name the folder: make wheels WHEELS=folder" >&2; exit 1; }
+	WHEELS= workflow/set_up.sh
+	.venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" -r environment.lock
 
 clean:  ## delete results and caches, keep the environment
 	rm -rf results .snakemake .cache .pytest_cache .ruff_cache .import_linter_cache

@@ -51,11 +51,12 @@ class Tree:
         self.returncode = run.returncode
         return run.stdout
 
-    def start(self, *arguments) -> subprocess.Popen:
+    def start(self, *arguments, **environment) -> subprocess.Popen:
         """A Snakemake call in the background, in a process group of its own."""
         return subprocess.Popen(
             [*SNAKEMAKE, *arguments],
             cwd=self.path,
+            env=os.environ | environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

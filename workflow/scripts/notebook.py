@@ -45,13 +45,14 @@ def execute(notebook, executed, parameters: dict):
     """
     with TemporaryDirectory(prefix=SCRATCH) as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
+        sockets = {"transport": "ipc", "ip": f"@{SCRATCH}{uuid4()}", "connection_file": f"{folder}/kernel.json"}
         return papermill.execute_notebook(
             str(notebook),
             str(executed),
             parameters,
             kernel_name="python3",
             progress_bar=False,
-            config=Config({"KernelManager": {"transport": "ipc", "ip": f"@{SCRATCH}{uuid4()}"}}),
+            config=Config({"KernelManager": sockets}),
         )
 
 
