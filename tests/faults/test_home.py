@@ -1,10 +1,12 @@
 """A build asks neither for a home nor for a name: containers run as a user who has none."""
 
 import os
+import subprocess
 
 import pytest
 
 from namespaces import unshared
+from pipeline_trees import ROOT
 
 FIGURE = "companion_10_04"
 WITHOUT_PROFILE = "--workflow-profile", "none"
@@ -27,3 +29,11 @@ def test_nothing_comes_into_the_home(tree, tmp_path):
     home.mkdir()
     tree.snakemake(*WITHOUT_PROFILE, "--dry-run", FIGURE, HOME=str(home), XDG_CACHE_HOME=None)
     assert list(home.iterdir()) == []
+
+
+def test_make_has_a_home_where_nothing_tells_one():
+    """Where the list of users does not either, Snakemake ends before it knows of this pipeline."""
+    without = {name: value for name, value in os.environ.items() if name != "HOME"}
+    command = ["make", "--silent", "--eval", "home: ; @echo $$HOME", "home"]
+    run = subprocess.run(command, cwd=ROOT, env=without, capture_output=True, text=True, check=True)
+    assert run.stdout == f"{ROOT}/.cache/home\n"

@@ -52,11 +52,11 @@ class Tree:
         return run.stdout
 
     def start(self, *arguments, **environment) -> subprocess.Popen:
-        """A Snakemake call in the background, in a process group of its own."""
+        """A Snakemake call in the background, in a process group of its own; a variable that is None is not set."""
         return subprocess.Popen(
             [*SNAKEMAKE, *arguments],
             cwd=self.path,
-            env=os.environ | environment,
+            env={name: value for name, value in {**os.environ, **environment}.items() if value is not None},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
