@@ -103,6 +103,17 @@ def test_a_folder_of_wheels_that_is_none_is_refused(tree, recording):
     assert not (tree / ".venv").exists()
 
 
+def test_a_folder_is_filled_with_what_the_lock_names(tree, recording):
+    """Whatever builds a package to learn its name is that of the lock here, too."""
+    make = dict(cwd=tree.path, env=os.environ | recording, capture_output=True, text=True, check=False)
+    assert "Name the folder: make wheels WHEELS=folder" in subprocess.run(["make", "wheels"], **make).stderr
+    assert not (tree / "calls").exists()
+    assert subprocess.run(["make", "wheels", "WHEELS=new folder"], **make).returncode == 0
+    [call] = [call for call in (tree / "calls").read_text().splitlines() if " download " in call]
+    options = "--require-hashes --no-deps --no-build-isolation --dest new folder -r environment.lock"
+    assert call == f"-m pip download {options}"
+
+
 def test_without_locks_a_set_up_says_so_and_goes_on(tree, recording):
     (tree / "bin").mkdir()
     (tree / "bin/flock").write_text("#!/bin/sh\nexit 71\n")
