@@ -22,6 +22,14 @@ def wait_for(path, process):
         time.sleep(0.02)
 
 
+@pytest.fixture(autouse=True)
+def hear_ctrl_c():
+    """A shell that starts the tests in the background has them ignore Ctrl-C, and all that they start."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.fixture
 def held(tree):
     """The project with a figure that is drawn as soon as there is a file `go`."""
