@@ -4,15 +4,19 @@ RUNS ?= 20000
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
+export WHEELS
+# Snakemake gives up where neither this nor the list of users tells a home.
+export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock clean set-up
+.PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock wheels clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { name[++n] = $$1; does[n] = $$2; if (length($$1) > w) w = length($$1) } \
 		END { for (i = 1; i <= n; i++) printf "%-" w "s  %s\n", name[i], does[i] }' $(MAKEFILE_LIST)
-	@printf '\nTo figures, check-figures, report and accept may be added:\n%s\n%s\n' \
-		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says'
+	@printf '\nTo figures, check-figures, report and accept may be added:\n%s\n%s\n%s\n' \
+		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says' \
+		'WHEELS=folder  set-up takes all packages from there, none from the network'
 
 figures: set-up  ## build every figure into results/
 	.venv/bin/snakemake --cores $(CORES)
@@ -52,6 +56,11 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 lock:  ## pin every package anew into environment.lock (needs uv)
 	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
 		--no-header --no-emit-find-links --no-emit-index-url --cache-dir .cache/uv pyproject.toml -o environment.lock
+
+wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up needs no network
+	@test -n "$$WHEELS" || { echo "Name the folder: make wheels WHEELS=folder" >&2; exit 1; }
+	WHEELS= workflow/set_up.sh
+	.venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" -r environment.lock
 
 clean:  ## delete results and caches, keep the environment
 	rm -rf results .snakemake .cache .pytest_cache .ruff_cache .import_linter_cache

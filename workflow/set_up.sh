@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Create .venv from environment.lock, unless it is there already. One at a time; an interrupted set-up starts over.
+# With WHEELS=folder all packages come from that folder, which `make wheels` fills, and nothing from the network.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -22,7 +23,14 @@ find_python() {
 
 mkdir -p .cache
 exec 9>.cache/set_up.lock
-flock --nonblock 9 || { echo "Waiting for another set-up of this checkout to finish." >&2; flock 9; }
+taken=9 status=0
+flock --nonblock --conflict-exit-code $taken 9 || status=$?
+if ((status == taken)); then
+    echo "Waiting for another set-up of this checkout to finish." >&2
+    flock 9
+elif ((status)); then
+    echo "This file system has no locks: start no other set-up of this checkout meanwhile." >&2
+fi
 
 python=$(find_python)
 stamp=$(cat environment.lock pyproject.toml <("$python" -c "$version") <(pwd) | sha256sum)
@@ -30,14 +38,29 @@ if [[ -f .venv/.complete && "$(cat .venv/.complete)" == "$stamp" ]]; then
     exit 0
 fi
 
+source=()
+if [[ -n "${WHEELS:-}" ]]; then
+    if [[ ! -d "$WHEELS" ]]; then
+        echo "WHEELS=$WHEELS is no folder. Fill one where there is a network: make wheels WHEELS=$WHEELS" >&2
+        exit 1
+    fi
+    source=(--no-index --find-links "$WHEELS")
+fi
+
+install() {
+    .venv/bin/python -m pip install --quiet --no-deps --no-build-isolation "$@"
+}
+
 packages=$(grep -c '^[a-z].*==' environment.lock)
 echo "Setting up .venv with $("$python" --version), once: about 2 minutes."
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
 echo "1 of 3  installing $packages packages of environment.lock"
 "$python" -m venv --clear .venv
-.venv/bin/python -m pip install --quiet --require-hashes --no-deps -r environment.lock
+# What has no wheel is built with the setuptools of the lock, not with whichever is newest on the day.
+install "${source[@]}" --require-hashes --requirement <(sed -n '/^setuptools==/,/[^\\]$/p' environment.lock)
+install "${source[@]}" --require-hashes --requirement environment.lock
 echo "2 of 3  installing this project"
-.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .
+install --editable .
 # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
 conflicts=$(.venv/bin/python -m pip check) || { echo "$conflicts" >&2; exit 1; }

@@ -3,7 +3,9 @@
 import re
 from logging import LogRecord
 
+from snakemake_logger_plugin_brief.disks import full
 from snakemake_logger_plugin_brief.jobs import LONG, Job, failure
+from snakemake_logger_plugin_brief.processes import stopped
 from snakemake_logger_plugin_brief.results import made, open_first
 from snakemake_logger_plugin_brief.words import count, duration, words
 
@@ -74,6 +76,11 @@ class Build:
             job.told = True
         return [f"{self.progress()}  still running: {job.running(now)}" for job in jobs]
 
+    def silent_jobs(self, now: float) -> list[str]:
+        """A line for each job that may hang, and one on processes that somebody has stopped."""
+        silent = [said for job in self.running.values() if (said := job.may_hang(now))]
+        return [*(f"{self.progress()}  {said}" for said in silent), *(stopped() if silent else [])]
+
     def summary(self, now: float) -> list[str]:
         """The last lines: how it ended, how long it took, where the results are."""
         took = duration(now - self.began)
@@ -81,7 +88,9 @@ class Build:
             return [f"Stopped after {took}, {self.progress().strip()} done. The same command goes on from here."]
         if len(self.finished) < self.total:
             failed = f" Failed: {', '.join(self.failed.values())}." if self.failed else ""
-            return [f"Not finished after {took}, {self.progress().strip()} done.{failed} The full log: {self.log}"]
+            no_room = [f"No room on the disk of {folder}/. Make some; the same command goes on." for folder in full()]
+            ended = f"Not finished after {took}, {self.progress().strip()} done.{failed} The full log: {self.log}"
+            return [*no_room, ended]
         outputs = [path for job in self.finished for path in job.outputs]
         done = f"Done in {took}: {count(self.total, 'job')}. {made(outputs)}."
         return [done, *open_first(job.rule for job in reversed(self.finished))]

@@ -78,6 +78,7 @@ class LogHandler(LogHandlerBase):
             self._screen.say(*self._build.failures())
             if not self._screen.live:
                 self._screen.say(*self._build.long_jobs(now))
+            self._screen.say(*self._build.silent_jobs(now))
             self._show_status()
 
     def close(self) -> None:

@@ -1,6 +1,7 @@
 """A job: what is known of it while it runs, and what is told when it failed."""
 
 import csv
+import os
 import re
 from dataclasses import dataclass
 from logging import LogRecord
@@ -11,6 +12,10 @@ from snakemake_logger_plugin_brief.words import duration, words
 
 LONG = 15
 """Seconds from which on a job takes long."""
+SILENT = float(os.environ.get("SILENT_SECONDS", 300))
+"""Seconds without a line in its log from which on a job, if it also runs for longer than usual, may hang."""
+LONGER = 2
+"""How many times as long as in the last build a job runs that may hang, and until it is said again."""
 TAIL = 15
 """Lines of a log that are shown."""
 ENDED = re.compile(r"exit status \d+|(?<=Signals\.)\w+")
@@ -30,6 +35,7 @@ class Job:
     usual: float | None
     seconds: float = 0.0
     told: bool = False
+    silent_until: float = SILENT
 
     @classmethod
     def of(cls, record: LogRecord) -> "Job":
@@ -41,6 +47,19 @@ class Job:
         """Its name and for how long it has run; where that takes long, the time that it took in the last build."""
         usual = f", usually {duration(self.usual)}" if self.usual and self.usual >= LONG else ""
         return f"{self.name} ({duration(now - self.started)}{usual})"
+
+    def may_hang(self, now: float) -> str | None:
+        """What to say of it when it has been silent for long, and again when that has doubled."""
+        silent = now - max(self.started, last_line(self.logs))
+        if silent < self.silent_until or now - self.started < LONGER * (self.usual or 0):
+            return None
+        self.silent_until = LONGER * silent
+        return f"silent for {duration(silent)}: {self.running(now)}"
+
+
+def last_line(logs: list[str]) -> float:
+    """When the logs were written to last, in seconds since 1970; 0 without any."""
+    return max((os.path.getmtime(log) for log in logs if os.path.exists(log)), default=0.0)
 
 
 def benchmarked(benchmark: str | None) -> float | None:

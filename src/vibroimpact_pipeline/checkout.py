@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+ROOT = Path(__file__).resolve().parents[2]
+"""The root of the checkout that this package lies in."""
+
 
 def root_of(job) -> Path:
     """The root of the checkout that a Snakemake job's script belongs to."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import yaml
 
+from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.report.figure_texts import OWN
 
 CARDS, DATA, PAGE = "report/figures.yaml", "docs/data.yaml", "docs/data.md"
@@ -153,7 +154,7 @@ def _table(heads, rows):
 
 def main() -> None:
     """Write the page of the checkout."""
-    Path(PAGE).write_text(page(*read(".")), encoding="utf-8")
+    (ROOT / PAGE).write_text(page(*read(ROOT)), encoding="utf-8")
 
 
 if __name__ == "__main__":

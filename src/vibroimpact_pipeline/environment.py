@@ -8,6 +8,8 @@ from vibroimpact_pipeline.sources import Sources
 
 CACHES = {"MPLCONFIGDIR": "matplotlib", "IPYTHONDIR": "ipython", "HEYOKA_CACHE_DIR": "heyoka"}
 """Folders of `.cache` by the variable that names each to its library; by default they lie in the home directory."""
+SCRATCH = "vibroimpact-job-"
+"""How the names of a job's temporary folders begin, so that those of a killed job can be told from anybody else's."""
 
 
 def prepare(root: Path, sources: Sources) -> None:

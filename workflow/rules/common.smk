@@ -15,7 +15,7 @@ CONFIG = "config/config.yaml"
 CONFIG_FILE = CONFIG if Path(CONFIG).is_file() and not IS_MODULE else own(CONFIG)
 CAPTION = str(ROOT / "report/caption.rst")
 SOURCES = Sources()
-prepare(ROOT, SOURCES)
+demand(prepare, ROOT, SOURCES)
 
 
 def config_origins():

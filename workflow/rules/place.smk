@@ -1,10 +1,10 @@
 # Where the pipeline lies and where it works. Its own files it reads below ROOT; results, records and locks come into the
 # working directory, which is another one with `snakemake --directory` and in a workflow that uses this one as a module.
 
-import fcntl
 import os
 import shlex
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
@@ -21,17 +21,12 @@ def own(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-def one_build_at_a_time():
-    """Wait for another build of this directory. The system frees the lock with the process, however it ends."""
-    Path(".cache").mkdir(exist_ok=True)
-    lock = open(".cache/build.lock", "w")
-    # Of the process, not of the file: a workflow may use this one as a module several times.
+def demand(work, *arguments):
+    """Do what the working directory must allow, or refuse to build there."""
     try:
-        fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        print("Waiting for another build in this directory to finish.", file=sys.stderr)
-        fcntl.lockf(lock, fcntl.LOCK_EX)
-    return lock
+        return work(*arguments)
+    except OSError as error:
+        refuse([f"{error.filename}: {error.strerror}. {build_directory.MENDED_BY}"])
 
 
 if not ROOT.is_dir():
@@ -43,5 +38,14 @@ if not any(Path(folder, "vibroimpact_pipeline").is_dir() for folder in os.getenv
 if os.path.exists(sys.executable):
     # Snakemake puts it into the command of each job as it is, which a space in its path would break.
     sys.executable = shlex.quote(sys.executable)
+from vibroimpact_pipeline import build_directory
+
 if workflow.is_main_process:
-    BUILD_LOCK = one_build_at_a_time()
+    demand(build_directory.check_access)
+    BUILD_LOCK = demand(build_directory.lock)
+    if BUILD_LOCK and workflow.modifier.is_main_snakefile():
+        build_directory.sweep(time.time())
+
+
+onstart:
+    demand(build_directory.check_room)

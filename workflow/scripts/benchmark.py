@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.config import case_parameters, checked
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
@@ -36,10 +37,10 @@ def main(config: dict, output) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--config", type=Path, default=Path("config/config.yaml"))
-    parser.add_argument("--output", type=Path, default=Path("results/accuracy/benchmark.csv"))
+    parser.add_argument("--config", type=Path, default=ROOT / "config/config.yaml")
+    parser.add_argument("--output", type=Path, default=ROOT / "results/accuracy/benchmark.csv")
     arguments = parser.parse_args()
-    prepare(Path.cwd(), Sources())  # Numba reads the environment when it is imported, below
+    prepare(ROOT, Sources())  # Numba reads the environment when it is imported, below
     try:
         config = checked(arguments.config)
     except ValueError as error:

@@ -1,8 +1,8 @@
 """Compile the engine and its rivals into the cache of the checkout, so that the first build does not have to."""
 
 from concurrent.futures import ProcessPoolExecutor
-from pathlib import Path
 
+from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -37,7 +37,7 @@ def rivals(system, start):
 
 
 if __name__ == "__main__":
-    prepare(Path.cwd(), Sources())
+    prepare(ROOT, Sources())
     from vibroimpact.system import System
     from vibroimpact.system.chapter import CASES, PARAMETERS
 

@@ -6,6 +6,7 @@ The executed notebook is kept beside the log, cell by cell as it runs, so that a
 import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from uuid import uuid4
 
 import papermill
 from traitlets.config import Config
@@ -13,6 +14,7 @@ from traitlets.config import Config
 from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
+from vibroimpact_pipeline.environment import SCRATCH
 from vibroimpact_pipeline.provenance.record import recorded
 from vibroimpact_pipeline.report.offline import page
 
@@ -36,16 +38,21 @@ def main(notebook, executed, html, parameters: dict) -> None:
 
 
 def execute(notebook, executed, parameters: dict):
-    """The notebook after execution; its kernel is spoken to through sockets in a directory of its own."""
-    with TemporaryDirectory(prefix="kernel-") as sockets:
-        os.environ["JUPYTER_RUNTIME_DIR"] = sockets
+    """The notebook after execution.
+
+    Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
+    path of 107 characters at most.
+    """
+    with TemporaryDirectory(prefix=SCRATCH) as folder:
+        os.environ["JUPYTER_RUNTIME_DIR"] = folder
+        sockets = {"transport": "ipc", "ip": f"@{SCRATCH}{uuid4()}", "connection_file": f"{folder}/kernel.json"}
         return papermill.execute_notebook(
             str(notebook),
             str(executed),
             parameters,
             kernel_name="python3",
             progress_bar=False,
-            config=Config({"KernelManager": {"transport": "ipc", "ip": f"{sockets}/socket"}}),
+            config=Config({"KernelManager": sockets}),
         )
 
 

@@ -1,17 +1,17 @@
 """The model of the config -> config/README.md: every key with its type, range, unit, meaning and value of today.
 
-Run it as `python -m vibroimpact_pipeline.config.readme` from the root of the checkout.
+Run it as `python -m vibroimpact_pipeline.config.readme`.
 """
 
 from collections.abc import Iterator
-from pathlib import Path
 
+from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.config.cost import CYCLES, HELD
 from vibroimpact_pipeline.config.fields import WORDS
 from vibroimpact_pipeline.config.schema import entries, resolved, root, variants
 from vibroimpact_pipeline.config.text import limit, read
 
-SOURCE, TARGET = Path("config/config.yaml"), Path("config/README.md")
+SOURCE, TARGET = "config/config.yaml", "config/README.md"
 HEAD = f"""# Keys of config/config.yaml
 
 Written by `python -m vibroimpact_pipeline.config.readme` from the model in `src/vibroimpact_pipeline/config/`, which
@@ -110,4 +110,4 @@ def _now(values):
 
 
 if __name__ == "__main__":
-    TARGET.write_text(readme(read(SOURCE)), encoding="utf-8")
+    (ROOT / TARGET).write_text(readme(read(ROOT / SOURCE)), encoding="utf-8")

@@ -17,6 +17,7 @@ from PIL import Image
 
 import vibroimpact
 from vibroimpact.figures.kit.style import PROVENANCE_KEYS
+from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.sources import Sources
 
 CONFIG, LOCK = "config/config.yaml", "environment.lock"
@@ -78,24 +79,27 @@ def provenance(path) -> dict:
     return beside if same else record
 
 
-def differences(record: dict, root, file=None) -> list[tuple[str, str | None]]:
+def differences(record: dict, root, file=None, directory=None) -> list[tuple[str, str | None]]:
     """Everything that decided on a figure, each with what differs in the tree at root now, or None.
 
     Args:
         record: see `provenance`.
         root: the checkout.
         file: the file itself, to compare with what its sidecar says was written.
+        directory: where the build worked, whose config goes before that of the checkout; None: in the checkout.
 
     Raises:
         ValueError: the library in use is not the one of the tree.
     """
     root = Path(root).resolve()
+    directory = root if directory is None else Path(directory)
     if not Path(vibroimpact.__file__).resolve().is_relative_to(root):
         raise ValueError(f"root: the library in use, {Path(vibroimpact.__file__).parent}, does not belong to {root}")
-    config = yaml.safe_load((root / CONFIG).read_text(encoding="utf-8"))
+    settings = directory / CONFIG if (directory / CONFIG).is_file() else root / CONFIG
+    config = yaml.safe_load(settings.read_text(encoding="utf-8"))
     found = [(f"{CONFIG}, {key}", _config_difference(config, key, value)) for key, value in record["config"].items()]
-    files = {LOCK: record["lock"], **record["inputs"]}
-    found += [(name, _file_difference(root / name, digest)) for name, digest in files.items()]
+    found.append((LOCK, _file_difference(root / LOCK, record["lock"])))
+    found += [(name, _file_difference(directory / name, digest)) for name, digest in record["inputs"].items()]
     sources = Sources()
     found += [(" and ".join(step["files"]), _code_difference(sources, root, step)) for step in record["steps"]]
     written = {Path(name).name: digest for name, digest in record.get("outputs", {}).items()}
@@ -151,7 +155,8 @@ def main(arguments=None) -> int:
         epilog="Exit status: 0 it matches, 1 it does not, 2 the file does not tell.",
     )
     parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
-    parser.add_argument("--root", type=Path, default=Path(), help="the checkout (default: this directory)")
+    parser.add_argument("--root", type=Path, help="the checkout (default: this directory, else that of the library)")
+    parser.add_argument("--directory", type=Path, help="where the build worked (default: --root, else this directory)")
     parser.add_argument("--json", action="store_true", help="print the record as JSON and compare nothing")
     given = parser.parse_args(arguments)
     try:
@@ -159,7 +164,9 @@ def main(arguments=None) -> int:
         if given.json:
             print(json.dumps(record, indent=2))
             return 0
-        found = differences(record, given.root, given.file)
+        here = Path()
+        root = given.root or (here if (here / LOCK).is_file() else ROOT)
+        found = differences(record, root, given.file, given.directory or given.root or here)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2

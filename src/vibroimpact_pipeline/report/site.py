@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 import pypandoc
 import typst
 
+from vibroimpact_pipeline.environment import SCRATCH
 from vibroimpact_pipeline.report.offline import MATHEMATICS
 from vibroimpact_pipeline.report.pages import is_template
 from vibroimpact_pipeline.report.policy import guarded
@@ -69,7 +70,7 @@ def convert(
         math_core.LatexError: a formula cannot be translated to MathML.
         RuntimeError: pandoc has a warning.
     """
-    with TemporaryDirectory() as scratch:
+    with TemporaryDirectory(prefix=SCRATCH) as scratch:
         metadata = Path(scratch) / "metadata.json"
         metadata.write_text(json.dumps(known), encoding="utf-8")
         options = [f"--metadata-file={metadata}", f"--lua-filter={sources / 'filter.lua'}", "--columns=10000"]

@@ -14,5 +14,8 @@ def replacing(path):
     try:
         yield partial
         os.replace(partial, target)
+    except OSError as error:
+        error.filename = error.filename or str(target)  # which a disk without room does not say
+        raise
     finally:
         partial.unlink(missing_ok=True)
