@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import papermill
 from traitlets.config import Config
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.provenance.record import recorded
@@ -50,7 +50,7 @@ def execute(notebook, executed, parameters: dict):
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+    with running(snakemake), recorded(snakemake) as (provenance, outputs):
         html = outputs.pop("html")
         parameters = {
             "figure": provenance["figure"],
