@@ -51,11 +51,12 @@ class Tree:
         self.returncode = run.returncode
         return run.stdout
 
-    def start(self, *arguments) -> subprocess.Popen:
-        """A Snakemake call in the background, in a process group of its own."""
+    def start(self, *arguments, **environment) -> subprocess.Popen:
+        """A Snakemake call in the background, in a process group of its own; a variable that is None is not set."""
         return subprocess.Popen(
             [*SNAKEMAKE, *arguments],
             cwd=self.path,
+            env={name: value for name, value in {**os.environ, **environment}.items() if value is not None},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

@@ -5,6 +5,7 @@ import sys
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.integrity import cases, checksums, compiled
 from vibroimpact_pipeline.integrity.code import stamps_of
 from vibroimpact_pipeline.integrity.stamps import Changed, stamps, unchanged
@@ -24,7 +25,7 @@ def running(job):
             stack.enter_context(logging_to(job.log[0]))
         checksums.forget(job.output)
         try:
-            with unchanged_code(job), unchanged(stamps(files_of(job.input))):
+            with unchanged(stamps(files_of(job.input))), unchanged_code(job):
                 check(job.input, case_of(job))
                 yield
         except (Changed, checksums.Damaged, cases.OtherCase) as error:
@@ -50,7 +51,7 @@ def unchanged_code(job):
         with unchanged(stamps_of(fingerprint) if (fingerprint := fingerprint_of(job.params)) else {}):
             yield
     except Changed:
-        compiled.discard()
+        compiled.discard(root_of(job), Path.cwd())
         raise
 
 

@@ -24,14 +24,14 @@ def record(outputs: Iterable[str]) -> None:
     for path in [*written, *{path.parent for path in written}]:
         keep(path)
     for output, paths in files.items():
-        with replacing(record_of(output)) as partial:
+        with replacing(_record_of(output)) as partial:
             partial.write_text("".join(f"{_digest(path)}  {path}\n" for path in paths), encoding="utf-8")
 
 
 def forget(outputs: Iterable[str]) -> None:
     """Drop the records of outputs that are about to be made."""
     for output in outputs:
-        record_of(output).unlink(missing_ok=True)
+        _record_of(output).unlink(missing_ok=True)
 
 
 def expect(outputs: Iterable[str]) -> None:
@@ -58,22 +58,23 @@ def recorded() -> Iterator[str]:
 
 
 def has_record(output) -> bool:
-    return record_of(output).is_file()
+    return _record_of(output).is_file()
 
 
-def record_of(output):
+def _record_of(output):
     return Path(f"{RECORDS}/{output}.sha256")
 
 
 def _as_written(output):
     if not has_record(output):
         return True
-    lines = record_of(output).read_text(encoding="utf-8", errors="replace").splitlines()
-    return lines != [] and all(_matches(*line.partition("  ")[::2]) for line in lines)
+    lines = _record_of(output).read_text(encoding="utf-8", errors="replace").splitlines()
+    return lines != [] and all(_matches(output, *line.partition("  ")[::2]) for line in lines)
 
 
-def _matches(digest, path):
-    return Path(path).is_file() and _digest(path) == digest
+def _matches(output, digest, name):
+    path = Path(name)
+    return path.is_relative_to(output) and path.is_file() and _digest(path) == digest
 
 
 def _files(output):

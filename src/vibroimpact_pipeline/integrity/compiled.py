@@ -9,9 +9,9 @@ KEPT = ".cache/numba"
 """Where compiled code is kept, in a folder for each state of its sources."""
 
 
-def discard() -> None:
-    """Drop what is kept for these sources, unless somebody else has said where to keep it."""
-    if (folder := _folder()).match(f"{KEPT}/*"):
+def discard(*places: Path) -> None:
+    """Drop what is kept for these sources below one of some directories; elsewhere it is somebody else's."""
+    if (folder := _folder()).parent in [place / KEPT for place in places]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
