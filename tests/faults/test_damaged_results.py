@@ -70,6 +70,16 @@ def test_a_damaged_table_is_made_anew_before_a_figure_is_drawn_from_it(drawn):
     assert contents(drawn) == before
 
 
+def test_a_job_on_another_machine_refuses_a_damaged_table(drawn):
+    """It is started without a look at all results; the build that sends it has had that before."""
+    cut(drawn / POINTS)
+    drawn.snakemake("--mode", "remote", "--force", "--allowed-rules", "fig10_06", "--", "fig10_06", check=False)
+    assert drawn.returncode != 0
+    log = (drawn / "results/logs/figures/fig10_06.log").read_text()
+    assert log == f"{POINTS}: not what was written. Build again, which makes it anew.\n"
+    assert not list((drawn / "results").rglob("fig10_06.p*"))
+
+
 def test_a_file_in_a_directory_counts_for_the_directory(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = tmp_path / "results/report/data/index.html"
