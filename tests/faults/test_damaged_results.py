@@ -1,7 +1,9 @@
 """A result that is not what its job wrote is not used, not called right, and not kept: the next build makes it anew."""
 
+import errno
 import os
 from base64 import urlsafe_b64encode
+from pathlib import Path
 
 import pytest
 
@@ -119,3 +121,28 @@ def test_what_builds_nothing_removes_nothing(drawn, asked):
     status, output = run_module(drawn.path, "snakemake", "--cores", "2", asked)
     assert status == 0, output
     assert contents(drawn) == before
+
+
+def test_what_cannot_be_read_is_damaged_and_what_cannot_be_removed_is_said(drawn, monkeypatch):
+    """As root everything can be read: the disk says no."""
+    monkeypatch.chdir(drawn.path)
+
+    def refuse(path, **_):
+        raise OSError(errno.EIO, "Input/output error", str(path))
+
+    monkeypatch.setattr(checksums, "_digest", refuse)
+    assert TABLE in checksums.damaged([TABLE])
+    monkeypatch.setattr(Path, "unlink", refuse)
+    with pytest.raises(OSError, match="Input/output error"):
+        remove_damaged(print, dry_run=False)
+    assert (drawn / TABLE).exists()
+
+
+@pytest.mark.parametrize("name", ["notes.txt", "@part/cmVz"])
+def test_a_file_of_somebody_else_in_snakemakes_memory_is_left(drawn, name, monkeypatch):
+    monkeypatch.chdir(drawn.path)
+    stray = drawn / ".snakemake/metadata" / name
+    stray.parent.mkdir(exist_ok=True)
+    stray.write_text("")
+    remove_damaged(pytest.fail, dry_run=False)
+    assert stray.exists()

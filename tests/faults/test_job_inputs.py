@@ -29,7 +29,8 @@ def table_of(case):
 
 def job(*inputs, case=None, **about):
     """A job as Snakemake describes it to its script."""
-    given = {"log": [], "output": ["results/out.csv"], "params": {}, "wildcards": {"case": case} if case else {}}
+    given = {"log": [], "output": ["results/out.csv"], "params": {}, "scriptdir": "workflow/scripts"}
+    given["wildcards"] = {"case": case} if case else {}
     return SimpleNamespace(input=[str(path) for path in inputs], **given | about)
 
 

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from vibroimpact_pipeline.integrity import compiled
+from vibroimpact_pipeline.report.results import Results
 
 FIGURE = "companion_10_04"
 BUILD_AND_CUT = """
@@ -56,6 +57,13 @@ def test_what_a_build_has_made_survives_and_nothing_empty_is_taken_for_done(tree
     assert "how it was made is not known any more" in again
     pictures = {name: data for name, data in content(tmp_path / "again").items() if "provenance" not in name}
     assert pictures.items() <= meant.items()
+
+
+def test_the_report_does_without_a_run_time_that_was_cut_off(tmp_path):
+    benchmark = tmp_path / "benchmarks/figures/fig10_06.tsv"
+    benchmark.parent.mkdir(parents=True)
+    benchmark.write_text("")
+    assert Results(tmp_path).cost("fig10_06") is None
 
 
 def test_compiled_code_that_was_cut_off_is_dropped(tmp_path, monkeypatch):

@@ -11,7 +11,10 @@ from vibroimpact_pipeline.integrity.repair import remove_damaged
 def seeing_to_results(record):
     """Called with each event: the first of a build, which summaries, reports and graphs do not have."""
     if getattr(record, "event", None) == LogEvent.WORKFLOW_STARTED:
-        remove_damaged(lambda line: print(line, file=sys.stderr), workflow.output_settings.dryrun)
+        try:
+            remove_damaged(lambda line: print(line, file=sys.stderr), workflow.output_settings.dryrun)
+        except OSError as error:
+            refuse([f"{error.filename}: cannot be removed ({error.strerror}). Remove it and build again."])
     return True
 
 

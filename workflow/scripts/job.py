@@ -8,7 +8,7 @@ from pathlib import Path
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.integrity import cases, checksums, compiled
 from vibroimpact_pipeline.integrity.code import stamps_of
-from vibroimpact_pipeline.integrity.stamps import Changed, stamps, unchanged
+from vibroimpact_pipeline.integrity.stamps import Changed, Stamp, stamps, unchanged
 
 
 @contextmanager
@@ -25,7 +25,8 @@ def running(job):
             stack.enter_context(logging_to(job.log[0]))
         checksums.forget(job.output)
         try:
-            with unchanged(stamps(files_of(job.input))), unchanged_code(job):
+            code = compiled.from_unchanged(code_of(job.params), root_of(job), Path.cwd())
+            with unchanged(stamps(files_of(job.input))), code:
                 check(job.input, case_of(job))
                 yield
         except (Changed, checksums.Damaged, cases.OtherCase) as error:
@@ -44,21 +45,11 @@ def logging_to(path):
         yield
 
 
-@contextmanager
-def unchanged_code(job):
-    """Nobody knows what was compiled from code that was changed meanwhile: it is thrown away."""
-    try:
-        with unchanged(stamps_of(fingerprint) if (fingerprint := fingerprint_of(job.params)) else {}):
-            yield
-    except Changed:
-        compiled.discard(root_of(job), Path.cwd())
-        raise
-
-
-def fingerprint_of(params) -> str | None:
-    """Of the job's own code: for a figure the last step of its record."""
+def code_of(params) -> dict[str, Stamp]:
+    """The files of the job's own code with their stamps; of a figure the last step in its record tells."""
     recorded = params.get("provenance")
-    return recorded["steps"][-1]["fingerprint"] if recorded else params.get("code")
+    fingerprint = recorded["steps"][-1]["fingerprint"] if recorded else params.get("code")
+    return stamps_of(fingerprint) if fingerprint else {}
 
 
 def files_of(inputs) -> list[Path]:

@@ -68,8 +68,11 @@ def _record_of(output):
 def _as_written(output):
     if not has_record(output):
         return True
-    lines = _record_of(output).read_text(encoding="utf-8", errors="replace").splitlines()
-    return lines != [] and all(_matches(output, *line.partition("  ")[::2]) for line in lines)
+    try:
+        lines = _record_of(output).read_text(encoding="utf-8", errors="replace").splitlines()
+        return lines != [] and all(_matches(output, *line.partition("  ")[::2]) for line in lines)
+    except OSError:  # what cannot be read is no better than what reads otherwise
+        return False
 
 
 def _matches(output, digest, name):

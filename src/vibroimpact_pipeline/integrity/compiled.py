@@ -2,17 +2,32 @@
 
 import os
 import shutil
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from vibroimpact_pipeline.integrity.stamps import Changed, Stamp, unchanged
 
 KEPT = ".cache/numba"
 """Where compiled code is kept, in a folder for each state of its sources."""
 
 
-def discard(*places: Path) -> None:
-    """Drop what is kept for these sources below one of some directories; elsewhere it is somebody else's."""
-    if (folder := _folder()).parent in [place / KEPT for place in places]:
-        shutil.rmtree(folder, ignore_errors=True)
+@contextmanager
+def from_unchanged(sources: Mapping[str, Stamp], *places: Path) -> Iterator[None]:
+    """See that sources are what their stamps say, at the start and at the end; else nobody knows what was compiled.
+
+    It is dropped then, if it is kept below one of some directories; elsewhere it is somebody else's.
+
+    Raises:
+        Changed: a source is not.
+    """
+    try:
+        with unchanged(sources):
+            yield
+    except Changed:
+        if (folder := _folder()).parent in [place / KEPT for place in places]:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def drop_empty() -> None:

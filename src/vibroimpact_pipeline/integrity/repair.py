@@ -11,7 +11,11 @@ FORGOTTEN = "how it was made is not known any more"
 
 
 def remove_damaged(say: Callable[[str], None], dry_run: bool) -> None:
-    """Say which outputs cannot be trusted, and remove them; a dry run leaves them where they are."""
+    """Say which outputs cannot be trusted, and remove them; a dry run leaves them where they are.
+
+    Raises:
+        OSError: one of them cannot be removed.
+    """
     forgotten = {output: path for output, path in memory.forgotten() if checksums.has_record(output)}
     why = dict.fromkeys(checksums.damaged(checksums.recorded()), DAMAGED) | dict.fromkeys(forgotten, FORGOTTEN)
     for output, reason in sorted(why.items()):
