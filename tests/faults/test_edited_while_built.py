@@ -11,7 +11,7 @@ import pytest
 
 from job import running
 from pipeline_trees import run_module
-from vibroimpact_pipeline.integrity import code
+from vibroimpact_pipeline.integrity import code, compiled
 from vibroimpact_pipeline.integrity.stamps import stamps
 from vibroimpact_pipeline.sources import Sources
 
@@ -47,8 +47,8 @@ def slow(tree, tmp_path):
 
 
 def test_code_that_was_changed_and_put_back_while_a_figure_was_made(slow, tmp_path):
-    compiled = slow / f".cache/numba/{Sources().compiled()}"
-    compiled.mkdir(parents=True)
+    folder = slow / f".cache/numba/{Sources().compiled()}"
+    folder.mkdir(parents=True)
     right = shutil.copy2(slow / EDITED, tmp_path / "right.py")
     build = slow.start(FIGURE, **OF_THE_TREE)
     wait_for(tmp_path / "before", build)
@@ -61,7 +61,7 @@ def test_code_that_was_changed_and_put_back_while_a_figure_was_made(slow, tmp_pa
     assert build.returncode != 0, said
     assert f"{EDITED}: changed while this was built. Build again." in said
     assert not list((slow / "results").rglob(f"{FIGURE}.p*"))
-    assert not compiled.exists()
+    assert not folder.exists()
 
 
 def test_an_edit_while_a_build_waits_for_another_counts(tree):
@@ -142,3 +142,37 @@ def test_compiled_code_of_others_is_left(job):
     with pytest.raises(SystemExit), running(job):
         same_text(Path("theory.py"))
     assert Path("elsewhere").exists()
+
+
+@pytest.fixture
+def own_folder(job, monkeypatch):
+    """Where this job keeps compiled code, in the working directory."""
+    folder = Path.cwd() / ".cache/numba/print"
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))
+    return folder
+
+
+def killed(job):
+    """What a job leaves behind that compiles something and is killed."""
+    process = os.fork()
+    if not process:
+        with running(job):
+            Path(os.environ["NUMBA_CACHE_DIR"], "one.nbi").write_text("compiled")
+            os._exit(9)
+    assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == 9
+
+
+@pytest.mark.parametrize("change", [same_text, older_version])
+def test_code_compiled_by_a_job_that_was_killed_is_dropped_if_its_sources_have_been_changed(job, own_folder, change):
+    killed(job)
+    compiled.drop_untrusted()
+    assert (own_folder / "one.nbi").exists()
+    change(Path("theory.py"))
+    compiled.drop_untrusted()
+    assert not own_folder.exists()
+
+
+def test_a_job_that_ends_leaves_its_compiled_code_alone(job, own_folder):
+    with running(job):
+        (own_folder / "one.nbi").write_text("compiled")
+    assert [path.name for path in own_folder.iterdir()] == ["one.nbi"]

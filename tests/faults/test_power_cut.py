@@ -70,7 +70,7 @@ def test_compiled_code_that_was_cut_off_is_dropped(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     for name in ("whole.nbi", "empty.nbi", "whole.1.nbc", "empty.1.nbc"):
         (tmp_path / name).write_text("x" * ("whole" in name))
-    compiled.drop_empty()
+    compiled.drop_untrusted()
     assert {path.name for path in tmp_path.iterdir()} == {"whole.nbi", "whole.1.nbc"}
 
 

@@ -44,10 +44,18 @@ def unchanged(known: Mapping[str, Stamp]) -> Iterator[None]:
         _compare(known)
 
 
+def same(known: Mapping[str, Stamp]) -> bool:
+    """Whether files are what their stamps say."""
+    return not _changed(known)
+
+
 def _compare(known):
-    changed = [os.path.relpath(path) for path, before in known.items() if _now(path) != before]
-    if changed:
-        raise Changed(f"{', '.join(sorted(changed))}: changed while this was built. Build again.")
+    if changed := _changed(known):
+        raise Changed(f"{', '.join(changed)}: changed while this was built. Build again.")
+
+
+def _changed(known):
+    return sorted(os.path.relpath(path) for path, before in known.items() if _now(path) != before)
 
 
 def _now(path):
