@@ -4,6 +4,7 @@ import os
 import shutil
 from pathlib import Path
 
+from vibroimpact_pipeline.integrity.compiled import drop_untrusted
 from vibroimpact_pipeline.sources import Sources
 
 CACHES = {"MPLCONFIGDIR": "matplotlib", "IPYTHONDIR": "ipython", "HEYOKA_CACHE_DIR": "heyoka"}
@@ -33,6 +34,7 @@ def prepare(root: Path, sources: Sources) -> None:
     }
     for variable in CACHES:
         Path(os.environ[variable]).mkdir(parents=True, exist_ok=True)
+    drop_untrusted()
 
 
 def _hand_on(compiled: Path, target: Path) -> None:

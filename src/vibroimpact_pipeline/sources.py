@@ -14,6 +14,7 @@ from pathlib import Path
 import grimp
 
 import vibroimpact
+from vibroimpact_pipeline.integrity.stamps import Stamp, stamp
 
 LIBRARY = "vibroimpact"
 PACKAGES = (LIBRARY, "vibroimpact_pipeline")
@@ -27,6 +28,10 @@ class Sources:
     def __init__(self):
         self._graph = grimp.build_graph(*PACKAGES, include_external_packages=True, cache_dir=None)
         self._roots = {name: Path(find_spec(name).origin).parent for name in PACKAGES}
+        self.stamps: dict[str, Stamp] = {}
+        """Of every file that went into a fingerprint, from just before it was first read."""
+        self.files: dict[str, list[str]] = {}
+        """The files that went into each fingerprint."""
 
     def fingerprint(self, *files, modules=()) -> str:
         """Hash of scripts or notebooks, of everything in the packages that they import, and of further modules.
@@ -40,7 +45,8 @@ class Sources:
             ValueError: a module does not exist.
         """
         digest = hashlib.sha256()
-        codes = _with_neighbours([Path(file) for file in files])
+        codes = self._with_neighbours([Path(file) for file in files])
+        read = [*codes]
         for file, code in codes.items():
             digest.update(f"{file.name}\n{code}\n".encode())
         imported = {name for code in codes.values() for name in _imports(code)}
@@ -51,8 +57,11 @@ class Sources:
         for name in self.modules_used(used):
             digest.update(name.encode())
             for path in self._files(name):
-                digest.update(path.name.encode() + path.read_bytes())
-        return digest.hexdigest()[:16]
+                digest.update(path.name.encode() + self._read(path))
+                read.append(path)
+        fingerprint = digest.hexdigest()[:16]
+        self.files[fingerprint] = [str(path) for path in read]
+        return fingerprint
 
     def modules_used(self, modules) -> list[str]:
         """The given modules and all of the packages' modules that importing them runs, sorted.
@@ -79,6 +88,22 @@ class Sources:
         """Whether one of the packages has this module."""
         return module.split(".")[0] in PACKAGES and module in self._graph.modules
 
+    def _with_neighbours(self, files) -> dict[Path, str]:
+        """Code of the files and of the scripts beside them that they import."""
+        codes = {}
+        waiting = list(files)
+        while waiting:
+            file = waiting.pop()
+            if file not in codes:
+                codes[file] = _code(file, self._read(file).decode())
+                neighbours = (file.with_name(f"{name}.py") for name in _imports(codes[file]))
+                waiting += [path for path in neighbours if path.is_file()]
+        return dict(sorted(codes.items()))
+
+    def _read(self, path):
+        self.stamps.setdefault(str(path), stamp(path))
+        return path.read_bytes()
+
     def _files(self, name):
         """The file of a module; for a package also the data files beside it, such as a style sheet."""
         package, *rest = name.split(".")
@@ -89,29 +114,22 @@ class Sources:
         return [path / "__init__.py", *sorted(data)]
 
 
+@cache
+def sources() -> Sources:
+    """Those of this process: a workflow may use the pipeline as a module several times."""
+    return Sources()
+
+
 def _packages(module):
     """The packages that a module lies in."""
     parts = module.split(".")
     return [".".join(parts[:n]) for n in range(1, len(parts))]
 
 
-def _with_neighbours(files) -> dict[Path, str]:
-    """Code of the files and of the scripts beside them that they import."""
-    codes = {}
-    waiting = list(files)
-    while waiting:
-        file = waiting.pop()
-        if file not in codes:
-            codes[file] = _code(file)
-            neighbours = (file.with_name(f"{name}.py") for name in _imports(codes[file]))
-            waiting += [path for path in neighbours if path.is_file()]
-    return dict(sorted(codes.items()))
-
-
-def _code(file):
+def _code(file, text):
     if file.suffix != ".ipynb":
-        return file.read_text(encoding="utf-8")
-    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+        return text
+    cells = json.loads(text)["cells"]
     texts = (("".join(cell["source"]), cell["cell_type"]) for cell in cells)
     return "\n".join(text if kind == "code" else repr(text) for text, kind in texts)
 

@@ -108,6 +108,20 @@ def test_a_deleted_figure_is_made_again_alone(rebuilt):
     assert rebuilt.planned("figures") == {"fig10_05"}
 
 
+TABLES = {
+    "fixed_points": "fixed_points/weak.csv",
+    "orbits": "orbits/weak.csv",
+    "verdicts": "verdicts/weak.csv",
+    "regime_tile": "regimes/map/1-of-4.csv",
+}
+
+
+@pytest.mark.parametrize("rule", TABLES)
+def test_a_deleted_table_is_made_again_though_what_was_made_of_it_is_there(rebuilt, rule):
+    (rebuilt / "results" / TABLES[rule]).unlink()
+    assert rule in rebuilt.planned()
+
+
 def test_a_figure_is_a_target(rebuilt):
     assert rebuilt.planned("--forceall", "fig10_06") == {"fixed_points", "fig10_06"}
 

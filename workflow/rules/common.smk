@@ -8,13 +8,13 @@ from vibroimpact_pipeline.config.labels import remembered
 from vibroimpact_pipeline.data_dictionary import compared
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
-from vibroimpact_pipeline.sources import Sources
+from vibroimpact_pipeline.sources import sources
 
 IS_MODULE = not workflow.modifier.is_main_snakefile()
 CONFIG = "config/config.yaml"
 CONFIG_FILE = CONFIG if Path(CONFIG).is_file() and not IS_MODULE else own(CONFIG)
 CAPTION = str(ROOT / "report/caption.rst")
-SOURCES = Sources()
+SOURCES = sources()
 demand(prepare, ROOT, SOURCES)
 
 

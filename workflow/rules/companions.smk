@@ -132,4 +132,5 @@ for name, companion in COMPANIONS.items():
 rule companions:
     input:
         rules.coexistence.output,
+        gather.regime_map(rules.regime_tile.output[0]),
         [path for name in COMPANIONS for path in companion_outputs(name).values()],

@@ -90,5 +90,7 @@ rule verdict_grid:
 rule stability:
     input:
         [f"results/{name}.csv" for name in GATHERED],
+        # What these are made of: if it is missing, Snakemake takes them as they are.
+        [expand(rule.output, case=all_systems()) for rule in (rules.fixed_points, rules.orbits, rules.verdicts)],
         rules.proofs.output,
         rules.verdict_grid.output,

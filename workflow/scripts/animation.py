@@ -2,7 +2,7 @@
 
 import json
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.companions.animation import PLACES, compute, draw
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
@@ -24,5 +24,5 @@ def main(parameters: dict, cycles: int, inputs, outputs) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.params.system, snakemake.params.cycles, snakemake.input, dict(snakemake.output.items()))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 import yaml
 
-from job_log import logging_to
+from job import running
 from vibroimpact.claims.evidence import Evidence, Simulation
 from vibroimpact.claims.judge import judge, leave_open, to_markdown
 from vibroimpact.figures.kit.files import replacing
@@ -52,7 +52,7 @@ def simulation(case: str, inputs: dict) -> Simulation:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         inputs, outputs = dict(snakemake.input.items()), dict(snakemake.output.items())
         claims = inputs.pop("claims")
         main(claims, snakemake.params.systems, snakemake.params.unlike, inputs, outputs)

@@ -1,6 +1,6 @@
 """Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
@@ -15,6 +15,6 @@ def main(parameters: dict, lifetimes: dict, tori: dict, observation: dict, outpu
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         params = snakemake.params
         main(params.system, params.lifetimes, params.tori, params.observation, dict(snakemake.output.items()))

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit.style import save
 from vibroimpact.figures.kit.tables import read, write
 from vibroimpact.system import System
@@ -40,5 +40,5 @@ def read_all(paths):
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+    with running(snakemake), recorded(snakemake) as (provenance, outputs):
         main(snakemake.params.module, snakemake.params.settings, dict(snakemake.input.items()), outputs, provenance)

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.figure_check.compare import check_all, lines, tolerances
@@ -21,7 +21,7 @@ def main(figures, columns: dict, reference, new, html, verdicts) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         params, outputs = snakemake.params, snakemake.output
         reference = root_of(snakemake) / "figures"
         new = Path(outputs.page).parents[1] / "figures"

@@ -4,6 +4,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.environment import prepare
+from vibroimpact_pipeline.integrity import compiled
 from vibroimpact_pipeline.sources import Sources
 
 # Numba reads the environment when it is imported, so what needs it is imported after `prepare`.
@@ -37,11 +38,12 @@ def rivals(system, start):
 
 
 if __name__ == "__main__":
-    prepare(ROOT, Sources())
+    sources = Sources()
+    prepare(ROOT, sources)
     from vibroimpact.system import System
     from vibroimpact.system.chapter import CASES, PARAMETERS
 
     given = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
-    with ProcessPoolExecutor() as pool:
+    with compiled.from_unchanged(sources.stamps, ROOT), ProcessPoolExecutor() as pool:
         for done in [pool.submit(work, *given) for work in (engine, certificate, rivals)]:
             done.result()

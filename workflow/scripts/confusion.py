@@ -4,7 +4,7 @@ from collections import Counter
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit import tables
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.regimes.confusion import confusion
@@ -25,6 +25,6 @@ def main(parameters: dict, settings: dict, observation: dict, output) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         params = snakemake.params
         main(params.system, params.settings, params.observation, snakemake.output[0])

@@ -4,6 +4,7 @@ import json
 import sys
 from pathlib import Path
 
+from job import running
 from vibroimpact_pipeline.figure_check.compare import has_failed, lines
 
 
@@ -13,5 +14,7 @@ def main(verdicts, page) -> int:
     return int(has_failed(found))
 
 
-if "snakemake" in globals() and (status := main(snakemake.input[0], Path(snakemake.input[0]).with_name("index.html"))):
+if "snakemake" in globals():
+    with running(snakemake):
+        status = main(snakemake.input[0], Path(snakemake.input[0]).with_name("index.html"))
     sys.exit(status)

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.labels import labels
@@ -22,5 +22,5 @@ def main(case: str, parameters: dict, output) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.wildcards.case, snakemake.params.system, snakemake.output[0])

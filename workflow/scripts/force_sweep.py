@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.companions.force_sweep import compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
@@ -38,5 +38,5 @@ def for_page(found: dict, values: list) -> dict:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.params.system, snakemake.params.settings, dict(snakemake.output.items()))

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit import tables
 
 
@@ -11,5 +11,5 @@ def main(inputs, output) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.input, snakemake.output[0])

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.accuracy.hazards import hazards, judge
 from vibroimpact.figures.companions.hazards import draw
 from vibroimpact.figures.kit import tables
@@ -19,5 +19,5 @@ def main(all_of_them: bool, outputs: dict, provenance: dict) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+    with running(snakemake), recorded(snakemake) as (provenance, outputs):
         main(snakemake.params.all_of_them, outputs, provenance)

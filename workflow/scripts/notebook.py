@@ -11,7 +11,7 @@ from uuid import uuid4
 import papermill
 from traitlets.config import Config
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.environment import SCRATCH
@@ -57,7 +57,7 @@ def execute(notebook, executed, parameters: dict):
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+    with running(snakemake), recorded(snakemake) as (provenance, outputs):
         html = outputs.pop("html")
         parameters = {
             "figure": provenance["figure"],

@@ -2,7 +2,7 @@
 
 import json
 
-from job_log import logging_to
+from job import running
 from vibroimpact.claims.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.kit import tables
@@ -20,5 +20,5 @@ def main(case: str, parameters: dict, outputs: dict) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.wildcards.case, snakemake.params.system, dict(snakemake.output.items()))

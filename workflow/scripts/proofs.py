@@ -8,7 +8,7 @@ import dataclasses
 import json
 from pathlib import Path
 
-from job_log import logging_to
+from job import running
 from vibroimpact.exact.orbits import certify as symmetric_orbits
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
@@ -31,6 +31,6 @@ def of_case(system, search: Path) -> dict:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         systems = snakemake.params.systems
         main(systems, dict(zip(systems, snakemake.input, strict=True)), snakemake.output[0])

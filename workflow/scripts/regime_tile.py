@@ -1,6 +1,6 @@
 """One tile of the map of regimes -> CSV: a row per pair of forcing amplitudes."""
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.companions.companion_regime_map import compute_tile
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
@@ -13,7 +13,7 @@ def main(item: str, parameters: dict, settings: dict, observation: dict, output)
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         params = snakemake.params
         item = snakemake.wildcards.scatteritem
         main(item, params.system, params.settings, params.observation, snakemake.output[0])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from job_log import logging_to
+from job import running
 from vibroimpact.figures.kit.markdown import plain
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
@@ -60,7 +60,7 @@ def version(root) -> str:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         params, tables, folder = snakemake.params, snakemake.input.tables, Path(snakemake.output[0])
         root, results = root_of(snakemake), folder.parent
         main(root, results, params.shown, tables, params.config, params.departures, params.judged, folder)

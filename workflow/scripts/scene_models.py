@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
@@ -49,7 +49,7 @@ def rungs_of(figure, scene, settings, simulation, module, table, folder):
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(
             snakemake.params.figures,
             snakemake.params.simulations,

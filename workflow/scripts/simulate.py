@@ -9,7 +9,7 @@ import json
 import numpy as np
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.figures.kit import tables
@@ -86,5 +86,5 @@ def summarise(times: np.ndarray, samples: np.ndarray, events: np.ndarray, settin
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings, snakemake.output)

@@ -1,6 +1,6 @@
 """Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
 
-from job_log import logging_to
+from job import running
 from vibroimpact.claims.verdict_grid import compute
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
@@ -11,5 +11,5 @@ def main(parameters: dict, settings: dict, output) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         main(snakemake.params.system, snakemake.params.settings, snakemake.output[0])

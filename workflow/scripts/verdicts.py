@@ -1,6 +1,6 @@
 """Fixed points of one case with the verdict of each criterion -> CSV: the rows of the case and columns for verdicts."""
 
-from job_log import logging_to
+from job import running
 from vibroimpact.claims.verdict_table import CRITERIA, fixed_point_rows
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
@@ -16,6 +16,6 @@ def main(case: str, parameters: dict, inputs: dict, output) -> None:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]):
+    with running(snakemake):
         inputs = dict(snakemake.input.items())
         main(snakemake.wildcards.case, snakemake.params.system, inputs, snakemake.output[0])

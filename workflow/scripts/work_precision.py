@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from job_log import logging_to
+from job import running
 from problems import problem_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
@@ -24,6 +24,6 @@ def main(problems: dict, seconds: float, short: bool, outputs: dict, provenance:
 
 
 if "snakemake" in globals():
-    with logging_to(snakemake.log[0]), recorded(snakemake) as (provenance, outputs):
+    with running(snakemake), recorded(snakemake) as (provenance, outputs):
         params = snakemake.params
         main(params.problems, params.seconds, params.short, outputs, provenance)

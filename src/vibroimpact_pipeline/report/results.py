@@ -51,7 +51,8 @@ class Results:
     def cost(self, rule: str) -> dict | None:
         """Seconds, processor seconds and memory [MB] of the last run of a rule, or None where nothing recorded them."""
         paths = [self.root / "benchmarks" / folder / f"{rule}.tsv" for folder in COSTS]
-        path = next((path for path in paths if path.is_file()), None)
+        # Snakemake's own file, which a power cut leaves empty.
+        path = next((path for path in paths if path.is_file() and path.stat().st_size), None)
         if path is None:
             return None
         row = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
