@@ -111,9 +111,10 @@ def _axis(axis):
 
 def _within_view(axis, ticks):
     """Ticks that can be seen; a tick at the end of an axis is, whatever the rounding."""
-    low, high = sorted(axis.get_view_interval())
+    scaled = axis.get_transform().transform
+    low, high = sorted(scaled(axis.get_view_interval()))
     slack = 1e-9 * (high - low)
-    return [tick for tick in _visible(ticks) if low - slack <= tick.get_loc() <= high + slack]
+    return [tick for tick in _visible(ticks) if low - slack <= scaled(tick.get_loc()) <= high + slack]
 
 
 def _marks(tick):
