@@ -186,7 +186,7 @@ def _style_of_line(line):
 
 def _effects(artist):
     """Shadows, outlines and the like, by their kinds, of an artist that has any."""
-    effects = [type(effect).__name__ for effect in artist.get_path_effects()]
+    effects = [type(effect).__name__ for effect in artist.get_path_effects() or ()]
     return {"effects": effects} if effects else {}
 
 
