@@ -6,8 +6,9 @@ from pathlib import Path
 from job_log import logging_to
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
-from vibroimpact_pipeline.figure_check.compare import check_all, lines, tolerances
+from vibroimpact_pipeline.figure_check.compare import check_all, tolerances
 from vibroimpact_pipeline.figure_check.page import page
+from vibroimpact_pipeline.figure_check.verdicts import lines
 
 
 def main(figures, columns: dict, reference, new, html, verdicts) -> None:

@@ -17,8 +17,8 @@ DAY = datetime.date(2020, 2, 29)
 def build(folder, figures, name, **changes):
     table = figures[name].compute(**changes)
     tables.write(table, folder / f"{name}.csv")
-    outputs = {"png": folder / f"{name}.png", "artists": folder / f"{name}.artists.json"}
-    style.save(figures[name].draw(table), outputs)
+    outputs = {kind: folder / f"{name}.{kind}" for kind in ("png", "pdf", "svg")}
+    style.save(figures[name].draw(table), outputs | {"artists": folder / f"{name}.artists.json"})
 
 
 @pytest.fixture(scope="module")
