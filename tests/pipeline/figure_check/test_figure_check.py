@@ -7,49 +7,13 @@ import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
-from checking import LIMITS, assert_caught, build, copy_pictures
+from checking import LIMITS, assert_caught
 from vibroimpact.figures.kit import manifold, style
 from vibroimpact_pipeline.figure_check import compare as figure_check
 from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.figure_check.verdicts import has_failed, largest, lines
 
 WITH_POINTS = ["fig10_06", "fig10_07", "fig10_10"]
-
-
-@pytest.fixture(scope="session")
-def computed(figures):
-    return {name: scene.compute and scene.compute() for name, scene in figures.items()}
-
-
-@pytest.fixture(scope="session")
-def reference(figures, computed, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("reference")
-    for name, scene in figures.items():
-        build(folder, name, computed[name], scene.draw(computed[name]))
-    return folder
-
-
-@pytest.fixture
-def verdict(reference, tmp_path):
-    """The verdict on a figure that was computed and drawn anew."""
-
-    def judge(name, table, figure):
-        build(tmp_path, name, table, figure)
-        return figure_check.check(name, reference, tmp_path, LIMITS)
-
-    return judge
-
-
-@pytest.fixture
-def verdict_without_pixels(reference, tmp_path):
-    """The same with the picture of the reference, so that numbers and artists alone can tell."""
-
-    def judge(name, table, figure):
-        build(tmp_path, name, table, figure, pictures=False)
-        copy_pictures(name, reference, tmp_path)
-        return figure_check.check(name, reference, tmp_path, LIMITS)
-
-    return judge
 
 
 def other_rounding(table, units=4, seed=1):
