@@ -46,8 +46,8 @@ def compare(figure: str, reference, new, vectors: dict, same_versions: bool, lim
             reasons.append(f"{kind}: {_size(drawn)} instead of {_size(new_squares)}, the size of the PNG")
         else:
             height, width = np.minimum(drawn.shape, new_squares.shape)[:2] - 1  # a page may end within a pixel
-            parts = (squares[:height, :width] for squares in (new_squares, drawn))
-            measures.append(_measured(kind, limits["vectors"], *parts, limits))
+            parts = [squares[:height, :width] for squares in (new_squares, drawn)]
+            measures += [_measured(kind, name, *parts, limits) for name in limits["vectors"]]
     for entry in measures:
         if not entry["distance"] <= entry["limit"]:
             said = limits["measures"][entry["measure"]]["said"].format(entry["distance"])

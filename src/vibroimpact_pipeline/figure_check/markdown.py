@@ -12,7 +12,7 @@ def markdown(verdicts: list[dict]) -> str:
     ]
     heads = ["figure", "verdict", "why", "to accept it"]
     table = [heads, ["---"] * len(heads), *rows] if rows else []
-    said = [f"### Figure check\n\n{lines(verdicts)[-1]}.\n", *("| " + " | ".join(map(_cell, row)) + " |" for row in table)]
+    said = [f"### Figure check\n\n{lines(verdicts)[-1]}.\n", *(f"| {' | '.join(map(_cell, row))} |" for row in table)]
     return "\n".join(said) + "\n"
 
 

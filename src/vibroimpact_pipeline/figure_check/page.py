@@ -46,15 +46,11 @@ def _pictures(figure, reference, new):
         except Exception:
             continue  # the verdict says so, whatever the library has raised
     if len(found) == 2 and np.array_equal(*found.values()):
-        return dict.fromkeys(found, _address(_smaller(found["new"])))
-    shown = {name: _address(_smaller(picture)) for name, picture in found.items()}
+        return dict.fromkeys(found, _address(pictures.smaller(found["new"], SHRINK)))
+    shown = {name: _address(pictures.smaller(picture, SHRINK)) for name, picture in found.items()}
     if len(found) == 2 and found["reference"].shape[:2] == found["new"].shape[:2]:
         shown["difference"] = _address(pictures.overlay(found["reference"], found["new"], SHRINK))
     return shown
-
-
-def _smaller(picture):
-    return np.round(255 * pictures.squares(picture, SHRINK)).astype(np.uint8)
 
 
 def _address(picture):

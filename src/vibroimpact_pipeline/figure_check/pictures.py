@@ -49,6 +49,11 @@ def squares(picture: np.ndarray, size: int) -> np.ndarray:
     return sum(rows[:, column::size] for column in range(size)) / np.float32(255 * size * size)
 
 
+def smaller(picture: np.ndarray, size: int) -> np.ndarray:
+    """The picture with each square of size by size pixels as one."""
+    return np.round(255 * squares(picture, size)).astype(np.uint8)
+
+
 def _filled(picture, size, value):
     """A picture with its height and width made multiples of a size."""
     height, width = (-length % size for length in picture.shape[:2])

@@ -16,19 +16,21 @@ from vibroimpact_pipeline.figure_check import pictures
 
 DOTS = 150
 """Per inch: a pixel is a square of the PNG."""
+FINER = 2
 POINTS = 72
 CSS_DOTS = 96
 """Of SVG, per inch."""
 
 
 def drawn_pdf(path) -> np.ndarray:
-    """The page of a PDF as a picture.
+    """The page of a PDF as a picture, made of one of more pixels: lines thinner than a pixel are drawn as wide as one.
 
     Raises:
         ValueError: no page, or more than one.
     """
     with pypdfium2.PdfDocument(path) as document:
-        return pictures.of_image(_page(document).render(scale=DOTS / POINTS, rev_byteorder=True).to_pil())
+        bitmap = _page(document).render(scale=FINER * DOTS / POINTS, rev_byteorder=True)
+        return pictures.smaller(pictures.of_image(bitmap.to_pil()), FINER)
 
 
 def drawn_svg(path) -> np.ndarray:
