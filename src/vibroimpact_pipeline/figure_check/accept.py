@@ -73,9 +73,7 @@ def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.dat
     if not reason:
         raise ValueError("reason: empty; say why the reference set changes")
     if pictures_only and (others := [f"{v['figure']} ({moved(v)[0]})" for v in verdicts if moved(v)]):
-        raise ValueError(
-            f"pictures alone: something else has moved in {'; '.join(others)}; leave out PICTURES=1 for that"
-        )
+        raise ValueError(f"pictures alone: more has moved in {'; '.join(others)}; to accept that, leave out PICTURES=1")
     entries = [_entry(verdict, new) for verdict in verdicts]
     for verdict in verdicts:
         (_take_picture if pictures_only else _take)(verdict["figure"], Path(new), Path(reference))

@@ -1,6 +1,7 @@
 """The figure check, tested by mutation: what is wrong is caught, and rounding is not."""
 
 import json
+import re
 import shutil
 
 import numpy as np
@@ -127,6 +128,7 @@ def test_other_versions_are_no_pass_and_no_alarm_but_a_lost_dash_is_found(figure
     assert (found["status"], found["reasons"]) == ("not comparable", [])
     assert found["picture"]["drawn with"] == {"matplotlib": "9.9", "freetype": "9.9"}
     assert not has_failed([found])
+    assert has_failed([found], strict=True)
     monkeypatch.setitem(manifold.BRANCHES, "SIM unstable", style.STABLE)
     assert_caught(verdict("fig10_04", table, draw(table)), "dashes")
 
@@ -220,3 +222,7 @@ def test_the_page_shows_all_and_fetches_nothing(reference, tmp_path):
     assert 'src="http' not in html
     assert "url(" not in html
     assert all(f'id="{verdict["figure"]}"' in html for verdict in verdicts)
+    shown = re.findall(r'<section id="(fig10_\d+)"', html)
+    assert (shown[:2], shown[2:]) == (["fig10_03", "fig10_05"], sorted(shown[2:]))
+    assert html.count("make accept REASON=&#34;why&#34; FIGURES=&#34;fig10_05&#34;") == 1
+    assert "make accept REASON=&#34;why&#34; FIGURES=&#34;fig10_03 fig10_05&#34;" in html

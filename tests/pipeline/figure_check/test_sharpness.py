@@ -56,7 +56,7 @@ def one_cell(table):
     ("name", "change", "machine"),
     [
         ("companion_horizon", worse_arithmetic(1e3), OTHER),
-        ("companion_horizon", worse_arithmetic(10), OTHER),
+        ("companion_horizon", worse_arithmetic(30), OTHER),
         ("companion_horizon", worse_arithmetic(1.01), LIKE),
         ("companion_modulation", lost_bursts, OTHER),
         ("companion_modulation", lost_bursts, LIKE),
