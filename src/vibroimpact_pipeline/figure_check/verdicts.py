@@ -12,8 +12,9 @@ REMEDY = (
 
 
 def measured(verdict: dict) -> list[dict]:
-    """Everything of a verdict that has a distance and a limit."""
-    entries = [*verdict["tables"], verdict["artists"], *verdict["picture"].get("measures", [])]
+    """Everything of a verdict that has a distance from the reference and a limit; PDF and SVG have none to be near."""
+    pixels = [entry for entry in verdict["picture"].get("measures", []) if entry["file"] == "png"]
+    entries = [*verdict["tables"], verdict["artists"], *pixels]
     return [entry for entry in entries if entry.get("limit") is not None]
 
 
