@@ -86,25 +86,21 @@ def _compare(verdict, pairs, vectors, limits):
         if name.endswith(".csv"):
             with _noted(verdict, name):
                 _compare_tables(verdict, name, *map(tables.read, files), limits)
-    artists = f"{verdict['figure']}.artists.json"
-    with _noted(verdict, artists):
-        old, new = map(_artists, pairs[artists])
+    artists, png = (pairs[f"{verdict['figure']}.{kind}"] for kind in ("artists.json", "png"))
+    with _noted(verdict, artists[1].name):
+        old, new = map(_artists, artists)
         verdict["reasons"] += nothing_shown(new)
         simulated = limits["artists"]["simulated"].get(verdict["figure"], [])
         _compare_artists(verdict, *(without_places(each, simulated) for each in (old, new)), limits["artists"]["limit"])
-    with _noted(verdict, "pdf"):
-        _compare_letters(verdict, pairs[artists][1], vectors["pdf"])
-    with _noted(verdict, "picture"):
-        versions = {what: _artists(path)["drawn with"] for what, path in zip(DRAWN_WITH, pairs[artists], strict=True)}
-        verdict["picture"] = {"status": FAILED, **versions}
-        same = len({str(sorted(each.items())) for each in versions.values()}) == 1
-        png = pairs[f"{verdict['figure']}.png"]
-        found, reasons = drawings.compare(verdict["figure"], *png, vectors, same, limits["picture"])
-        verdict["picture"] |= found
-        verdict["reasons"] += reasons
-
-
-DRAWN_WITH = "reference drawn with", "drawn with"
+        with _noted(verdict, "pdf"):
+            _compare_letters(verdict, new, vectors["pdf"])
+        with _noted(verdict, "picture"):
+            versions = {"reference drawn with": old["drawn with"], "drawn with": new["drawn with"]}
+            verdict["picture"] = {"status": FAILED, **versions}
+            same = old["drawn with"] == new["drawn with"]
+            found, reasons = drawings.compare(verdict["figure"], *png, vectors, same, limits["picture"])
+            verdict["picture"] |= found
+            verdict["reasons"] += reasons
 
 
 @contextmanager
@@ -135,8 +131,8 @@ def rules_of(table: str, limits: dict, same: bool = False) -> Rules:
 def _compare_tables(verdict, name, old, new, limits):
     table = name.removesuffix(".csv")
     rules = rules_of(table, limits, verdict["same rounding"])
-    different = differences_in_structure(old, new, rules)
-    different += lacks(new, rules.columns, limits["infinite"].get(table, {}).get("columns", ()))
+    infinite = limits["infinite"].get(table, {}).get("columns", ())
+    different = differences_in_structure(old, new, rules) or lacks(new, rules.columns, infinite)
     verdict["reasons"] += [f"{name}: {line}" for line in different]
     for found in [] if different else distances(old, new, rules):
         unit = UNITS[found.measure]
@@ -168,8 +164,8 @@ def _compare_artists(verdict, old, new, limit):
 
 
 def _compare_letters(verdict, artists, pdf):
-    """The letters of the PDF with those of the texts that the figure shows."""
-    expected, found = letters_of_texts(texts_of(_artists(artists))), letters_of_pdf(pdf)
+    """The letters of the PDF with those of the texts that its description shows."""
+    expected, found = letters_of_texts(texts_of(artists)), letters_of_pdf(pdf)
     for what, letters in (("lacks", expected - found), ("has beside the figure's texts", found - expected)):
         if letters:
             verdict["reasons"].append(f"pdf: {what} the letters {''.join(sorted(letters.elements()))[:40]}")
