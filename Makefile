@@ -21,16 +21,16 @@ help:  ## list these commands
 figures: set-up  ## build every figure into results/
 	.venv/bin/snakemake --cores $(CORES)
 
-check-figures: set-up  ## compare results/figures/ with the reference set figures/
-	.venv/bin/snakemake --cores $(CORES) figure_check
+check-figures: set-up  ## compare results/figures/ with the reference set figures/ (STRICT=1: it fails if pixels cannot be)
+	.venv/bin/snakemake --cores $(CORES) figure_check$(if $(STRICT),_strict)
 
 report: set-up  ## build the report, results/report/index.html and a PDF of the same
 	.venv/bin/snakemake --cores $(CORES) report
 
 accept: export REASON := $(REASON)
-accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...")
+accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pixels alone)
 	.venv/bin/snakemake --cores $(CORES) compare_figures
-	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(FIGURES)
+	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(if $(PICTURES),--pictures) $(FIGURES)
 
 benchmark: set-up  ## time per impact of every method, with its error (a minute or two, one core)
 	.venv/bin/python workflow/scripts/benchmark.py

@@ -10,6 +10,7 @@ FIGURES = "results/figures/"
 PAGES = {
     "report": "results/report/index.html",
     "figure_check": "results/figure_check/index.html",
+    "figure_check_strict": "results/figure_check/index.html",
     "compare_figures": "results/figure_check/index.html",
     "all": "results/notebooks/fig10_06.html",
     "figures": "results/notebooks/fig10_06.html",

@@ -1,20 +1,30 @@
 """Figures written as the pipeline does, and what a verdict of the figure check must say."""
 
+import shutil
+
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.data_dictionary import compared, read
 from vibroimpact_pipeline.figure_check.compare import tolerances
 
+PICTURES = "png", "pdf", "svg"
 CARDS, _ = read(ROOT)
 LIMITS = tolerances(compared(CARDS))
 
 
-def build(folder, name, table, figure, picture=True):
-    """Write the files of a figure that the figure check compares."""
+def build(folder, name, table, figure, pictures=True):
+    """Write the files of a figure that the figure check looks at."""
     if table is not None:
         tables.write(table, folder / f"{name}.csv")
-    outputs = {"artists": folder / f"{name}.artists.json"} | ({"png": folder / f"{name}.png"} if picture else {})
-    style.save(figure, outputs)
+    kinds = [*PICTURES] if pictures else []
+    style.save(
+        figure, {kind: folder / f"{name}.{kind}" for kind in kinds} | {"artists": folder / f"{name}.artists.json"}
+    )
+
+
+def copy_pictures(name, source, folder):
+    for kind in PICTURES:
+        shutil.copy(source / f"{name}.{kind}", folder)
 
 
 def assert_caught(verdict, by):

@@ -1,6 +1,7 @@
 """The target figure_check and the command for provenance, on a real build."""
 
 import json
+import shutil
 
 import pytest
 
@@ -42,14 +43,28 @@ def test_changed_figures_fail_with_their_reasons_and_a_page_to_read_and_all_othe
     assert f"\n{len(FIGURES)} figures: {len(FIGURES) - len(CHANGED)} passed, {len(CHANGED)} failed; " in output
     assert "fig10_05" in (rebuilt / "results/figure_check/index.html").read_text()
     assert {path.name: path.read_bytes() for path in (rebuilt / "figures").iterdir()} == before
+    assert "compare_figures" in rebuilt.planned("figure_check"), "an old verdict would be said again"
+    assert (rebuilt / "results/figure_check/summary.md").read_text().count("| failed |") == len(CHANGED)
+    assert (rebuilt / "results/figure_check/junit.xml").read_text().count("<failure ") == len(CHANGED)
 
 
-@pytest.mark.parametrize(("status", "expected"), [("passed", 0), ("not comparable", 0), ("failed", 1)])
-def test_the_exit_status_says_whether_a_figure_failed(tmp_path, status, expected):
+def test_without_a_reference_set_all_else_is_built_as_ever(rebuilt):
+    shutil.rmtree(rebuilt / "figures")
+    assert rebuilt.planned() == set()
+    assert rebuilt.planned("figure_check") == {"compare_figures", "figure_check"}
+
+
+@pytest.mark.parametrize("strict", [False, True])
+@pytest.mark.parametrize("status", ["passed", "not comparable", "failed"])
+def test_the_exit_status_says_whether_a_figure_failed(tmp_path, capsys, status, strict):
+    expected = status == "failed" or (strict and status == "not comparable")
     verdict = {"figure": "fig10_01", "status": status, "reasons": [], "tables": [], "artists": {}, "picture": {}}
-    verdict["reasons"] += ["a reason"] * expected
+    verdict["reasons"] += ["a reason"] * (status == "failed")
     (tmp_path / "verdicts.json").write_text(json.dumps([verdict]))
-    assert figure_check.main(tmp_path / "verdicts.json", "page.html") == expected
+    assert figure_check.main(tmp_path / "verdicts.json", "page.html", strict) == expected
+    said = capsys.readouterr().out
+    assert ('make accept REASON="why" FIGURES="fig10_01"' in said) == (status == "failed")
+    assert ("make accept PICTURES=1" in said) == (status == "not comparable")
 
 
 def test_every_figure_of_a_build_has_a_record_in_all_its_files(built):
@@ -57,7 +72,7 @@ def test_every_figure_of_a_build_has_a_record_in_all_its_files(built):
     assert {path.name for path in figures} == {*FIGURES, *CHARTS}
     for path in figures:
         sidecar = json.loads(path.with_name(f"{path.name}.provenance.json").read_text())
-        assert set(sidecar) == RECORD | {"outputs", "commit", "tree", "seconds"}
+        assert set(sidecar) == RECORD | {"outputs", "commit", "tree", "seconds", "rounded by"}
         assert all(set(step) == {"method", "digits", "files", "modules", "fingerprint"} for step in sidecar["steps"])
         for kind in (".png", ".pdf", ".svg"):
             assert embedded(path.with_suffix(kind)) == {name: sidecar[name] for name in RECORD}

@@ -5,16 +5,26 @@ import sys
 from pathlib import Path
 
 from job import running
-from vibroimpact_pipeline.figure_check.compare import has_failed, lines
+from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, REMEDY, command, has_failed, lines
 
 
-def main(verdicts, page) -> int:
+def main(verdicts, page, strict: bool = False) -> int:
+    """Print a line for each figure that has not passed, and what to do; give the exit status.
+
+    strict: whether it is a failure, too, that pixels could not be compared.
+    """
     found = json.loads(Path(verdicts).read_text(encoding="utf-8"))
-    print(*lines(found), f"Reference, new and difference of every figure: {page}", sep="\n", flush=True)
-    return int(has_failed(found))
+    print(*lines(found), f"Reference, new and difference of every figure: {page}", sep="\n")
+    if failed := [verdict["figure"] for verdict in found if verdict["status"] == FAILED]:
+        print(f"To take a change on purpose into the reference set: {command(failed)}")
+    if any(verdict["status"] == NOT_COMPARABLE for verdict in found):
+        print(REMEDY)
+    sys.stdout.flush()
+    return int(has_failed(found, strict))
 
 
 if "snakemake" in globals():
     with running(snakemake):
-        status = main(snakemake.input[0], Path(snakemake.input[0]).with_name("index.html"))
+        page = Path(snakemake.input[0]).with_name("index.html")
+        status = main(snakemake.input[0], page, snakemake.params.get("strict", False))
     sys.exit(status)

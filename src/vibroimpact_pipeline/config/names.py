@@ -15,6 +15,7 @@ RULES = {
     "compare_figures",
     "confusion",
     "figure_check",
+    "figure_check_strict",
     "figures",
     "fixed_points",
     "force_sweep",

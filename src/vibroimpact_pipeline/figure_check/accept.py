@@ -11,8 +11,9 @@ import sys
 from pathlib import Path
 
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.compare import PASSED, files_of, shown
+from vibroimpact_pipeline.figure_check import origins, pictures
+from vibroimpact_pipeline.figure_check.compare import files_of, shown
+from vibroimpact_pipeline.figure_check.verdicts import PASSED
 
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
 SHOWN = 8
@@ -47,26 +48,35 @@ def summary(verdict: dict) -> list[str]:
     return said + [f"  and {len(reasons) - SHOWN} more"] * (len(reasons) > SHOWN)
 
 
-def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.date) -> None:
+def moved(verdict: dict) -> list[str]:
+    """What has changed in a figure besides the pixels of its picture."""
+    compared = verdict["artists"] and verdict["picture"]
+    return [reason for reason in verdict["reasons"] if not (compared and reason.startswith("picture: "))]
+
+
+def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.date, pictures_only: bool = False) -> None:
     """Copy the files of the given figures into the reference set, and write down why.
 
     A figure that is no longer built leaves the set.
 
+    Args:
+        verdicts: on the figures, as the figure check gives them.
+        new, reference: folders.
+        reason: one line.
+        date: of the entry.
+        pictures_only: keep numbers and artists as they are; take the pictures, and the versions that drew them.
+
     Raises:
-        ValueError: the reason is empty.
+        ValueError: the reason is empty; or pictures alone are wanted, and something else has moved. Nothing is written.
     """
     reason = " ".join(reason.split())
     if not reason:
         raise ValueError("reason: empty; say why the reference set changes")
+    if pictures_only and (others := [f"{v['figure']} ({moved(v)[0]})" for v in verdicts if moved(v)]):
+        raise ValueError(f"pictures alone: more has moved in {'; '.join(others)}; to accept that, leave out PICTURES=1")
     entries = [_entry(verdict, new) for verdict in verdicts]
     for verdict in verdicts:
-        old_files, new_files = (files_of(verdict["figure"], folder) for folder in (reference, new))
-        for path in old_files.values():
-            path.unlink(missing_ok=True)
-        for name, path in new_files.items():
-            if path.is_file():
-                with replacing(Path(reference) / name) as partial:
-                    _keep(path, partial)
+        (_take_picture if pictures_only else _take)(verdict["figure"], Path(new), Path(reference))
     changes = Path(reference) / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
     with replacing(changes) as partial:
@@ -74,10 +84,30 @@ def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.dat
         partial.write_text(text, encoding="utf-8")
 
 
+def _take(figure, new, reference):
+    for path in files_of(figure, reference).values():
+        path.unlink(missing_ok=True)
+    for name, path in files_of(figure, new).items():
+        if path.is_file():
+            with replacing(reference / name) as partial:
+                _keep(path, partial)
+    origins.take(figure, new, reference)
+
+
+def _take_picture(figure, new, reference):
+    with replacing(reference / f"{figure}.png") as partial:
+        _keep(new / f"{figure}.png", partial)
+    name = f"{figure}.artists.json"
+    drawn, kept = (json.loads((folder / name).read_text(encoding="utf-8")) for folder in (new, reference))
+    content = json.dumps(kept | {"drawn with": drawn["drawn with"]}, indent=1, ensure_ascii=False) + "\n"
+    with replacing(reference / name) as partial:
+        partial.write_text(content, encoding="utf-8")
+
+
 def _keep(path, target):
-    """A copy; of a picture the grey that is compared, in half the bytes."""
+    """A copy; of a picture its colours without loss, in fewer bytes."""
     if path.suffix == ".png":
-        target.write_bytes(pictures.png(pictures.grey(path)))
+        target.write_bytes(pictures.png(pictures.colours(path)))
     else:
         shutil.copyfile(path, target)
 
@@ -101,6 +131,9 @@ def main(arguments=None) -> int:
     )
     parser.add_argument("figures", nargs="*", help="figures to accept; all that differ, if none is named")
     parser.add_argument("--reason", default="", help="why the reference changes; asked for, if not given")
+    parser.add_argument(
+        "--pictures", action="store_true", help="take pictures alone, and refuse if a number or an artist has moved"
+    )
     parser.add_argument("--check", type=Path, default=Path("results/figure_check"), help="folder of the figure check")
     parser.add_argument("--new", type=Path, default=Path("results/figures"), help="folder of the new figures")
     parser.add_argument("--reference", type=Path, default=Path("figures"), help="folder of the reference set")
@@ -114,7 +147,7 @@ def main(arguments=None) -> int:
         print(*(line for verdict in found for line in summary(verdict)), sep="\n")
         print(f"Before, difference and after as pictures: {given.check / 'index.html'}")
         reason = given.reason if given.reason.strip() or not sys.stdin.isatty() else input("Reason: ")
-        accept(found, given.new, given.reference, reason, datetime.date.today())
+        accept(found, given.new, given.reference, reason, datetime.date.today(), given.pictures)
     except (OSError, ValueError) as error:
         print(f"Not accepted. {error}", file=sys.stderr)
         return 1

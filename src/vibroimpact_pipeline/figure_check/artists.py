@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from itertools import zip_longest
 
 MISSING = "nothing"
+LONGEST = 100
+"""Letters of an entry that are shown."""
 PLACES = "points", "from", "to", "box"
 
 
@@ -37,6 +39,22 @@ def differences(reference, new, where: str = "figure") -> list[Difference]:
     if _is_number(reference) and _is_number(new):
         return [Difference(where, reference, new, abs(new - reference))] if new != reference else []
     return [Difference(where, reference, new, float("inf"))] if new != reference else []
+
+
+SHOWN = "lines", "patches", "collections", "texts", "others"
+"""What a part of a description holds that can be seen."""
+
+
+def nothing_shown(artists) -> list[str]:
+    """Why a description says nothing, whatever its reference says: one line, or none.
+
+    Raises:
+        ValueError: it is no description.
+    """
+    if not isinstance(artists, dict) or not {"drawn with", "background", "axes"} <= artists.keys():
+        raise ValueError(f"no description of a figure: {str(artists)[:60]}")
+    seen = [part.get(kind) for part in (artists, *artists["axes"]) for kind in SHOWN]
+    return [] if any(seen) else ["artists: none in any axes"]
 
 
 def without_places(artists: dict, names) -> dict:
@@ -85,8 +103,12 @@ def _show(value):
     if value is None or value == MISSING:
         return MISSING
     if isinstance(value, list) and all(isinstance(entry, dict) for entry in value):
-        return _summary(value)
-    return str(value)
+        return _cut(str(_summary(value)))
+    return _cut(str(value))
+
+
+def _cut(text):
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
 
 
 def _is_number(value):

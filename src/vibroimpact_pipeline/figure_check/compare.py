@@ -1,24 +1,27 @@
-"""Comparison of new figures with a reference set: numbers first, then what is drawn, then pixels.
+"""Comparison of new figures with a reference set: numbers first, then what is drawn, then pictures.
 
-The verdict on a figure is "passed", "failed", or "not comparable": numbers and artists agree, but the reference was
-drawn by other versions of Matplotlib or FreeType, so that pixels tell nothing.
+The verdict on a figure is "passed", "failed", or "not comparable": numbers and artists agree, and the pictures by and
+large, but the reference was drawn by other versions of Matplotlib or FreeType, so that its pixels tell no more.
 """
 
 import json
 import math
-from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import yaml
 
 from vibroimpact.figures.kit import tables
-from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.artists import differences, without_places
-from vibroimpact_pipeline.figure_check.tables import UNITS, Rules, differences_in_structure, distances
+from vibroimpact_pipeline.figure_check import drawings
+from vibroimpact_pipeline.figure_check.artists import differences, nothing_shown, without_places
+from vibroimpact_pipeline.figure_check.origins import same_rounding
+from vibroimpact_pipeline.figure_check.tables import UNITS, Rules, differences_in_structure, distances, lacks
+from vibroimpact_pipeline.figure_check.vector_files import letters_of_pdf, letters_of_texts, texts_of
+from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, PASSED
 
-PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
-UNREADABLE = OSError, ValueError, SyntaxError
-"""What pandas, json and Pillow raise for files that are not what their names say."""
+VECTORS = "pdf", "svg"
+"""Kinds of pictures that are built and not kept: they are compared with the PNG beside them."""
 
 
 def tolerances(columns: dict) -> dict:
@@ -49,83 +52,101 @@ def check_all(figures, reference, new, limits: dict) -> list[dict]:
 
 
 def check(figure: str, reference, new, limits: dict) -> dict:
-    """Verdict on one figure, as JSON data.
+    """Verdict on one figure, as JSON data. Whatever a file holds, it is a verdict on this figure alone.
 
     Args:
         figure: its name, such as "fig10_06".
-        reference, new: folders with the files of `files_of`.
+        reference, new: folders with the files of `files_of`; in the new one also those of VECTORS.
         limits: see `tolerances`.
 
-    Returns keys figure, status, reasons (one line each), tables (per column: distance, unit, limit, kind and where),
-    artists (distance, limit), picture (status, distance, limit, versions). Distances are there on a pass too; one
-    that is infinite, or could not be taken, is None.
+    Returns keys figure, status, reasons (one line each), tables (per column and measure: distance, unit, limit, kind
+    and where), artists (distance, limit), picture (status, versions, and per file and measure distance and limit),
+    same rounding (whether a machine like the one of the reference has computed the figure). Distances are there on a
+    pass too; one that is infinite, or could not be taken, is None.
     """
     verdict = {"figure": figure, "status": FAILED, "reasons": [], "tables": [], "artists": {}, "picture": {}}
+    verdict["same rounding"] = same_rounding(figure, reference, new)
     old_files, new_files = files_of(figure, reference), files_of(figure, new)
-    names = dict.fromkeys([*old_files, *new_files])
-    for files, what in ((old_files, "no reference"), (new_files, "not built")):
-        missing = [name for name in names if name not in files or not files[name].is_file()]
+    vectors = {kind: Path(new) / f"{figure}.{kind}" for kind in VECTORS}
+    declared = [f"{figure}.csv"] if limits["columns"].get(figure) else []
+    names = list(dict.fromkeys([*old_files, *new_files, *declared]))
+    for what, paths in (("no reference", old_files), ("not built", new_files)):
+        missing = [name for name in names if name not in paths or not paths[name].is_file()]
+        missing += [path.name for path in vectors.values() if what == "not built" and not path.is_file()]
         verdict["reasons"] += [f"{what}: {', '.join(missing)}"] if missing else []
-    if verdict["reasons"]:
-        return verdict
-    try:
-        _compare(verdict, [(name, old_files[name], new_files[name]) for name in names], limits)
-    except UNREADABLE as error:
-        verdict["reasons"].append(f"unreadable: {' '.join(str(error).split())}")
     if not verdict["reasons"]:
-        comparable = verdict["picture"]["status"] != NOT_COMPARABLE
-        verdict["status"] = PASSED if comparable else NOT_COMPARABLE
+        _compare(verdict, {name: (old_files[name], new_files[name]) for name in names}, vectors, limits)
+    if not verdict["reasons"]:
+        verdict["status"] = PASSED if verdict["picture"]["status"] == PASSED else NOT_COMPARABLE
     return verdict
 
 
-def _compare(verdict, pairs, limits):
-    for name, old, new in pairs:
+def _compare(verdict, pairs, vectors, limits):
+    for name, files in pairs.items():
         if name.endswith(".csv"):
-            _compare_tables(verdict, name, tables.read(old), tables.read(new), limits)
-    old, new = (_artists(path) for path in _pair(pairs, ".artists.json"))
-    simulated = limits["artists"]["simulated"].get(verdict["figure"], [])
-    _compare_artists(verdict, *(without_places(each, simulated) for each in (old, new)), limits["artists"]["limit"])
-    versions = {"drawn with": new["drawn with"], "reference drawn with": old["drawn with"]}
-    if old["drawn with"] != new["drawn with"]:
-        verdict["picture"] = {"status": NOT_COMPARABLE, **versions}
-    else:
-        measure = "simulated" if verdict["figure"] in limits["picture"]["simulated"]["figures"] else "drawn"
-        settings = limits["picture"][measure]
-        verdict["picture"] = {"status": FAILED, "distance": None, "limit": settings["limit"], **versions}
-        _compare_pictures(verdict, *_pair(pairs, ".png"), measure, settings["limit"])
+            with _noted(verdict, name):
+                _compare_tables(verdict, name, *map(tables.read, files), limits)
+    artists, png = (pairs[f"{verdict['figure']}.{kind}"] for kind in ("artists.json", "png"))
+    with _noted(verdict, artists[1].name):
+        old, new = map(_artists, artists)
+        verdict["reasons"] += nothing_shown(new)
+        simulated = limits["artists"]["simulated"].get(verdict["figure"], [])
+        _compare_artists(verdict, *(without_places(each, simulated) for each in (old, new)), limits["artists"]["limit"])
+        with _noted(verdict, "pdf"):
+            _compare_letters(verdict, new, vectors["pdf"])
+        with _noted(verdict, "picture"):
+            versions = {"reference drawn with": old["drawn with"], "drawn with": new["drawn with"]}
+            verdict["picture"] = {"status": FAILED, **versions}
+            same = old["drawn with"] == new["drawn with"]
+            found, reasons = drawings.compare(verdict["figure"], *png, vectors, same, limits["picture"])
+            verdict["picture"] |= found
+            verdict["reasons"] += reasons
 
 
-def _pair(pairs, suffix):
-    return next((old, new) for name, old, new in pairs if name.endswith(suffix))
+@contextmanager
+def _noted(verdict, name) -> Iterator[None]:
+    """Make a reason of whatever is raised: for a spoilt file libraries raise errors of all kinds."""
+    try:
+        yield
+    except Exception as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        verdict["reasons"].append(f"{name}: unreadable: {said}")
 
 
 def _artists(path):
     return json.loads(path.read_text(encoding="utf-8"))
 
 
-def rules_of(table: str, limits: dict) -> Rules:
-    """How the columns of a table are compared."""
-    measures = {kind: entry.get("measure", "largest") for kind, entry in limits["tables"].items()}
-    return Rules(limits["columns"].get(table, {}), measures)
+def rules_of(table: str, limits: dict, same: bool = False) -> Rules:
+    """How the columns of a table are compared.
+
+    same: whether both were computed on machines that round alike, where chance is no excuse.
+    """
+    by_kind = {kind: entry["limits"] for kind, entry in limits["tables"].items()}
+    if same:
+        by_kind |= dict.fromkeys(limits["same rounding"]["kinds"], limits["same rounding"]["limits"])
+    return Rules(limits["columns"].get(table, {}), by_kind)
 
 
 def _compare_tables(verdict, name, old, new, limits):
-    rules = rules_of(name.removesuffix(".csv"), limits)
-    different = differences_in_structure(old, new, rules)
+    table = name.removesuffix(".csv")
+    rules = rules_of(table, limits, verdict["same rounding"])
+    infinite = limits["infinite"].get(table, {}).get("columns", ())
+    different = differences_in_structure(old, new, rules) or lacks(new, rules.columns, infinite)
     verdict["reasons"] += [f"{name}: {line}" for line in different]
     for found in [] if different else distances(old, new, rules):
-        limit = limits["tables"][found.kind]["limit"] if found.kind else None
-        unit = UNITS[rules.measures.get(found.kind, "largest")]
+        unit = UNITS[found.measure]
         verdict["tables"].append(
-            {"table": name, "column": found.column, "kind": found.kind, "limit": limit, "unit": unit}
+            {"table": name, "column": found.column, "kind": found.kind, "limit": found.limit, "unit": unit}
             | {"distance": _finite(found.distance), "where": found.row}
             | {"reference": _finite(found.reference), "new": _finite(found.new)}
         )
         if found.kind is None:
             verdict["reasons"].append(f"{name}: no limit is stated for column {found.column}")
-        elif not found.distance <= limit:
+        elif not found.distance <= found.limit:
+            alike = ", rounded alike" if found.measure == "same" else ""
             verdict["reasons"].append(
-                f"{name}: {found.column} is off by {found.distance:.2g} {unit}, limit {limit:g} "
+                f"{name}: {found.column} is off by {found.distance:.2g} {unit}, limit {found.limit:g}{alike} "
                 f"({found.row}: {shown(found.new)} instead of {shown(found.reference)})"
             )
 
@@ -142,44 +163,13 @@ def _compare_artists(verdict, old, new, limit):
     verdict["reasons"] += [str(one) for one in found if not one.share <= limit]
 
 
-def _compare_pictures(verdict, old, new, measure, limit):
-    old, new = (pictures.grey(path) for path in (old, new))
-    if old.shape != new.shape:
-        sizes = ["{1} x {0} pixels".format(*picture.shape) for picture in (new, old)]
-        verdict["reasons"].append(f"picture: {sizes[0]} instead of {sizes[1]}")
-        return
-    far = pictures.MEASURES[measure](old, new)
-    verdict["picture"] |= {"status": PASSED if far <= limit else FAILED, "distance": far}
-    if far > limit:
-        verdict["reasons"].append(f"picture: {pictures.SAID[measure].format(far)}, limit {limit:g}")
+def _compare_letters(verdict, artists, pdf):
+    """The letters of the PDF with those of the texts that its description shows."""
+    expected, found = letters_of_texts(texts_of(artists)), letters_of_pdf(pdf)
+    for what, letters in (("lacks", expected - found), ("has beside the figure's texts", found - expected)):
+        if letters:
+            verdict["reasons"].append(f"pdf: {what} the letters {''.join(sorted(letters.elements()))[:40]}")
 
 
 def _finite(value):
     return value if isinstance(value, str) or math.isfinite(value) else None
-
-
-def largest(verdict: dict) -> float | None:
-    """The largest distance of a figure as a share of its limit; None if one is infinite or could not be taken."""
-    measured = [*verdict["tables"], verdict["artists"], verdict["picture"]]
-    measured = [entry for entry in measured if entry.get("limit") is not None]
-    shares = [None if entry["distance"] is None else entry["distance"] / entry["limit"] for entry in measured]
-    return None if not shares or None in shares else max(shares)
-
-
-def lines(verdicts: list[dict]) -> list[str]:
-    """One line per figure that did not pass, with its first reason, and a last line that sums up."""
-    said = []
-    for verdict in verdicts:
-        first, *more = verdict["reasons"] or ["picture drawn by other versions of Matplotlib or FreeType"]
-        if verdict["status"] != PASSED:
-            rest = f" (and {len(more)} more)" if more else ""
-            said.append(f"{verdict['figure']}: {verdict['status']}: {first}{rest}")
-    counts = Counter(verdict["status"] for verdict in verdicts)
-    shares = [share for share in map(largest, verdicts) if share is not None]
-    closest = f"; largest distance {max(shares):.2g} of its limit" if shares else ""
-    return [*said, f"{len(verdicts)} figures: " + ", ".join(f"{n} {status}" for status, n in counts.items()) + closest]
-
-
-def has_failed(verdicts: list[dict]) -> bool:
-    """Whether any figure failed, or there was nothing to check."""
-    return not verdicts or any(verdict["status"] == FAILED for verdict in verdicts)

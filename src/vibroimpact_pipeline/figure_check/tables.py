@@ -19,11 +19,11 @@ class Rules:
     """How the columns of a table are compared.
 
     columns: kind of each column that is compared, or its kind in each series (OTHERS: in the rest); every other column
-    of text names its row, and must be the same. measures: for each kind one of MEASURES.
+    of text names its row, and must be the same. limits: for each kind one or several of MEASURES, with their limits.
     """
 
     columns: dict[str, str | dict[str, str]]
-    measures: dict[str, str]
+    limits: dict[str, dict[str, float]]
 
     def of(self, part: pd.DataFrame, series) -> dict[str, str]:
         """Kind of each column that a series has, all others left blank."""
@@ -32,7 +32,8 @@ class Rules:
 
     def is_sample(self, part: pd.DataFrame, series) -> bool:
         """Whether a series is a sample, in which no row has its counterpart."""
-        return {self.measures[kind] for kind in self.of(part, series).values()} == {"distribution"}
+        kinds = self.of(part, series).values()
+        return bool(kinds) and all("distribution" in self.limits[kind] for kind in kinds)
 
 
 def _kind(compared, series) -> str | None:
@@ -43,11 +44,13 @@ def _kind(compared, series) -> str | None:
 class Distance:
     """Distance of a column from its reference in the series where it is largest, and the entry that is farthest off.
 
-    kind is None for numbers without a rule. Of a sample the medians stand for the entry.
+    kind and limit are None for numbers without a rule. Of a sample the medians stand for the entry.
     """
 
     column: str
     kind: str | None
+    measure: str
+    limit: float | None
     distance: float
     row: str
     reference: object
@@ -84,19 +87,44 @@ def _differences(old, new, texts):
 
 
 def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[Distance]:
-    """Distance of each column between tables of the same structure, by the measure of its kind."""
+    """Distance of each column between tables of the same structure, by the measures of its kind."""
     new_parts, farthest = _by_series(new), {}
     scales = {column: _scales(reference, column) for column in reference}
     for series, old in _by_series(reference).items():
         fresh, kinds = new_parts[series], rules.of(old, series[-1])
         unruled = [name for name in numeric_columns(old) if name not in kinds and old[name].notna().any()]
         for column, kind in [*kinds.items(), *((name, None) for name in unruled)]:
-            measure = MEASURES[rules.measures.get(kind, "largest")]
-            far, row = measure(old[column], fresh[column], scales[column][old.index])
-            found = Distance(column, kind, far, *_entry(old, fresh, column, row, series))
-            if (column, kind) not in farthest or far > farthest[column, kind].distance:
-                farthest[column, kind] = found
+            for measure, limit in rules.limits.get(kind, {"largest": None}).items():
+                far, row = MEASURES[measure](old[column], fresh[column], scales[column][old.index])
+                found = Distance(column, kind, measure, limit, far, *_entry(old, fresh, column, row, series))
+                before = farthest.setdefault((column, kind, measure), found)
+                farthest[column, kind, measure] = found if far > before.distance else before
     return list(farthest.values())
+
+
+def lacks(table: pd.DataFrame, columns: dict, infinite=()) -> list[str]:
+    """What a table must have to say anything, whatever its reference says: one line each.
+
+    columns: those that are compared, as in `Rules`. infinite: columns in which infinity means something.
+    """
+    if table.empty:
+        return ["no rows"]
+    parts = {series[-1]: part for series, part in _by_series(table).items()}
+    found = []
+    for name, compared in columns.items():
+        of_series = {} if isinstance(compared, str) else {key: parts[key] for key in compared if key in parts}
+        if name not in table:
+            found.append(f"no column {name}, which its card declares")
+        elif not _given(table[name]).any():
+            found.append(f"no value of {name}")
+        else:
+            found += [f"no value of {name} in series {key}" for key, part in of_series.items() if not _any(part[name])]
+    numbers = [name for name in numeric_columns(table) if name not in infinite]
+    return found + [f"{name} is infinite" for name in numbers if np.isinf(table[name].to_numpy(float)).any()]
+
+
+def _any(values):
+    return _given(values).any()
 
 
 def _entry(old, new, column, row, series):
@@ -117,6 +145,16 @@ def _decades(old, new, scales):
     return _largest(*(np.log10(values.clip(lower=FLOOR)) for values in (old, new)), 1.0)
 
 
+def _middle_of_decades(old, new, scales):
+    """By how much all values move together, whatever single ones do."""
+    old, new = (np.log10(values.dropna().clip(lower=FLOOR)) for values in (old, new))
+    return float(abs(new.median() - old.median())), None
+
+
+def _same(old, new, scales):
+    return (_largest if pd.api.types.is_numeric_dtype(old) else _part_of_rows)(old, new, scales)
+
+
 def _part_of_rows(old, new, scales):
     numbers = pd.api.types.is_numeric_dtype(old)
     differs = _shares(old, new, scales) > SAME if numbers else old.to_numpy() != new.to_numpy()
@@ -124,15 +162,19 @@ def _part_of_rows(old, new, scales):
 
 
 def _times_chance(old, new, scales):
-    """Statistic of Kolmogorov and Smirnov for two samples, or a quarter of the standard score of their sizes.
+    """Statistic of Kolmogorov and Smirnov for two samples.
 
-    Sizes count for less, since events of chaotic motions come in clusters. Values that are the same are not told apart,
-    so that rounding does not count where many values are equal.
+    Values that are the same are not told apart, so that rounding does not count where many values are equal.
     """
     old, new = (np.sort(values.dropna().to_numpy(float)) for values in (old, new))
     slack, n, m = SAME * float(scales.max()), len(old), len(new)
-    gap = max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m))
-    return float(max(gap, 0.25 * abs(n - m) / np.sqrt(n + m))), None
+    return float(max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m))), None
+
+
+def _standard_score_of_sizes(old, new, scales):
+    """Difference of the sizes of two samples, in units of its standard deviation if single values came by chance."""
+    n, m = (int(values.notna().sum()) for values in (old, new))
+    return float(abs(n - m) / np.sqrt(n + m)), None
 
 
 def _standard_errors(old, new, scales):
@@ -151,15 +193,21 @@ def _lead(ahead, behind, slack):
 MEASURES = {
     "largest": _largest,
     "decades": _decades,
+    "middle of decades": _middle_of_decades,
     "part of rows": _part_of_rows,
+    "same": _same,
     "distribution": _times_chance,
+    "size": _standard_score_of_sizes,
     "mean": _standard_errors,
 }
 UNITS = {
     "largest": "of its axis",
     "decades": "decades",
+    "middle of decades": "decades in the middle",
     "part of rows": "of its rows",
+    "same": "of its axis or rows",
     "distribution": "times chance",
+    "size": "times chance in number",
     "mean": "standard errors",
 }
 """What the distances of each measure count. The axis is the range of the reference's column in its panel; where that

@@ -13,6 +13,7 @@ from vibroimpact.figures.kit.artists import drawn_with
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.provenance.rounding import rounded_by
 
 LOCK = "environment.lock"
 
@@ -40,13 +41,14 @@ def record(decided: dict, inputs, root: Path) -> dict:
 
 
 def write_sidecar(path, provenance: dict, outputs, root: Path, seconds: float) -> None:
-    """Write the record, the files that were made, and what no file of the figure itself bears: commit and run time."""
+    """Write the record, the files that were made, and what no file of the figure bears: commit, machine, run time."""
     commit, changes = git("rev-parse", "HEAD", root=root), git("status", "--porcelain", root=root)
     sidecar = provenance | {
         "outputs": {str(output): digest(output) for output in outputs},
         "commit": commit,
         "tree": None if changes is None else "modified" if changes else "clean",
         "seconds": round(seconds, 3),
+        "rounded by": rounded_by(),
     }
     with replacing(path) as partial:
         partial.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")

@@ -4,12 +4,16 @@ import datetime
 import json
 import shutil
 
+import numpy as np
 import pytest
+from PIL import Image, ImageChops
 
 from checking import LIMITS
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.figure_check import compare as figure_check
 from vibroimpact_pipeline.figure_check.accept import HEADING, accept, changed, main, summary
+from vibroimpact_pipeline.figure_check.origins import FILE
+from vibroimpact_pipeline.figure_check.verdicts import PASSED, has_failed
 
 DAY = datetime.date(2020, 2, 29)
 
@@ -17,8 +21,8 @@ DAY = datetime.date(2020, 2, 29)
 def build(folder, figures, name, **changes):
     table = figures[name].compute(**changes)
     tables.write(table, folder / f"{name}.csv")
-    outputs = {"png": folder / f"{name}.png", "artists": folder / f"{name}.artists.json"}
-    style.save(figures[name].draw(table), outputs)
+    outputs = {kind: folder / f"{name}.{kind}" for kind in ("png", "pdf", "svg")}
+    style.save(figures[name].draw(table), outputs | {"artists": folder / f"{name}.artists.json"})
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +34,10 @@ def both(figures, tmp_path_factory):
     build(reference, figures, "fig10_05")
     shutil.copytree(reference, new)
     build(new, figures, "fig10_04", kappa=0.651)
-    (new / "fig10_04.provenance.json").write_text('{"commit": "0123456789abcdef", "tree": "clean"}')
+    for path in [*reference.glob("*.pdf"), *reference.glob("*.svg")]:
+        path.unlink()
+    origin = {"commit": "0123456789abcdef", "tree": "clean", "rounded by": {"processor": "a"}}
+    (new / "fig10_04.provenance.json").write_text(json.dumps(origin))
     verdicts = figure_check.check_all([], reference, new, LIMITS)
     check = folder / "results/figure_check"
     check.mkdir()
@@ -62,12 +69,13 @@ def test_the_new_figure_becomes_the_reference_with_its_reason(tree):
     untouched = contents(tree / "figures")["fig10_05.png"]
     assert main(["--reason", "another kappa"]) == 0
     verdicts = figure_check.check_all([], tree / "figures", tree / "results/figures", LIMITS)
-    assert not figure_check.has_failed(verdicts)
+    assert not has_failed(verdicts)
     kept = contents(tree / "figures")
     assert kept["fig10_05.png"] == untouched
     assert sorted(kept) == sorted(
-        ["CHANGES.md", *(f"fig10_0{i}.{kind}" for i in (4, 5) for kind in ("artists.json", "csv", "png"))]
+        ["CHANGES.md", FILE, *(f"fig10_0{i}.{kind}" for i in (4, 5) for kind in ("artists.json", "csv", "png"))]
     )
+    assert json.loads(kept[FILE]) == {"fig10_04": {"processor": "a"}}
     text = kept["CHANGES.md"].decode()
     assert text.startswith(HEADING)
     assert ": another kappa\n\n- **fig10_04**: fig10_04.csv: C is off by " in text
@@ -107,6 +115,7 @@ def test_only_the_named_figures_are_accepted(tree, capsys):
 
 
 def test_with_nothing_to_accept_nothing_is_written(tree, capsys):
+    shutil.copytree(tree / "results/figures", tree / "figures", dirs_exist_ok=True)
     passed = figure_check.check_all([], tree / "figures", tree / "figures", LIMITS)
     (tree / "results/figure_check/figure_check.json").write_text(json.dumps(passed))
     before = contents(tree / "figures")
@@ -127,3 +136,71 @@ def test_a_figure_that_is_no_longer_built_leaves_the_reference(tree):
 def test_a_long_list_of_reasons_is_cut_short():
     verdict = {"figure": "f", "status": "failed", "tables": [], "reasons": [str(i) for i in range(20)]}
     assert summary(verdict)[-1] == "  and 12 more"
+
+
+def judged(tree):
+    """The verdicts on the tree, where `main` reads them."""
+    verdicts = figure_check.check_all([], tree / "figures", tree / "results/figures", LIMITS)
+    (tree / "results/figure_check/figure_check.json").write_text(json.dumps(verdicts))
+    return {verdict["figure"]: verdict for verdict in verdicts}
+
+
+@pytest.fixture
+def upgraded(tree):
+    """All as in the reference but the lettering, a little elsewhere, and the versions that drew it."""
+    for kind in ("csv", "png", "artists.json"):
+        shutil.copy(tree / f"results/figures/fig10_05.{kind}", tree / "figures")
+    artists = tree / "results/figures/fig10_05.artists.json"
+    content = json.loads(artists.read_text())
+    artists.write_text(json.dumps(content | {"drawn with": {"matplotlib": "9.9", "freetype": "9.9"}}))
+    with Image.open(tree / "results/figures/fig10_05.png") as picture:
+        moved = ImageChops.offset(picture.convert("L"), 3, 0)
+    moved.save(tree / "results/figures/fig10_05.png")
+    return tree
+
+
+def test_after_an_upgrade_pictures_alone_are_taken(upgraded):
+    assert judged(upgraded)["fig10_05"]["status"] == "not comparable"
+    before = contents(upgraded / "figures")
+    assert main(["fig10_05", "--pictures", "--reason", "Matplotlib 9.9"]) == 0
+    after = contents(upgraded / "figures")
+    assert {name for name in before if before[name] != after[name]} == {"fig10_05.png", "fig10_05.artists.json"}
+    described = [json.loads(kept["fig10_05.artists.json"]) for kept in (before, after)]
+    assert described[1] == described[0] | {"drawn with": {"matplotlib": "9.9", "freetype": "9.9"}}
+    assert "Matplotlib 9.9" in after["CHANGES.md"].decode()
+    assert judged(upgraded)["fig10_05"]["status"] == PASSED
+
+
+def test_pictures_alone_are_refused_where_a_number_has_moved_and_nothing_is_written(upgraded, capsys):
+    judged(upgraded)
+    before = contents(upgraded / "figures")
+    assert main(["--pictures", "--reason", "Matplotlib 9.9"]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("Not accepted. pictures alone: more has moved in fig10_04 (fig10_04.csv: C is off by ")
+    assert "fig10_05" not in said
+    assert contents(upgraded / "figures") == before
+
+
+def test_pictures_alone_are_refused_where_an_artist_has_moved(upgraded, capsys):
+    artists = upgraded / "results/figures/fig10_05.artists.json"
+    artists.write_text(artists.read_text().replace("#000000ff", "#ff0000ff"))
+    judged(upgraded)
+    assert main(["fig10_05", "--pictures", "--reason", "Matplotlib 9.9"]) == 1
+    assert "#ff0000ff instead of #000000ff" in capsys.readouterr().err
+
+
+def test_a_picture_is_kept_in_its_colours_without_loss_and_small(tree):
+    path = tree / "results/figures/fig10_04.png"
+    with Image.open(path) as picture:
+        grey = np.asarray(picture.convert("L"))
+    accept([judged(tree)["fig10_04"]], tree / "results/figures", tree / "figures", "grey", DAY)
+    with Image.open(tree / "figures/fig10_04.png") as kept:
+        assert kept.mode == "L"
+        assert np.array_equal(np.asarray(kept), grey)
+    painted = np.dstack([grey, np.where(grey < 128, 200, grey).astype(np.uint8), grey])
+    Image.fromarray(painted).save(path)
+    accept([judged(tree)["fig10_04"]], tree / "results/figures", tree / "figures", "colour", DAY)
+    with Image.open(tree / "figures/fig10_04.png") as kept:
+        assert kept.mode == "P"
+        assert np.array_equal(np.asarray(kept.convert("RGB")), painted)
+    assert (tree / "figures/fig10_04.png").stat().st_size < 0.7 * path.stat().st_size

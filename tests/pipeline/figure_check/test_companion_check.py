@@ -11,7 +11,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from checking import LIMITS, assert_caught, build
+from checking import LIMITS, assert_caught, build, copy_pictures
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference.run import proven_run
@@ -144,8 +144,8 @@ def verdict(reference, tmp_path):
             build(tmp_path, name, table, figure)
         else:
             tables.write(table, tmp_path / f"{name}.csv")
-            for file in (f"{name}.png", f"{name}.artists.json"):
-                shutil.copy(before / file, tmp_path)
+            shutil.copy(before / f"{name}.artists.json", tmp_path)
+            copy_pictures(name, before, tmp_path)
         return figure_check.check(name, before, tmp_path, LIMITS)
 
     return judge

@@ -1,4 +1,4 @@
-"""What a figure shows, as data: line styles, labels, legends, axis limits and places, all without pixels.
+"""What a figure shows, as data: backgrounds, styles, labels, ticks, legends, axis limits and places, without pixels.
 
 Positions are fractions of their axes, widths and sizes points, colours hexadecimal with opacity. Places that follow
 from the size of letters are left out: they differ between versions of FreeType.
@@ -7,9 +7,10 @@ from the size of letters are left out: they differ between versions of FreeType.
 import matplotlib
 import numpy as np
 from matplotlib import ft2font
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import Collection
-from matplotlib.colors import to_hex
+from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -28,8 +29,10 @@ def describe(figure: Figure) -> dict:
     figure.draw_without_rendering()  # settles layout and tick labels
     return {
         "width and height [mm]": _rounded(figure.get_size_inches() * 25.4),
+        "background": _background(figure.patch),
         "texts": [_style_of_text(text) for text in _visible(figure.texts)],
         "legends": [_legend(legend) for legend in _visible(figure.legends)],
+        "others": _others(figure),
         "axes": [_axes(axes) for axes in sorted(_visible(figure.axes), key=_reading_order)],
     }
 
@@ -42,41 +45,121 @@ def _reading_order(axes):
 
 def _axes(axes):
     legend = axes.get_legend()
-    texts = [text for text in _visible(axes.texts) if text.get_text()]
+    framed = axes.axison and axes.get_frame_on()
     return {
-        "titles": [axes.get_title(place) for place in ("left", "center", "right")],
-        "labels": [axes.get_xlabel(), axes.get_ylabel()] if axes.axison else [],
+        "background": _background(axes.patch) if framed else "none",
+        "spines": {side: _spine(spine) for side, spine in axes.spines.items() if spine.get_visible() and framed},
+        "titles": [_style_of_text(title) for title in _written([axes._left_title, axes.title, axes._right_title])],
         "xlim": _significant(axes.get_xlim()),
         "ylim": _significant(axes.get_ylim()),
         "scales": [axes.get_xscale(), axes.get_yscale()],
-        "xticks": _tick_labels(axes.xaxis) if axes.axison else [],
-        "yticks": _tick_labels(axes.yaxis) if axes.axison else [],
+        "x axis": _axis(axes.xaxis) if axes.axison else None,
+        "y axis": _axis(axes.yaxis) if axes.axison else None,
         "legend": _legend(legend) if legend and legend.get_visible() else None,
         "lines": [_line(line, axes) for line in _visible(axes.lines)],
         "patches": [_patch(patch, axes) for patch in _visible(axes.patches)],
         "collections": [_collection(collection, axes) for collection in _visible(axes.collections)],
-        "texts": [_text(text, axes) for text in texts],
-        "others": [type(child).__name__ for child in _visible(axes.get_children()) if not isinstance(child, KNOWN)],
+        "texts": [_text(text, axes) for text in _written(axes.texts)],
+        "others": _others(axes),
     }
 
 
-KNOWN = Line2D, Patch, Spine, Collection, Text, Legend, Axis
+KNOWN = Line2D, Patch, Spine, Collection, Text, Legend, Axis, Axes
 """Kinds of artists described by themselves; of any other kind only its name is kept."""
 
 
-def _tick_labels(axis):
-    """Texts of the major ticks that can be seen; a tick at the end of an axis is, whatever the rounding."""
-    low, high = sorted(axis.get_view_interval())
+def _others(parent):
+    """Artists that are described nowhere else; a figure's own lines and patches are, its background aside."""
+    known = KNOWN if isinstance(parent, Axes) else (Axes, Legend, Text)
+    children = _visible(child for child in parent.get_children() if child is not parent.patch)
+    return [type(child).__name__ for child in children if not isinstance(child, known)]
+
+
+def _background(patch):
+    """Colours of what lies behind everything else, or "none"."""
+    return [_hex(patch.get_facecolor()), _edge(patch)] if patch.get_visible() else "none"
+
+
+def _edge(patch):
+    """The colour of an edge that can be seen."""
+    return _hex(patch.get_edgecolor()) if patch.get_linewidth() else "none"
+
+
+def _spine(spine):
+    return {
+        "colour": _hex(spine.get_edgecolor()),
+        "width": _rounded(spine.get_linewidth()),
+        "dashes": str(spine.get_linestyle()),
+    }
+
+
+def _axis(axis):
+    """Label, tick labels, marks and grid lines of an axis; styles that ticks share once, majors before minors."""
+    major, minor = (_within_view(axis, ticks) for ticks in (axis.get_major_ticks(), axis.get_minor_ticks()))
+    labels = [text for tick in major for text in _written([tick.label1, tick.label2])]
+    further = [text for tick in minor for text in _written([tick.label1, tick.label2])]
+    return {
+        "label": [_style_of_text(text) for text in _written([axis.label])],
+        "ticks": [text.get_text() for text in labels],
+        "minor ticks": [text.get_text() for text in further],
+        "lettering": _distinct(_lettering(text) for text in [*labels, *further]),
+        "factor": [_style_of_text(text) for text in _written([axis.offsetText])],
+        "marks": [_distinct(_marks(tick) for tick in ticks) for ticks in (major, minor)],
+        "grid": [_distinct(_grid(tick) for tick in ticks if tick.gridline.get_visible()) for ticks in (major, minor)],
+    }
+
+
+def _within_view(axis, ticks):
+    """Ticks that can be seen; a tick at the end of an axis is, whatever the rounding."""
+    scaled = axis.get_transform().transform
+    low, high = sorted(scaled(axis.get_view_interval()))
     slack = 1e-9 * (high - low)
-    across = axis.axis_name == "y"
-    labels = _visible(axis.get_ticklabels())
-    return [text.get_text() for text in labels if low - slack <= text.get_position()[across] <= high + slack]
+    return [tick for tick in _visible(ticks) if low - slack <= scaled(tick.get_loc()) <= high + slack]
+
+
+def _marks(tick):
+    """The marks of a tick on both sides of its axes."""
+    return [
+        {
+            "mark": str(line.get_marker()),
+            "size": _rounded(line.get_markersize()),
+            "width": _rounded(line.get_markeredgewidth()),
+            "colour": _hex(line.get_markeredgecolor(), line.get_alpha()),
+        }
+        for line in _visible([tick.tick1line, tick.tick2line])
+    ]
+
+
+def _grid(tick):
+    line = tick.gridline
+    return {
+        "colour": _hex(line.get_color(), line.get_alpha()),
+        "dashes": _dashes(line),
+        "width": _rounded(line.get_linewidth()),
+    }
+
+
+def _distinct(entries):
+    """Entries without repetitions, in their order."""
+    found = []
+    for entry in entries:
+        if entry not in found:
+            found.append(entry)
+    return found
 
 
 def _legend(legend):
-    names = [text.get_text() for text in legend.get_texts()]
+    names = legend.get_texts()
     styles = [_style_of_line(h) if isinstance(h, Line2D) else _style_of_patch(h) for h in legend.legend_handles]
-    return [{"name": name, **style} for name, style in zip(names, styles, strict=True)]
+    framed = legend.get_frame_on() and legend.get_frame().get_visible()
+    return {
+        "frame": _style_of_patch(legend.get_frame()) if framed else "none",
+        "title": [_style_of_text(title) for title in _written([legend.get_title()])],
+        "entries": [
+            {"name": name.get_text(), **style, "lettering": _lettering(name)}
+            for name, style in zip(names, styles, strict=True)
+        ],
+    }
 
 
 def _line(line, axes):
@@ -87,14 +170,24 @@ def _line(line, axes):
 
 def _style_of_line(line):
     return {
-        "colour": _hex(line.get_color()),
+        "colour": _hex(line.get_color(), line.get_alpha()),
         "dashes": _dashes(line),
         "width": _rounded(line.get_linewidth()),
         "marker": str(line.get_marker()),
         "marker size": _rounded(line.get_markersize()),
-        "marker colours": [_hex(line.get_markerfacecolor()), _hex(line.get_markeredgecolor())],
+        "marker colours": [
+            _hex(colour, line.get_alpha()) for colour in (line.get_markerfacecolor(), line.get_markeredgecolor())
+        ],
+        "marker edge": _rounded(line.get_markeredgewidth()),
         "order": line.get_zorder(),
+        **_effects(line),
     }
+
+
+def _effects(artist):
+    """Shadows, outlines and the like, by their kinds, of an artist that has any."""
+    effects = [type(effect).__name__ for effect in artist.get_path_effects() or ()]
+    return {"effects": effects} if effects else {}
 
 
 def _dashes(line):
@@ -119,6 +212,7 @@ def _style_of_patch(patch):
         "dashes": str(patch.get_linestyle()),
         "hatch": patch.get_hatch() or "",
         "order": patch.get_zorder(),
+        **_effects(patch),
     }
 
 
@@ -130,7 +224,8 @@ def _collection(collection, axes):
     markers = collection.get_offset_transform().contains_branch(axes.transData)
     to_axes = (collection.get_offset_transform() if markers else collection.get_transform()) - axes.transAxes
     points = [collection.get_offsets()] if markers else [path.vertices for path in collection.get_paths()]
-    scale = None if collection.get_array() is None else collection.to_rgba(np.linspace(*collection.get_clim(), 9))
+    scale = None if collection.get_array() is None else _scale(collection)
+    shapes = [len(path.vertices) for path in collection.get_paths()] if markers else []
     return {
         "name": _name(collection),
         "kind": type(collection).__name__,
@@ -138,10 +233,19 @@ def _collection(collection, axes):
         "edges": [_hex(colour) for colour in collection.get_edgecolor()],
         "widths": _rounded(collection.get_linewidth()),
         "dashes": ["solid" if dashes is None else _rounded(dashes) for _, dashes in collection.get_linestyle()],
+        "hatch": collection.get_hatch() or "",
+        "shapes": _distinct(shapes),
+        "sizes": _distinct(_rounded(np.ravel(collection.get_sizes()))) if hasattr(collection, "get_sizes") else [],
         "points": sum(len(part) for part in points),
         "box": _box(to_axes.transform(np.concatenate(points))) if points else [],
         "order": collection.get_zorder(),
+        **_effects(collection),
     }
+
+
+def _scale(collection):
+    """Nine colours from the lowest to the highest value."""
+    return collection.to_rgba(np.linspace(*collection.get_clim(), 9), alpha=collection.get_alpha())
 
 
 def _text(text, axes):
@@ -156,16 +260,32 @@ def _text(text, axes):
 def _style_of_text(text):
     return {
         "text": text.get_text(),
+        **_lettering(text),
+        "align": [text.get_ha(), text.get_va()],
+    }
+
+
+def _lettering(text):
+    arrow, box = getattr(text, "arrow_patch", None), text.get_bbox_patch()
+    return {
+        "font": [*text.get_fontfamily(), text.get_fontstyle()],
         "size": _rounded(text.get_fontsize()),
         "weight": str(text.get_fontweight()),
-        "colour": _hex(text.get_color()),
-        "align": [text.get_ha(), text.get_va()],
+        "colour": _hex(text.get_color(), text.get_alpha()),
         "rotation": _rounded(text.get_rotation()),
+        **({"box": _style_of_patch(box)} if box else {}),
+        **({"arrow": _style_of_patch(arrow)} if arrow else {}),
+        **_effects(text),
     }
 
 
 def _visible(artists):
     return [artist for artist in artists if artist.get_visible()]
+
+
+def _written(texts):
+    """Texts that say something, or point somewhere."""
+    return [text for text in _visible(texts) if text.get_text() or getattr(text, "arrow_patch", None)]
 
 
 def _name(artist):
@@ -174,8 +294,9 @@ def _name(artist):
     return "" if label.startswith("_") else label
 
 
-def _hex(colour):
-    return to_hex(colour, keep_alpha=True) if not isinstance(colour, str) or colour != "none" else "none"
+def _hex(colour, alpha=None):
+    """A colour, with the opacity of its artist where that has one of its own."""
+    return "none" if isinstance(colour, str) and colour == "none" else to_hex(to_rgba(colour, alpha), keep_alpha=True)
 
 
 def _box(points):
