@@ -105,7 +105,8 @@ def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[
 def lacks(table: pd.DataFrame, columns: dict, infinite=()) -> list[str]:
     """What a table must have to say anything, whatever its reference says: one line each.
 
-    columns: those that are compared, as in `Rules`; of a card for several figures a figure may lack some. infinite: columns in which infinity means something.
+    columns: those that are compared, as in `Rules`; where figures share a card, one may lack some. infinite: those in
+    which infinity means something.
     """
     if table.empty:
         return ["no rows"]
