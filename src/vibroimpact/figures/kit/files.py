@@ -37,6 +37,8 @@ def keep(path) -> None:
     Raises:
         OSError: the disk does not take it.
     """
+    if os.name == "nt" and Path(path).is_dir():  # Windows opens none
+        return
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
