@@ -7,7 +7,7 @@ from vibroimpact_pipeline.figure_check.verdicts import OTHER_VERSIONS, PASSED, b
 def markdown(verdicts: list[dict]) -> str:
     """What sums up, and a row for each figure that has not passed, with the command that accepts it."""
     rows = [
-        [plain(verdict["figure"]), verdict["status"], plain(_first(verdict)), code(command([verdict["figure"]]))]
+        [plain(verdict["figure"]), verdict["status"], _first(verdict), code(command([verdict["figure"]]))]
         for verdict in by_distance(verdicts)
         if verdict["status"] != PASSED
     ]
@@ -19,4 +19,4 @@ def markdown(verdicts: list[dict]) -> str:
 
 def _first(verdict):
     first, *more = verdict["reasons"] or [OTHER_VERSIONS]
-    return f"{first} (and {len(more)} more)" if more else first
+    return plain(first) + (f" (and {len(more)} more)" if more else "")
