@@ -1,1 +1,1 @@
-"""What only the pipeline needs: config, fingerprints of sources, provenance, figure check, report, archive."""
+"""What only the pipeline needs: config, fingerprints of sources, provenance, figure check, report."""
