@@ -31,8 +31,9 @@ def crate(
         said: what is said of files.
     """
     made = ROCrate(version="1.1")
+    made.metadata.extra_terms["sha256"] = "https://schema.org/sha256"  # which the terms of RO-Crate 1.1 lack
     licence = _licence(made, cited)
-    authors = [_entity(made, f"#author-{n}", author) for n, author in enumerate(cited.authors(), 1)]
+    authors = _one_or_all([_entity(made, f"#author-{n}", author) for n, author in enumerate(cited.authors(), 1)])
     workflow = made.add_workflow(
         None, WORKFLOW, main=True, lang="snakemake", properties=_file(WORKFLOW, members[WORKFLOW], said)
     )
@@ -86,6 +87,11 @@ def _entity(made, name, properties):
     return made.add(ContextEntity(made, properties.pop("@id", name), properties=properties))
 
 
+def _one_or_all(entities):
+    """JSON-LD in the form that RO-Crate asks for has no lists of one."""
+    return entities if len(entities) != 1 else entities[0]
+
+
 def _add(made, name, source, said):
     if isinstance(source, Path) and source.is_dir():
         return made.add_dataset(None, name, properties={"name": name, "description": "A link to a folder."})
@@ -105,7 +111,7 @@ def _action(made, workflow, figure, files):
     return made.add_action(
         workflow,
         f"#{figure.name}",
-        object=[files[name] for name in given],
+        object=_one_or_all([files[name] for name in given]),
         result=[files[name] for name in [*figure.files, str(figure.path)]],
         properties={"name": f"Making of {figure.name}", "description": methods},
     )

@@ -28,7 +28,7 @@ FORMATS = {
     ".yml": "application/yaml",
 }
 """Formats by the end of a name; a list of its own, since that of the system is another on every machine."""
-PLAIN = "text/plain"
+PLAIN, PICTURES = "text/plain", (".png", ".pdf", ".svg")
 SAID = {
     "CITATION.cff": "How to cite this software.",
     "LICENSE": "The licence.",
@@ -66,14 +66,13 @@ class Descriptions:
             }
         if path.is_relative_to(CHECKSUMS):
             return said | {"description": f"SHA-256 of {path.relative_to(CHECKSUMS).with_suffix('')}."}
-        description = SAID.get(name) or self._of_figure(path) or self._of_data(name)
+        description = SAID.get(name) or self._of_data(name) or self._of_figure(path)
         return said | ({"description": description} if description else {})
 
     def _of_figure(self, path):
-        text = self.texts.get(path.stem)
-        if text is None or path.parts[0] != "results":
-            return None
-        return f"{text['title']}. {text['alt']}" if path.suffix in (".png", ".pdf", ".svg") else f"{text['title']}."
+        text = self.texts.get(path.stem, {})
+        said = [text.get("title"), text.get("alt") if path.suffix in PICTURES else None]
+        return " ".join(f"{part.rstrip('.')}." for part in said if part) if path.parts[0] == "results" else None
 
     def _of_data(self, name):
         return next((kind.about for kind in self._kinds if kind.has(name)), None)
