@@ -47,7 +47,8 @@ def test_the_same_bytes_twice(archived, tmp_path):
     for path in tree.path.rglob("*"):
         if not path.is_relative_to(tree / ".git") and not path.is_symlink():
             os.utime(path)
-    tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
+    said = tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
+    assert f"The archive is results/archive/{archive_of(tree).name}" in said
     assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()
 
 
