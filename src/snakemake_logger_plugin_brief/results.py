@@ -6,7 +6,7 @@ from pathlib import Path
 
 START = os.getcwd()
 """Where the command was given: Snakemake loads its plugins before it goes where `--directory` says."""
-FIGURES = "results/figures/"
+FIGURES, ARCHIVE = "results/figures/", "results/archive/"
 PAGES = {
     "report": "results/report/index.html",
     "figure_check": "results/figure_check/index.html",
@@ -32,7 +32,10 @@ def open_first(names: Iterable[str]) -> list[str]:
 
 def made(outputs: Iterable[str]) -> str:
     """What the finished jobs have made, and where it is."""
+    outputs = list(outputs)
     figures = sum(path.startswith(FIGURES) and path.endswith(".png") for path in outputs)
+    if archive := next((path for path in outputs if path.startswith(ARCHIVE)), None):
+        return f"The archive is {from_start(archive)}"
     if figures:
         return f"{figures} figure{'s' * (figures != 1)} in {from_start(FIGURES)}/"
     return f"Results are in {from_start('results')}/"
