@@ -1,5 +1,6 @@
 """The course of a build: what is done, what runs, what has failed. Events go in, lines to show come out."""
 
+import math
 import re
 from logging import LogRecord
 
@@ -64,8 +65,8 @@ class Build:
         self.stopped, self.untold = True, []
 
     def _expected(self, rule):
-        """Jobs of a rule; of one that nobody foresaw all that were not foreseen."""
-        return self.jobs_of.get(rule, self.total - self.foreseen)
+        """Jobs of a rule; of one that nobody foresaw all that were not foreseen, once their number is known."""
+        return self.jobs_of.get(rule, self.total - self.foreseen or math.inf)
 
     def progress(self) -> str:
         """How many jobs are done of how many, in columns that stay straight."""

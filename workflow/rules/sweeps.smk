@@ -67,8 +67,9 @@ rule probe_of_sweep:
         "../scripts/sweep_probe.py"
 
 
-# How long a tile takes is a matter of the executor, not of the question: `set-resources` of a profile, or
-# `--set-resources plan_of_sweep:tile_seconds=600`. A plan that is there is kept: another target cuts no sweep anew.
+# How long a tile takes is a matter of the executor, not of the question: `set-resources` of a profile, or on the command
+# line `--set-resources plan_of_sweep:tile_seconds=600`, in whole seconds, 0 for a tile per point. A plan that is there is
+# kept: another target cuts no sweep anew.
 checkpoint plan_of_sweep:
     input:
         rules.probe_of_sweep.output,

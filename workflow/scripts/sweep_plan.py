@@ -15,14 +15,17 @@ def main(name: str, request: dict, probe, target: float, limit_hours: float, out
     """Write the plan of the sweep of this name.
 
     Args:
-        probe: path of what was measured. target: core seconds of a tile. limit_hours: core hours that what is left of
+        probe: path of what was measured. target: core seconds of a tile, 0 for a point each. limit_hours: core hours that what is left of
             the sweep may take; tiles that are there already cost nothing.
 
     Raises:
-        SystemExit: it would take more.
+        SystemExit: it would take more, or the target is below 0.
     """
     cost = Cost(**json.loads(Path(probe).read_text(encoding="utf-8")))
-    number = tiles(cost, target)
+    try:
+        number = tiles(cost, target)
+    except ValueError as error:
+        sys.exit(str(error))
     mine = fingerprint(request)
     left = sum(not is_of(tile_path(name, k, number), mine) for k in range(1, number + 1)) / number
     hours = cost.core_seconds / 3600

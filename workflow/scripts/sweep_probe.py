@@ -1,6 +1,7 @@
 """A few points of a sweep, measured -> JSON: points and runs of the whole, core seconds of each measured point."""
 
 import json
+import sys
 from dataclasses import asdict
 
 from job import running
@@ -9,12 +10,15 @@ from vibroimpact.sweeps.cost import probe
 from vibroimpact.sweeps.request import understood
 
 
-def main(request: dict, output) -> None:
-    cost = probe(*understood(request))
+def main(name: str, request: dict, output) -> None:
+    try:
+        cost = probe(*understood(request))
+    except ValueError as error:
+        sys.exit(f"sweeps.{name}: {error}")
     with replacing(output) as partial:
         partial.write_text(json.dumps(asdict(cost)) + "\n", encoding="utf-8")
 
 
 if "snakemake" in globals():
     with running(snakemake):
-        main(snakemake.params.request, snakemake.output[0])
+        main(snakemake.wildcards.sweep, snakemake.params.request, snakemake.output[0])

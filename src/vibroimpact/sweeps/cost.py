@@ -52,5 +52,14 @@ def probe(grid: Grid, asked: Asked) -> Cost:
 
 
 def tiles(cost: Cost, target: float) -> int:
-    """How many tiles to cut it into, so that each takes about `target` core seconds: points or MOST_TILES at most."""
-    return max(1, min(math.ceil(cost.core_seconds / target), cost.points, MOST_TILES))
+    """How many tiles to cut it into, so that each takes about `target` core seconds: points or MOST_TILES at most.
+
+    For a target of 0 every point is a tile.
+
+    Raises:
+        ValueError: the target is below 0.
+    """
+    if target < 0:
+        raise ValueError(f"tile_seconds: {target:g} is below 0")
+    wanted = math.ceil(cost.core_seconds / target) if target else cost.points
+    return max(1, min(wanted, cost.points, MOST_TILES))
