@@ -45,5 +45,5 @@ def test_no_point_is_begun_once_enough_was_spent(monkeypatch):
 
 def test_a_point_without_a_system_is_found_before_anything_is_measured(monkeypatch):
     monkeypatch.setattr(cost, "rows", None)
-    with pytest.raises(ValueError, match="at kappa = 1: kappa: 1.0 is not between 0 and 1"):
+    with pytest.raises(ValueError, match=r"at kappa = 1: kappa: 1\.0 is not between 0 and 1"):
         probe(Grid(BASE, [axis(["kappa"], [0.5, 1.0], 20)]), Asked(("fixed_points",)))

@@ -33,7 +33,7 @@ def test_a_point_without_a_system_is_named():
 def test_tiles_have_every_point_once_and_are_of_a_size(tiles):
     grid = Grid(BASE, [axis(["kappa"], [0.2, 0.8], 3), TOGETHER])
     parts = [list(grid.tile(number, tiles)) for number in range(1, tiles + 1)]
-    assert sorted(sum(parts, [])) == list(range(6))
+    assert sorted(point for part in parts for point in part) == list(range(6))
     assert max(map(len, parts)) - min(map(len, parts)) <= 1
 
 

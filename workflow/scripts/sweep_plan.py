@@ -15,8 +15,8 @@ def main(name: str, request: dict, probe, target: float, limit_hours: float, out
     """Write the plan of the sweep of this name.
 
     Args:
-        probe: path of what was measured. target: core seconds of a tile, 0 for a point each. limit_hours: core hours that what is left of
-            the sweep may take; tiles that are there already cost nothing.
+        probe: path of what was measured. target: core seconds of a tile, 0 for a point each.
+        limit_hours: core hours that what is left of the sweep may take; tiles that are there already cost nothing.
 
     Raises:
         SystemExit: it would take more, or the target is below 0.

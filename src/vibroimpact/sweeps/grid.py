@@ -11,8 +11,8 @@ from vibroimpact.system import System
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 """How the values of an axis lie between its ends."""
-LEAPS = (0.7548776662466927, 0.5698402909980532)
-"""Steps that, taken again and again modulo 1, spread evenly over a square (Roberts 2018)."""
+LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
+"""Steps that, taken again and again modulo 1, spread evenly over a line, over a square (Roberts 2018)."""
 
 
 @dataclass(frozen=True)
@@ -71,5 +71,5 @@ class Grid:
 
     def spread(self, most: int) -> list[int]:
         """At most so many different points, spread evenly over the grid."""
-        steps = np.outer(np.arange(most) + 0.5, LEAPS[: len(self.shape)]) % 1.0
+        steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
         return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})
