@@ -130,7 +130,7 @@ def test_a_tile_of_another_question_ends_in_no_table(again):
     assert again.returncode != 0
     assert "plane/tiles/2-of-6.csv is of a sweep that asked for something else. Delete it" in printed
     tile.unlink()
-    again.snakemake("sweep_plane")
+    assert again.snakemake("sweep_plane").endswith("Open first: results/sweeps/plane.html\n")
 
 
 def test_a_sweep_above_its_limit_is_not_begun_and_says_what_lets_it_run(again):

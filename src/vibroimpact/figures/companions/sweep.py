@@ -1,11 +1,12 @@
 """What a sweep found: curves over one parameter, maps over two."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.kit.method_looks import looks
-from vibroimpact.figures.kit.style import DOUBLE_COLUMN, new_figure, side_by_side, styled
+from vibroimpact.figures.kit.style import DOUBLE_COLUMN, GREY, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.grid import LOGARITHMIC
@@ -85,12 +86,23 @@ def _curves(place, names, part, axes):
 def _map(place, names, part, axes):
     x, y = (axis["along"][0] for axis in axes)
     square = part.pivot(index=y, columns=x, values="value")
-    mesh = place.pcolormesh(square.columns, square.index, square, cmap="Greys", shading="nearest", rasterized=True)
+    edges = [_edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
+    most = 1.0 if names[1] in REGIMES else max(part["value"].max(), 1e-12)
+    place.patch.set(hatch="xxx", edgecolor=GREY)  # what a point without a value leaves to be seen
+    mesh = place.pcolormesh(*edges, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
     bar = place.figure.colorbar(mesh, ax=place)
     bar.locator = MaxNLocator(4)
     bar.ax.tick_params(labelsize=7.5)
     panel, series = names
     place.set_title(series if series in REGIMES else f"{panel}, {series}", fontsize=8.5, pad=3)
+
+
+def _edges(values, axis):
+    """Borders of cells around ascending values, half-way between them on the scale of their axis."""
+    there, back = (np.log, np.exp) if axis.get("scale") == LOGARITHMIC else (np.asarray, np.asarray)
+    at = there(np.asarray(values, dtype=float))
+    middles = 0.5 * (at[1:] + at[:-1])
+    return back(np.concatenate([[2 * at[0] - middles[0]], middles, [2 * at[-1] - middles[-1]]]))
 
 
 def _label(place, axes):
