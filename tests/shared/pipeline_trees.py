@@ -73,7 +73,9 @@ class Tree:
         output = self.dry_run(*arguments, "--quiet", "host")
         assert self.returncode == 0, output
         rules = {
-            line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
+            line.split()[1].rstrip(":")
+            for line in output.splitlines()
+            if line.startswith(("rule ", "localrule ", "checkpoint "))
         }
         return rules - {"all", "figures", "stability", "companions"}
 
