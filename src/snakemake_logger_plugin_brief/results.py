@@ -16,12 +16,19 @@ PAGES = {
     "figures": "results/notebooks/fig10_06.html",
 }
 """The page of a rule; a figure has its own in results/notebooks/."""
+SWEEP = "sweep_"
+"""What the names of sweeps begin with; each has its own page, too."""
 
 
 def first_page(names: Iterable[str]) -> str | None:
     """The page of the first of these rules that has one."""
-    pages = (PAGES.get(name, f"results/notebooks/{name}.html") for name in names)
-    return next((page for page in pages if Path(page).is_file()), None)
+    return next((page for page in map(_page, names) if Path(page).is_file()), None)
+
+
+def _page(name):
+    if name.startswith(SWEEP):
+        return f"results/sweeps/{name.removeprefix(SWEEP)}.html"
+    return PAGES.get(name, f"results/notebooks/{name}.html")
 
 
 def open_first(names: Iterable[str]) -> list[str]:
