@@ -8,6 +8,7 @@ from vibroimpact_pipeline.report.figure_texts import OWN
 RULES = {
     "accuracy",
     "all",
+    "archive",
     "api",
     "claims",
     "coexistence",

@@ -17,7 +17,7 @@ from vibroimpact_pipeline.report.policy import guarded
 
 READER = "markdown-fancy_lists+gfm_auto_identifiers"
 """Headings can be linked to; no list begins with "(3)": here that is an equation at the start of a paragraph."""
-FILLED = READER + "-raw_html-raw_attribute-raw_tex-native_divs-native_spans"
+FILLED = READER + "-raw_html-raw_tex-native_divs-native_spans"
 """For pages that are filled from results: what looks like HTML is text there."""
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
