@@ -57,8 +57,8 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
 		|| { echo "The same examples again: $$again"; exit 1; }
 
-lock:  ## pin every package anew into environment.lock (needs uv)
-	uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
+lock: set-up  ## pin every package anew into environment.lock
+	.venv/bin/uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
 		--no-header --no-emit-find-links --no-emit-index-url --cache-dir .cache/uv pyproject.toml -o environment.lock
 
 wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up needs no network
