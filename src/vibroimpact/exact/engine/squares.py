@@ -54,9 +54,7 @@ def _summed(over_one, powers):
     forms = np.stack([np.zeros_like(over_one), over_one])
     while len(forms) < len(powers):  # as many again: what follows a flight is carried back to its start
         power = powers[len(forms) - 1]
-        half = (forms[1:].reshape(-1, SIZE) @ power).reshape(-1, SIZE, SIZE).transpose(0, 2, 1)
-        later = (half.reshape(-1, SIZE) @ power).reshape(-1, *over_one.shape)
-        forms = np.concatenate([forms, forms[-1] + later])
+        forms = np.concatenate([forms, forms[-1] + power.T @ forms[1:] @ power])
     return forms[: len(powers)]
 
 
