@@ -15,7 +15,7 @@ class MeanPower:
     Relative errors are of the order epsilon. The names are those of `Run.energy`, which is this times the period.
 
     work: (2,), of the forces. ground: (2,), of the dampers to ground; coupling: of the one between the boxes.
-    impacts: (2,). work = ground + coupling + impacts, all summed.
+    impacts: (2,). At a fixed point work = ground + coupling + impacts, all summed.
     """
 
     work: np.ndarray
@@ -33,7 +33,8 @@ def mean_power(system, point) -> MeanPower:
     """The power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
 
     Args:
-        point: a FixedPoint of the system.
+        point: a FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the manifold,
+            where what is not dissipated is stored.
     """
     b, half = point.B * np.exp(-1j * point.psi), system.epsilon / 2
     return MeanPower(
