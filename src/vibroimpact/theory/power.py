@@ -33,8 +33,8 @@ def mean_power(system, point) -> MeanPower:
     """The power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
 
     Args:
-        point: a FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the manifold,
-            where what is not dissipated is stored.
+        point: a FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the
+            manifold, where what is not dissipated is stored.
     """
     b, half = point.B * np.exp(-1j * point.psi), system.epsilon / 2
     return MeanPower(

@@ -28,8 +28,9 @@ def scale(run):
 
 def test_the_balance_closes_to_rounding_in_hundreds_of_systems_and_every_cycle():
     kinds = np.zeros(3, int)
-    for number in range(300):
+    for number in range(200):
         system, start, tau0 = example(number)
+        system = system.with_(epsilon=1e-7) if number % 10 == 0 else system
         run = vi.simulate(system, start, 3, tau0)
         energy, rows = run.energy, run.energy.per_cycle
         kinds += np.bincount(run.events["kind"], minlength=3)
