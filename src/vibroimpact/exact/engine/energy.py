@@ -16,7 +16,7 @@ from vibroimpact.exact.engine.event_log import APPROACH
 from vibroimpact.exact.engine.flow import along, jet, node, slope
 from vibroimpact.exact.engine.motion import carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
-from vibroimpact.exact.engine.replay import FORCING, LENGTH, start_of
+from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
 from vibroimpact.exact.engine.squares import REST, SHARES, SIZE, integrals_of
 from vibroimpact.system.energy import stored
 from vibroimpact.system.glance import Glance, brief
@@ -125,10 +125,13 @@ def account(flow, forms, flights, events, begins, rows):
             balls = carry(balls, walls, boxes, t)
             phase, tail = ahead(phase, tail, q.omega, t)
             left, passed = left - t, passed + t
-        if n < len(events) and row >= 0:
+        if n < len(events):
             event = events[n]
-            kappa = q.kappa if event[3] == IMPACT else 0.0
-            rows[row, IMPACTS + int(event[1]) - 1] += lost(q.epsilon, kappa, event[APPROACH])
+            if not completes_chatter(events, n):
+                passed = event[0]  # sums of lengths would drift
+            if row >= 0:
+                kappa = q.kappa if event[3] == IMPACT else 0.0
+                rows[row, IMPACTS + int(event[1]) - 1] += lost(q.epsilon, kappa, event[APPROACH])
     rows[row, STORED] += held(q.ground, -q.k12, q.epsilon, boxes, balls)
 
 
