@@ -35,7 +35,7 @@ MAKING = {"probe_of_sweep", "plan_of_sweep", "table_of_sweep", "picture_of_sweep
 
 
 def asking(path):
-    copied(ROOT, path).edit("config/config.yaml", "sweeps: {}\n", SWEEPS)
+    copied(ROOT, path).edit("config/config.yaml", "sweeps:\n", SWEEPS)
 
 
 @pytest.fixture(scope="module")

@@ -25,6 +25,17 @@ def horizon_of(case):
     }
 
 
+def map_of(sweep):
+    """The figure of a sweep over both forces."""
+    return {
+        "method": "the points of a sweep, with the cases",
+        "systems": True,
+        "config": sweep_keys(sweep),
+        "inputs": {"table": f"results/sweeps/{sweep}.csv"},
+        "before": [step(*STEPS["tile_of_sweep"])],
+    }
+
+
 PRECISE = [case for case in config["cases"] if exact(case)]
 OBSERVED = {"observation": "regimes.observation"}
 COMPANIONS = {
@@ -52,14 +63,7 @@ COMPANIONS = {
         "before": [step(*STEPS["coexistence"])],
         "tables": {"special_points": "results/regimes/special_points.csv"},
     },
-    "companion_regime_map": {
-        "method": "the cells of all tiles, with the cases",
-        "systems": True,
-        "settings": {"points": "regimes.map.points"},
-        "config": ["regimes.map", "regimes.observation"],
-        "inputs": {"tiles": gather.regime_map(rules.regime_tile.output[0])},
-        "before": [step(*STEPS["regime_tile"])],
-    },
+    **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
     "companion_modulation": {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
@@ -132,5 +136,5 @@ for name, companion in COMPANIONS.items():
 rule companions:
     input:
         rules.coexistence.output,
-        gather.regime_map(rules.regime_tile.output[0]),
+        [path for companion in COMPANIONS.values() for path in companion.get("inputs", {}).values()],
         [path for name in COMPANIONS for path in companion_outputs(name).values()],

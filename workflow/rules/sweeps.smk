@@ -1,5 +1,5 @@
-# Sweeps that a user asks for, not part of the default build: snakemake sweep_NAME. A few points are measured, and by what
-# they took the sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
+# Sweeps: snakemake sweep_NAME; the default build makes the tables that companion figures draw. A few points are measured,
+# and by what they took a sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
 
 import json
 
@@ -33,16 +33,20 @@ def sweep_tiles(wildcards):
     return tiles
 
 
+def sweep_keys(name):
+    """Entries of the config that decide on the numbers of a sweep."""
+    keys = [f"sweeps.{name}.{key}" for key in SWEEPS[name] if key != "limit_hours"]
+    return keys + ["regimes.observation"] * ("regimes" in SWEEPS[name]["observe"])
+
+
 def sweep_provenance(wildcards):
-    sweep = SWEEPS[wildcards.sweep]
-    keys = [f"sweeps.{wildcards.sweep}.{key}" for key in sweep if key != "limit_hours"]
-    keys += ["regimes.observation"] if "regimes" in sweep["observe"] else []
-    return provenance(f"sweep_{wildcards.sweep}", keys, [sweep["case"]], SWEEP_STEPS)
+    name = wildcards.sweep
+    return provenance(f"sweep_{name}", sweep_keys(name), [SWEEPS[name]["case"]], SWEEP_STEPS)
 
 
 SWEEP_PICTURE = "vibroimpact.figures.companions.sweep"
 SWEEP_STEPS = [
-    step("the case at every point, with one or two parameters moved", DOUBLE, "workflow/scripts/sweep_tile.py"),
+    step(*STEPS["tile_of_sweep"]),
     step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),
 ]
 
@@ -80,9 +84,11 @@ checkpoint plan_of_sweep:
         limit_hours=lambda wildcards: SWEEPS[wildcards.sweep].get("limit_hours", LIMIT_HOURS),
         code=code("workflow/scripts/sweep_plan.py"),
     resources:
-        tile_seconds=60,
+        tile_seconds=20,
     log:
         "results/logs/sweeps/{sweep}/plan.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/plan.tsv"
     script:
         "../scripts/sweep_plan.py"
 
@@ -93,6 +99,7 @@ rule tile_of_sweep:
     params:
         request=sweep_request,
         code=code("workflow/scripts/sweep_tile.py"),
+    threads: 1
     log:
         "results/logs/sweeps/{sweep}/{tile}-of-{tiles}.log",
     benchmark:
@@ -111,6 +118,8 @@ rule table_of_sweep:
         code=code("workflow/scripts/sweep_table.py"),
     log:
         "results/logs/sweeps/{sweep}/table.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/table.tsv"
     script:
         "../scripts/sweep_table.py"
 
