@@ -3,12 +3,12 @@
 import json
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.figures.kit.tables import read
+from vibroimpact.regimes.classification import REGIMES
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]
 RHO = 2 * (1 - KAPPA) / (np.pi * (1 + KAPPA))

@@ -17,7 +17,7 @@ from vibroimpact.figures.companions import companion_regime_map as regime_map
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.observations import Asked
-from vibroimpact.sweeps.rows import rows
+from vibroimpact.sweeps.rows import rows as rows_of
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -34,7 +34,7 @@ def swept():
     """A small map of regimes, one of its points not observed."""
     axes = [axis([name], (0.2, 1.4), cells=6) for name in ("f10_hat", "f20_hat")]
     grid, asked = Grid(SYSTEMS["equal"], axes), Asked(("regimes", "fixed_points"), 3, 1, observation=OBSERVATION)
-    table = pd.DataFrame(rows(grid, asked, range(len(grid))))
+    table = pd.DataFrame(rows_of(grid, asked, range(len(grid))))
     table.loc[7, [*REGIMES, "from_rest", "fixed_points", "stable_points"]] = np.nan
     return table
 

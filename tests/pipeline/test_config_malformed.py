@@ -169,7 +169,8 @@ UNUSUAL = [
     "regimes.coexistence.lifetimes.values = [0.9]",
     "regimes.confusion.f10_range = [-1.6, 1.6]",
     "sweeps.regime_map = ...",
-    "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, {along: [f20_hat], range: [0, 1], cells: 2}]",
+    "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
+    "{along: [f20_hat], range: [0, 1], cells: 2}]",
     "regimes.modulation.windows = [1]",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
     "regimes.epsilon.mixed = {case: weak, label: a}",

@@ -38,11 +38,9 @@ def axis(
     Args:
         along: names of parameters of System. scale: one of SPACED, of values.
     """
-    if listed is not None:
-        through = listed
-    else:
-        through = centres(range, cells) if cells else SPACED[scale](*range, values)
-    return Axis(tuple(along), tuple(float(value) for value in through))
+    if listed is None:
+        listed = centres(range, cells) if cells else SPACED[scale](*range, values)
+    return Axis(tuple(along), tuple(float(value) for value in listed))
 
 
 class Grid:

@@ -12,9 +12,8 @@ from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
-from vibroimpact.exact.engine.replay import departures
 from vibroimpact.exact.engine.request import MOST_CYCLES, checked_window, within_walls
-from vibroimpact.exact.engine.squares import squares_of
+from vibroimpact.exact.engine.squares import Squares, squares_of
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals, whole
 
@@ -37,7 +36,7 @@ OUTCOME = np.dtype(
 of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and that of |Y_i'|."""
 
 PLACES = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
-NO_FORMS = np.empty((0, 0, 0, 0))
+NOTHING = Squares(np.empty((0, 0, 0, 0)), np.empty((0, 0)), np.empty((0, 0, 0, 0)))
 MOST_AT_ONCE = 1024
 """Runs in one piece of work: enough that handing it out costs nothing, few enough to share among the cores."""
 
@@ -118,9 +117,9 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     table, seen = np.empty(len(places), OUTCOME), np.zeros((len(places), SEEN))
     observed = cycles - settle
     status, final = np.where(within_walls(starts), FINISHED, INADMISSIBLE), np.full((len(places), 8), np.nan)
-    forms = squares_of(system) if observed else NO_FORMS
+    squares = squares_of(system) if observed else NOTHING
     phase = phase_at(begin, system.Omega)
-    _loop(flow_of(system), forms, starts, phase, cycles, system.period, settle, status, final, seen)
+    _loop(flow_of(system), squares, starts, phase, cycles, system.period, settle, status, final, seen)
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
     for name, place in PLACES.items():
@@ -129,7 +128,7 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
 
 
 @compiled
-def _loop(flow, forms, starts, phase, cycles, period, settle, status, final, seen):
+def _loop(flow, squares, starts, phase, cycles, period, settle, status, final, seen):
     """Run the starts (n, 8) of a piece whose status is FINISHED; fill in what they end with and amount to."""
     no_times, no_samples = np.empty(0), np.empty((0, 8))
     for n in range(len(starts)):
@@ -142,5 +141,4 @@ def _loop(flow, forms, starts, phase, cycles, period, settle, status, final, see
         if status[n] != FINISHED or settle == cycles:
             seen[n, LARGEST:] = np.nan
         else:
-            flights = departures(flow.coefficients, s, events, phase[0], cycles * period)
-            observe(flow, forms, flights, events, settle * period, seen[n])
+            observe(flow, squares, s, events, boxes, phase[0], (settle * period, cycles * period), seen[n])
