@@ -31,21 +31,20 @@ def observe(flow, squares, start, events, final, phase, ends, seen):
     ends: from when on it is seen, and its duration.
     """
     opening, duration = ends
-    leaving, passed, opened = first_departure(start, phase), 0.0, False
+    leaving, opened = first_departure(start, phase), False
     early = first = math.sin(phase), math.cos(phase)
     for n in range(len(events) + 1):
-        left, following = next_departure(flow.coefficients, events, n, leaving, duration, phase)
-        end, late = final, first
+        following = next_departure(flow.coefficients, events, n, leaving, (duration, phase))
+        left, end, late = following.time - leaving.time, final, first
         if n < len(events):
             _count(events[n], opening, seen)
             end = _before(flow.coefficients, following.boxes, events[n]) if left > 0.0 else leaving.boxes
             late = events[n, SINE], events[n, COSINE]
-        passed += left
         motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
-        if not opened and left > 0.0 and passed > opening:
+        if not opened and left > 0.0 and following.time > opening:
             opened = True
-            while passed - left < opening:
-                t = min(opening - (passed - left), left, flow.longest)
+            while following.time - left < opening:
+                t = min(opening - (following.time - left), left, flow.longest)
                 motion, left = glide(flow, motion, t), left - t
             one, two = potential(squares, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine)
             seen[SQUARE], seen[SQUARE + 1] = -one, -two

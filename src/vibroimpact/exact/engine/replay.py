@@ -50,7 +50,9 @@ def departures(q, start, events, start_phase, duration):
         flight[WALLS], flight[WALLS + 1], flight[FORCING] = leaving.walls[0], leaving.walls[1], leaving.phase
         for k in range(4):
             flight[BEFORE + k], flight[BEFORE + 4 + k] = leaving.boxes[k], leaving.balls[k]
-        flight[LENGTH], leaving = next_departure(q, events, n, leaving, duration, start_phase)
+        following = next_departure(q, events, n, leaving, (duration, start_phase))
+        flight[LENGTH] = _length(q, following.time - leaving.time, following.phase - leaving.phase)
+        leaving = following
     return flights
 
 
@@ -63,10 +65,10 @@ def first_departure(start, phase):
 
 
 @inlined
-def next_departure(q, events, n, leaving, duration, start_phase):
-    """The length of the flight before event n, or to the end of the run, and where the next one starts."""
+def next_departure(q, events, n, leaving, end):
+    """Where the flight after event n starts; after the last, the time and the phase of the end of the run."""
     if n == len(events):
-        return _length(q, duration - leaving.time, start_phase - leaving.phase), leaving
+        return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
     i = int(event[1]) - 1
     if event[3] != IMPACT:
@@ -75,10 +77,9 @@ def next_departure(q, events, n, leaving, duration, start_phase):
         boxes, balls = leaving.boxes, leaving.balls
         common = (boxes[2 + i] + q.epsilon * balls[2 + i]) * q.inverse_mass
         boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)
-        return 0.0, Departure(boxes, balls, walls, leaving.time, leaving.phase)
-    length = _length(q, event[0] - leaving.time, event[PHASE] - leaving.phase)
+        return Departure(boxes, balls, walls, leaving.time, leaving.phase)
     boxes, balls = (event[4], event[6], event[8], event[10]), (event[5], event[7], event[9], event[11])
-    return length, Departure(boxes, balls, walls, event[0], event[PHASE])
+    return Departure(boxes, balls, walls, event[0], event[PHASE])
 
 
 @unfolded
