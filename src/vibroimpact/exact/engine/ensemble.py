@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vibroimpact.exact.engine.all_cores import on_all_cores
+from vibroimpact.exact.engine.all_cores import cores, on_all_cores
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.event_log import pack
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
@@ -37,8 +37,8 @@ of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and th
 
 PLACES = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
 NOTHING = Squares(np.empty((0, 0, 0, 0)), np.empty((0, 0)), np.empty((0, 0, 0, 0)))
-MOST_AT_ONCE = 1024
-"""Runs in one piece of work: enough that handing it out costs nothing, few enough to share among the cores."""
+MOST_AT_ONCE, SHARES = 1024, 4
+"""Runs in a piece of work, enough that handing it out costs nothing; pieces for each core, where runs are fewer."""
 
 
 def ensemble(
@@ -82,16 +82,30 @@ def ensemble(
     filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
     order = np.argsort(numbers, axis=None, kind="stable")
     ends = np.cumsum([0, *np.bincount(numbers.ravel(), minlength=len(known))])
-    pieces = []
+    pieces, most = [], min(MOST_AT_ONCE, -(-numbers.size // (SHARES * cores())))
     for system, begin, first, end in zip(known, begins, ends[:-1], ends[1:], strict=True):
-        if end - first > MOST_AT_ONCE:
+        if end - first > most:
             flow_of(system), squares_of(system)  # built once, before the threads share them
         pieces += [
-            (system, starts, cycles, begin, settle, filled, order[place : min(place + MOST_AT_ONCE, end)])
-            for place in range(first, end, MOST_AT_ONCE)
+            (system, starts, cycles, begin, settle, filled, order[place : min(place + most, end)])
+            for place in range(first, end, max(most, 1))
         ]
     on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
     return outcomes
+
+
+def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
+    """Where the runs of one system from starts (n, 8) at tau = 0 end, (n, 8).
+
+    Raises:
+        ArithmeticError: one of them could not be finished.
+        ValueError: as for `ensemble`.
+    """
+    outcomes = ensemble(system, states, cycles, settle=cycles)
+    failed = np.flatnonzero(outcomes["status"] != FINISHED)
+    if len(failed):
+        raise ArithmeticError(f"start {failed[0]}: {STATUSES[int(outcomes['status'][failed[0]])]}")
+    return outcomes["final"]
 
 
 def _combined(systems, states):
