@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-KINDS = ".csv", ".png", ".svg", ".pdf"
+KINDS = ".csv", ".parquet", ".png", ".svg", ".pdf"
 TIME = re.compile(r"seconds|_s$")
 """Columns that hold run times: such a table, and the pictures beside it of the same name, are left out."""
 PARTS = "tiles"

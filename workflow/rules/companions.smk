@@ -31,7 +31,7 @@ def map_of(sweep):
         "method": "the points of a sweep, with the cases",
         "systems": True,
         "config": sweep_keys(sweep),
-        "inputs": {"table": f"results/sweeps/{sweep}.csv"},
+        "inputs": {"table": table_of(sweep)},
         "before": [step(*STEPS["tile_of_sweep"])],
     }
 

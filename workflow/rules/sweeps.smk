@@ -4,6 +4,7 @@
 import json
 
 from vibroimpact_pipeline.config.sweeps import LIMIT_HOURS
+from vibroimpact_pipeline.sweeps.places import table_path, tile_path
 from vibroimpact_pipeline.sweeps.words import announced
 
 SWEEPS = config.get("sweeps", {})
@@ -26,11 +27,15 @@ def sweep_tiles(wildcards):
     with open(checkpoints.plan_of_sweep.get(sweep=sweep).output[0], encoding="utf-8") as file:
         plan = json.load(file)
     number = plan["tiles"]
-    tiles = [f"results/sweeps/{sweep}/tiles/{tile}-of-{number}.csv" for tile in range(1, number + 1)]
+    tiles = [str(tile_path(sweep, tile, number)) for tile in range(1, number + 1)]
     if workflow.is_main_process and sweep not in ANNOUNCED and not all(map(os.path.exists, tiles)):
         ANNOUNCED.add(sweep)
         print(announced(sweep, plan), file=sys.stderr, flush=True)
     return tiles
+
+
+def table_of(name):
+    return table_path(name, SWEEPS[name]["axes"])
 
 
 def sweep_keys(name):
@@ -53,6 +58,7 @@ SWEEP_STEPS = [
 
 wildcard_constraints:
     sweep="[a-z][a-z0-9_]+",
+    kind="csv|parquet",
     tile=r"\d+",
     tiles=r"\d+",
 
@@ -112,21 +118,21 @@ rule table_of_sweep:
     input:
         sweep_tiles,
     output:
-        "results/sweeps/{sweep}.csv",
+        "results/sweeps/{sweep}.{kind}",
     params:
         request=sweep_request,
         code=code("workflow/scripts/sweep_table.py"),
     log:
-        "results/logs/sweeps/{sweep}/table.log",
+        "results/logs/sweeps/{sweep}/table_{kind}.log",
     benchmark:
-        "results/benchmarks/sweeps/{sweep}/table.tsv"
+        "results/benchmarks/sweeps/{sweep}/table_{kind}.tsv"
     script:
         "../scripts/sweep_table.py"
 
 
 rule picture_of_sweep:
     input:
-        table=rules.table_of_sweep.output[0],
+        table=lambda wildcards: table_of(wildcards.sweep),
     output:
         **figure_files("results/sweeps/{sweep}/figure"),
     params:
@@ -141,7 +147,7 @@ rule picture_of_sweep:
 
 rule page_of_sweep:
     input:
-        table=rules.table_of_sweep.output[0],
+        table=lambda wildcards: table_of(wildcards.sweep),
         plan="results/sweeps/{sweep}/plan.json",
         svg=rules.picture_of_sweep.output.svg,
     output:
@@ -161,6 +167,6 @@ for name in SWEEPS:
         name:
             f"sweep_{name}"
         input:
-            f"results/sweeps/{name}.csv",
+            table_of(name),
             f"results/sweeps/{name}.html",
             figure_files(f"results/sweeps/{name}/figure").values(),

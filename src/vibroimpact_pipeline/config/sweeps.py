@@ -14,7 +14,7 @@ from vibroimpact_pipeline.config.regimes import Cycles, Line, costs
 from vibroimpact_pipeline.config.section import Problem, Section
 from vibroimpact_pipeline.config.system import unsound
 
-POINTS = 1_000_000
+POINTS = 4_000_000
 """Points of a sweep: its table is read and drawn in the memory of one job."""
 LIMIT_HOURS = 1.0
 """Core hours that a sweep may take unless it says otherwise."""
