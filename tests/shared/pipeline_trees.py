@@ -16,9 +16,9 @@ NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*"
+    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "figure.*"
 )
-SWEPT_BY_DEFAULT = "regime_map"
+SWEPT_BY_DEFAULT = {"regime_map", "regime_map.csv"}
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -93,7 +93,7 @@ def copied(source: Path, path: Path) -> Tree:
 
 def not_by_default(folder, names) -> set[str]:
     """Results of targets that a default build leaves alone."""
-    others = {name for name in names if Path(folder).name == "sweeps" and not name.startswith(SWEPT_BY_DEFAULT)}
+    others = set(names) - SWEPT_BY_DEFAULT if Path(folder).name == "sweeps" else set()
     return NOT_BY_DEFAULT(folder, names) | others
 
 

@@ -136,5 +136,5 @@ for name, companion in COMPANIONS.items():
 rule companions:
     input:
         rules.coexistence.output,
-        [path for companion in COMPANIONS.values() for path in companion.get("inputs", {}).values()],
+        [table_of("regime_map")] if "regime_map" in SWEEPS else [],
         [path for name in COMPANIONS for path in companion_outputs(name).values()],
