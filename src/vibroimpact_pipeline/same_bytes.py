@@ -6,9 +6,11 @@ import re
 import sys
 from pathlib import Path
 
-KINDS = ".csv", ".png", ".svg", ".pdf"
+KINDS = ".csv", ".parquet", ".png", ".svg", ".pdf"
 TIME = re.compile(r"seconds|_s$")
 """Columns that hold run times: such a table, and the pictures beside it of the same name, are left out."""
+PARTS = "tiles"
+"""What holds the parts of sweeps, of which run times decide how many there are: the whole tables are compared."""
 
 
 def digests(folder) -> dict[str, str]:
@@ -16,7 +18,7 @@ def digests(folder) -> dict[str, str]:
     folder = Path(folder)
     files = sorted(path for path in folder.rglob("*") if path.suffix in KINDS and path.is_file())
     timed = {path.with_suffix("") for path in files if path.suffix == ".csv" and has_time(path)}
-    kept = [path for path in files if path.with_suffix("") not in timed]
+    kept = [path for path in files if path.with_suffix("") not in timed and path.parent.name != PARTS]
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in kept}
 
 

@@ -3,12 +3,12 @@
 import json
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.figures.kit.tables import read
+from vibroimpact.regimes.classification import REGIMES
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]
 RHO = 2 * (1 - KAPPA) / (np.pi * (1 + KAPPA))
@@ -133,13 +133,11 @@ def test_statistics_of_the_modulated_response_are_those_of_its_samples(table):
         assert row["modulation periods"] * row["mean length in cycles"] <= len(amplitudes)
 
 
-def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_tiles(built, table):
+def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
     shares = table("figures/companion_regime_map.csv").query("series == 'cell'")
-    tiles = pd.concat(pd.read_csv(path) for path in sorted((built / "results/regimes/map").glob("*.csv")))
-    names = list(tiles.columns[:10])
+    both, names = table("sweeps/regime_map.csv"), [*REGIMES]
     np.testing.assert_allclose(shares[names].sum(axis=1), 1.0, atol=1e-12)
     assert (shares["stable_points"] <= shares["fixed_points"]).all()
-    both = tiles.sort_values(["f10_hat", "f20_hat"], ignore_index=True)
     assert (both["from_rest"].to_numpy() == shares["label"].to_numpy()).all()
     assert (both[names].to_numpy() == shares[names].to_numpy()).all()
     assert all(both[name][both["from_rest"] == name].gt(0).all() for name in names)

@@ -14,6 +14,10 @@ from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
 from vibroimpact.figures.companions import companion_modulation as modulation
 from vibroimpact.figures.companions import companion_regime_map as regime_map
+from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.observations import Asked
+from vibroimpact.sweeps.rows import rows as rows_of
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -26,9 +30,13 @@ MODULES = {
 }
 
 
-def map_tile(number, tiles):
-    system = SYSTEMS["equal"]
-    return regime_map.compute_tile(system, number, tiles, 6, (0.2, 1.4), (0.2, 1.4), 3, 1, OBSERVATION)
+def swept():
+    """A small map of regimes, one of its points not observed."""
+    axes = [axis([name], (0.2, 1.4), cells=6) for name in ("f10_hat", "f20_hat")]
+    grid, asked = Grid(SYSTEMS["equal"], axes), Asked(("regimes", "fixed_points"), 3, 1, observation=OBSERVATION)
+    table = pd.DataFrame(rows_of(grid, asked, range(len(grid))))
+    table.loc[7, [*REGIMES, "from_rest", "fixed_points", "stable_points"]] = np.nan
+    return table
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +51,7 @@ def tables():
             observation=OBSERVATION,
             lifetimes=LIFETIMES,
         ),
-        "regime_map": regime_map.compute([map_tile(0, 2), map_tile(1, 2)], 6, SYSTEMS),
+        "regime_map": regime_map.compute(swept(), SYSTEMS),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
@@ -141,11 +149,16 @@ def test_exponents_have_errors_and_windows_show_what_converges(tables):
     assert rest["uncertainty"].notna().all()
 
 
-def test_tiles_make_up_the_map(tables):
-    whole = regime_map.compute([map_tile(0, 1)], 6, SYSTEMS)["csv"]
-    pd.testing.assert_frame_equal(whole, tables["regime_map"]["csv"])
-    with pytest.raises(ValueError, match="tiles"):
-        regime_map.compute([map_tile(0, 2)], 6, SYSTEMS)
+def test_the_map_has_every_point_and_shows_those_without_a_value(tables, figures):
+    cells = tables["regime_map"]["csv"].query("series == 'cell'")
+    assert cells["f10_hat"].tolist() == np.repeat(cells["f20_hat"][:6], 6).tolist()
+    assert cells["label"].isna().tolist() == [number == 7 for number in range(36)]
+    assert {axes.patch.get_hatch() for axes in figures["regime_map"].axes[: len(REGIMES)]} == {"xxx"}
+    whole = (
+        tables["regime_map"]["csv"].query("label.notna()").assign(chaotic=lambda table: table["chaotic"].fillna(0.0))
+    )
+    drawn = regime_map.draw({"csv": whole[~((whole["f10_hat"] == cells["f10_hat"][7]) & (whole["series"] == "cell"))]})
+    assert drawn.axes[0].patch.get_hatch() is None
 
 
 def test_borders_run_between_cells_that_differ():

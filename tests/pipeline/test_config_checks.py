@@ -131,7 +131,7 @@ def test_overrides_get_their_types_from_their_text():
     [
         ({"cases": "{weak"}, "cases: expected ',' or '}', but got '<stream end>'"),
         ({"system": {"kappa": "0100"}}, "system.kappa: 0100 means 64 in YAML: write that, or '0100' for the text"),
-        ({"regimes": {"map": ["[1"]}}, "regimes.map[0]: expected ',' or ']', but got '<stream end>'"),
+        ({"regimes": {"basins": ["[1"]}}, "regimes.basins[0]: expected ',' or ']', but got '<stream end>'"),
         ({"system": {"kappa": "[" * 50}}, "system.kappa: nested deeper than 20 levels"),
     ],
 )

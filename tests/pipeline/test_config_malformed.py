@@ -31,6 +31,7 @@ def test_a_malformed_config_is_refused(edits, lines):
     assert " | ".join(said(edited, edits)) == lines
 
 
+LINES = TEXT.count("\n")
 MOVING = "    periodic: {case: equal, cycles: 1}\n"
 SYSTEM, CASES, EPSILON, KAPPA = "system:\n", "cases:\n", "epsilon: 0.1\n", "kappa: 0.65\n"
 
@@ -42,7 +43,7 @@ SYSTEM, CASES, EPSILON, KAPPA = "system:\n", "cases:\n", "epsilon: 0.1\n", "kapp
         (KAPPA, "kappa: [0.65\n", "line 8, column 14: expected ',' or ']', but got ':'"),
         (KAPPA, "\tkappa: 0.65\n", "line 7, column 3: found character '\\t' that cannot start any token"),
         (KAPPA, "kappa: 0.65\0\n", "unacceptable character #x0000: special characters are not allowed"),
-        (KAPPA, 'kappa: "0.65\n', "line 156, column 1: found unexpected end of stream"),
+        (KAPPA, 'kappa: "0.65\n', f"line {LINES + 1}, column 1: found unexpected end of stream"),
         (KAPPA, "kappa: *name\n", "line 7, column 10: found undefined alias 'name'"),
         (KAPPA, "kappa: &name [*name]\n", "line 7, column 17: alias *name stands inside a value that has a name"),
         (KAPPA, "kappa: &name {a: *name}\n", "line 7, column 20: alias *name stands inside a value that has a name"),
@@ -88,7 +89,7 @@ SYSTEM, CASES, EPSILON, KAPPA = "system:\n", "cases:\n", "epsilon: 0.1\n", "kapp
         (SYSTEM, SYSTEM + '  "a\\nb": 1\n', "system.'a\\nb': unknown key"),
         (SYSTEM, SYSTEM + '  "\\e[31m": 1\n', "system.'\\x1b[31m': unknown key"),
         (SYSTEM, SYSTEM + f"  ? {'k' * 80_000}\n  : 1\n", "system.'kkkkkkkkkkkkkkkkkkkkkkkkkkk...kkk"),
-        (TEXT, TEXT + "---\n" + TEXT, "line 156, column 1: but found another document"),
+        (TEXT, TEXT + "---\n" + TEXT, f"line {LINES + 1}, column 1: but found another document"),
         (TEXT, "%YAML 9.9\n---\n" + TEXT, "line 1, column 1: found incompatible YAML document"),
         (TEXT, "", "nothing is not a mapping of system, cases and figures"),
         (TEXT, "# a comment\n", "nothing is not a mapping of system, cases and figures"),
@@ -166,9 +167,10 @@ UNUSUAL = [
     "regimes.branches.paths = [{along: [kappa, epsilon], range: [0.1, 0.5]}]",
     "regimes.branches.paths = [{along: [sigma_e_hat], range: [-5, 5]}]",
     "regimes.coexistence.lifetimes.values = [0.9]",
-    "regimes.map.points = 200 & regimes.map.tiles = 100",
-    "regimes.map.tiles = 900",
-    "regimes.map.f10_range = [-1.6, 1.6]",
+    "regimes.confusion.f10_range = [-1.6, 1.6]",
+    "sweeps.regime_map = ...",
+    "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
+    "{along: [f20_hat], range: [0, 1], cells: 2}]",
     "regimes.modulation.windows = [1]",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
     "regimes.epsilon.mixed = {case: weak, label: a}",

@@ -8,6 +8,7 @@ FILES = {
     "figures/a.csv": "x,y\n1,2\n",
     "figures/a.png": "picture",
     "figures/a.provenance.json": "seconds: 1",
+    "sweeps/map/tiles/1-of-3.csv": "x,y\n1,2\n",
     "chart.csv": "method,seconds_per_cycle\nours,1e-6\n",
     "chart.svg": "drawn from that",
     "models.csv": "figure,cost_s,note\n",
@@ -24,7 +25,7 @@ def builds(tmp_path):
     return tmp_path
 
 
-def test_tables_of_times_are_left_out_with_their_pictures(builds):
+def test_tables_of_times_are_left_out_with_their_pictures_and_parts_that_times_have_cut(builds):
     assert set(digests(builds / "first")) == {"figures/a.csv", "figures/a.png"}
 
 

@@ -1,13 +1,15 @@
 """Tiles of a sweep: those of another question, of another cut, or too few are not gathered."""
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from chapter import PARAMETERS
-from vibroimpact.figures.kit.tables import write
+from vibroimpact.figures.kit.tables import read, write
 from vibroimpact.sweeps.request import fingerprint, understood
 from vibroimpact.sweeps.rows import columns, rows
-from vibroimpact_pipeline.sweeps.tiles import OF, NotOfThisSweep, gathered, is_of, tile_path
+from vibroimpact_pipeline.sweeps.places import MOST_IN_CSV, table_path, tile_path
+from vibroimpact_pipeline.sweeps.tiles import OF, NotOfThisSweep, gathered, is_of
 
 REQUEST = {
     "system": {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0},
@@ -40,6 +42,32 @@ def test_tiles_are_one_table_in_the_order_of_the_points(two):
     assert table["kappa"].tolist() == pytest.approx([0.5, 0.55, 0.6, 0.65, 0.7])
     assert OF not in table
     assert (table["failed"] == "").all()
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_a_table_comes_back_as_it_was(kind, tmp_path):
+    """Numbers to the last digit, missing ones missing, and nothing failed where nothing is said to have failed."""
+    table = pd.DataFrame(
+        {
+            "point": range(4),
+            "kappa": [0.1, 1 / 3, 0.5, 5e-324],
+            "rms_X1": [np.nan, np.inf, -0.0, 2**0.5],
+            "from_rest": ["symmetric", None, "no impacts", "unsettled"],
+            "failed": ["", "x is 1, not 2\u2026", "", ""],
+        }
+    )
+    write(table, tmp_path / f"table.{kind}")
+    pd.testing.assert_frame_equal(read(tmp_path / f"table.{kind}"), table, check_exact=True)
+    first = (tmp_path / f"table.{kind}").read_bytes()
+    write(table, tmp_path / f"table.{kind}")
+    assert (tmp_path / f"table.{kind}").read_bytes() == first
+
+
+def test_a_table_of_more_than_a_million_points_is_parquet():
+    long, short = {"along": ["kappa"], "values": MOST_IN_CSV // 2}, {"along": ["epsilon"], "listed": [0.1, 0.2]}
+    assert table_path("mine", [long, short]) == "results/sweeps/mine.csv"
+    assert table_path("mine", [{**long, "values": MOST_IN_CSV // 2 + 1}, short]) == "results/sweeps/mine.parquet"
+    assert table_path("mine", [{"cells": 2000}, {"cells": 1000}]) == "results/sweeps/mine.parquet"
 
 
 def test_a_fingerprint_is_of_all_that_is_asked():

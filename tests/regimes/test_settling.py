@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.character import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
 from vibroimpact.regimes.classification import (
     APERIODIC,
@@ -25,7 +26,6 @@ from vibroimpact.regimes.classification import (
 )
 from vibroimpact.regimes.confusion import confusion
 from vibroimpact.regimes.lyapunov import Exponent
-from vibroimpact.regimes.regime_map import tile
 from vibroimpact.regimes.settling import settle
 
 ENDS = {*PERIODIC, IDLE, NO_IMPACTS}
@@ -103,7 +103,7 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
 def test_names_last_fifty_times_as_long(chapter, observation):
     """A coarse map; `snakemake confusion` makes the whole table (docs/regimes.md)."""
     counts = Counter()
-    for f10, f20 in tile((0.0, 1.6), (0.0, 1.6), 4, 0, 1):
+    for f10, f20 in plane_of_forces((0.0, 1.6), (0.0, 1.6), 4):
         counts += confusion(chapter(f10, f20), starts(4, seed=4), observation, times=50)
     assert counts.total() == 64
     settled = {(name, later): n for (name, later), n in counts.items() if name != UNSETTLED}
@@ -135,3 +135,15 @@ def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, ob
         assert not (run.events["module"] == 2).any()
         ended += observe(system, run.final, observation.window, observation.nearness).repeats == 1
     assert ended >= 2
+
+
+def test_uncoupled_modules_are_classified_apart(chapter, observation):
+    """Module 1 does the same whatever drives module 2."""
+    states = starts(4, seed=3)[1:]
+    amplitudes = [
+        settle(chapter(1.2, f20, alpha12_hat=0.0, gamma12_hat=0.0), states, observation) for f20 in (0.9, 1.5)
+    ]
+    for one, other in zip(*amplitudes, strict=True):
+        assert one.repeats == other.repeats == 1
+        assert one.name != other.name
+        assert one.mean_amplitudes[0] == pytest.approx(other.mean_amplitudes[0], rel=1e-6)

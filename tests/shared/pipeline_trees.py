@@ -16,9 +16,9 @@ NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report", "api", "animations", "force_sweep", "figure_check", "sweeps*", "*_full*", "confusion*"
+    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "figure.*"
 )
-"""Results of targets that a default build leaves alone."""
+SWEPT_BY_DEFAULT = {"regime_map", "regime_map.csv"}
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -91,12 +91,18 @@ def copied(source: Path, path: Path) -> Tree:
     return Tree(path)
 
 
+def not_by_default(folder, names) -> set[str]:
+    """Results of targets that a default build leaves alone."""
+    others = set(names) - SWEPT_BY_DEFAULT if Path(folder).name == "sweeps" else set()
+    return NOT_BY_DEFAULT(folder, names) | others
+
+
 def with_results(source: Path, path: Path) -> Tree:
     """A copy that starts from what the source has built, unless a build is going on there: Snakemake makes the rest."""
     tree = copied(source, path)
     records = source / ".snakemake"
     if (source / "results").exists() and not any((records / "locks").glob("*")):
-        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=NOT_BY_DEFAULT)
+        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=not_by_default)
         for part in ("metadata", "incomplete"):
             shutil.copytree(records / part, path / ".snakemake" / part)
     return tree

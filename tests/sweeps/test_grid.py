@@ -15,6 +15,10 @@ def test_values_over_a_range_have_both_ends():
     assert axis(["epsilon"], [0.001, 1], 4, "logarithmic").values == pytest.approx((0.001, 0.01, 0.1, 1))
 
 
+def test_cells_have_their_middles():
+    assert axis(["kappa"], [0.2, 0.7], cells=5).values == pytest.approx((0.25, 0.35, 0.45, 0.55, 0.65))
+
+
 def test_parameters_move_together_and_the_others_stay():
     grid = Grid(BASE, [axis(["kappa"], [0.2, 0.8], 3), TOGETHER])
     assert len(grid) == 6

@@ -7,11 +7,10 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.classification import starts as spread_starts
-from vibroimpact.regimes.regime_map import cell
-from vibroimpact.regimes.settling import Observation
+from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps import observations
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import AMPLITUDES, COLUMNS, OBSERVATIONS, Asked
+from vibroimpact.sweeps.observations import AMPLITUDES, COLUMNS, OBSERVATIONS, Asked, observed
 from vibroimpact.sweeps.rows import columns, rows
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
@@ -44,11 +43,19 @@ def test_amplitudes_are_those_of_runs_that_were_sampled(found):
         assert found[0][f"ball_speed_{i}"] == pytest.approx(speed, rel=1e-2)
 
 
-def test_regimes_and_fixed_points_are_those_of_a_cell_of_the_map(found):
-    one = cell(BASE.with_(f20_hat=0.89), spread_starts(3, 1), Observation(**OBSERVED))
-    assert {name: found[0][name] for name in REGIMES} == one.shares
-    assert found[0]["from_rest"] == one.from_rest
-    assert (found[0]["fixed_points"], found[0]["stable_points"]) == (one.fixed_points, one.stable_points)
+def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(found):
+    system = BASE.with_(f20_hat=0.89)
+    names = [regime.name for regime in settle(system, spread_starts(3, 1), Observation(**OBSERVED))]
+    assert {name: found[0][name] for name in REGIMES} == {name: names.count(name) / 3 for name in REGIMES}
+    assert found[0]["from_rest"] == names[0]
+    assert found[0]["fixed_points"] == len(vi.fixed_points(system))
+
+
+def test_a_point_and_its_mirror_image():
+    asked = Asked(("regimes", "fixed_points"), starts=1, observation=OBSERVED)
+    for f10, f20 in ((1.0, 0.89), (1.2, 1.3)):
+        ours, mirrored = (observed(BASE.with_(f10_hat=sign * f10, f20_hat=sign * f20), asked) for sign in (1, -1))
+        assert ours == mirrored
 
 
 def test_orbits_are_motions_of_the_system(found):

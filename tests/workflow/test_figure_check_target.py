@@ -83,7 +83,7 @@ def test_every_figure_of_a_build_has_a_record_in_all_its_files(built):
     ("figure", "key"),
     [
         ("companion_branches", "regimes.branches.paths"),
-        ("companion_regime_map", "regimes.map"),
+        ("companion_regime_map", "sweeps.regime_map.axes"),
         ("companion_modulation", "cases.weak.f20_hat"),
         ("companion_basins", "system.kappa"),
         ("companion_horizon", "cases.weak.simulation"),

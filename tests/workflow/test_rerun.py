@@ -112,7 +112,7 @@ TABLES = {
     "fixed_points": "fixed_points/weak.csv",
     "orbits": "orbits/weak.csv",
     "verdicts": "verdicts/weak.csv",
-    "regime_tile": "regimes/map/1-of-4.csv",
+    "table_of_sweep": "sweeps/regime_map.csv",
 }
 
 

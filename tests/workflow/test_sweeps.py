@@ -35,7 +35,7 @@ MAKING = {"probe_of_sweep", "plan_of_sweep", "table_of_sweep", "picture_of_sweep
 
 
 def asking(path):
-    copied(ROOT, path).edit("config/config.yaml", "sweeps: {}\n", SWEEPS)
+    copied(ROOT, path).edit("config/config.yaml", "sweeps:\n", SWEEPS)
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +86,7 @@ def test_a_sweep_has_a_plan_pictures_and_a_page(swept):
             assert (swept / f"results/sweeps/{sweep}/figure.{kind}").stat().st_size > 100
         page = (swept / f"results/sweeps/{sweep}.html").read_text(encoding="utf-8")
         assert words in page
+        assert "could not be observed" not in page
         assert "Content-Security-Policy" in page
         assert "http://" not in page.replace("http://www.w3.org", "")
 
@@ -96,6 +97,12 @@ def test_every_file_and_column_of_a_sweep_is_in_the_data_dictionary(swept):
         (file,) = (file for file in known if file.has(str(path.relative_to(swept.path))))
         moved = {"epsilon", "kappa", "f10_hat", "f20_hat"} if path.stem == "figure" else set()
         assert set(pd.read_csv(path).columns) <= set(file.columns) | moved
+
+
+def test_a_sweep_of_more_than_a_million_points_is_planned_with_a_table_that_computers_read(swept):
+    axes = "[{along: [kappa], range: [0.1, 0.9], values: 600000}, {along: [epsilon], listed: [0.1, 0.2]}]"
+    big = f"sweeps={{big: {{case: equal, axes: {axes}, observe: [fixed_points]}}}}"
+    assert "output: results/sweeps/big.parquet\n" in swept.dry_run("--config", big, "--", "sweep_big")
 
 
 def test_what_is_made_stays_whatever_a_tile_should_take(swept):

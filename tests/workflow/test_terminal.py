@@ -225,7 +225,7 @@ def test_jobs_that_come_to_be_known_while_others_run_are_one_line_too(handler):
 
 def test_a_job_that_takes_long_is_named_once_with_the_time_of_the_last_build(handler):
     Path("old.tsv").write_text("s\th:m:s\n92.4\t0:01:32\n")
-    shown(handler, jobs(regime_tile=2), started(1, "regime_tile", 10, "old.tsv", scatteritem="2-of-4"))
+    shown(handler, jobs(tile_of_sweep=2), started(1, "tile_of_sweep", 10, "old.tsv", tile="2", tiles="4"))
     handler.tick(24)
     assert shown(handler) == []
     handler.tick(26)

@@ -38,6 +38,17 @@ def motions_of(case):
     }
 
 
+def map_of(sweep):
+    """The figure of a sweep over both forces."""
+    return {
+        "method": "the points of a sweep, with the cases",
+        "systems": True,
+        "config": sweep_keys(sweep),
+        "inputs": {"table": table_of(sweep)},
+        "before": [step(*STEPS["tile_of_sweep"])],
+    }
+
+
 PRECISE = [case for case in config["cases"] if exact(case)]
 OBSERVED = {"observation": "regimes.observation"}
 COMPANIONS = {
@@ -70,14 +81,7 @@ COMPANIONS = {
         "before": [step(*STEPS["coexistence"])],
         "tables": {"special_points": "results/regimes/special_points.csv"},
     },
-    "companion_regime_map": {
-        "method": "the cells of all tiles, with the cases",
-        "systems": True,
-        "settings": {"points": "regimes.map.points"},
-        "config": ["regimes.map", "regimes.observation"],
-        "inputs": {"tiles": gather.regime_map(rules.regime_tile.output[0])},
-        "before": [step(*STEPS["regime_tile"])],
-    },
+    **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
     "companion_modulation": {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
@@ -150,5 +154,5 @@ for name, companion in COMPANIONS.items():
 rule companions:
     input:
         rules.coexistence.output,
-        gather.regime_map(rules.regime_tile.output[0]),
+        [table_of("regime_map")] if "regime_map" in SWEEPS else [],
         [path for name in COMPANIONS for path in companion_outputs(name).values()],

@@ -19,10 +19,10 @@ STEPS = {
         DOUBLE,
         "workflow/scripts/simulate.py",
     ),
-    "regime_tile": (
-        "direct integration of (10.1) from several starts in every cell; fixed points of the theory",
+    "tile_of_sweep": (
+        "what is asked, at every point of the case with one or two parameters moved",
         DOUBLE,
-        "workflow/scripts/regime_tile.py",
+        "workflow/scripts/sweep_tile.py",
     ),
     "coexistence": (
         "direct integration of (10.1) until a periodic motion catches a start, censored; tori swept both ways",

@@ -1,27 +1,7 @@
-# What the exact system does: branches, a map of regimes, modulated motions in numbers, basins, the limit of small
-# epsilon. The map is computed in tiles, a job each, so that a finer one spreads over the cores of any executor.
+# What the exact system does: branches, where chaos and periodic motions coexist, modulated motions in numbers, basins, the
+# limit of small epsilon.
 
 REGIMES = config["regimes"]
-
-
-scattergather:
-    regime_map=REGIMES["map"]["tiles"],
-
-
-rule regime_tile:
-    output:
-        "results/regimes/map/{scatteritem}.csv",
-    params:
-        system=next(iter(all_systems().values())),
-        settings={key: value for key, value in REGIMES["map"].items() if key != "tiles"},
-        observation=REGIMES["observation"],
-        code=code("workflow/scripts/regime_tile.py"),
-    log:
-        "results/logs/regimes/map/{scatteritem}.log",
-    benchmark:
-        "results/benchmarks/regimes/map/{scatteritem}.tsv"
-    script:
-        "../scripts/regime_tile.py"
 
 
 rule coexistence:
@@ -49,7 +29,7 @@ rule confusion:
         "results/regimes/confusion.csv",
     params:
         system=next(iter(all_systems().values())),
-        settings={key: REGIMES["map"][key] for key in ("f10_range", "f20_range")} | REGIMES["confusion"],
+        settings=REGIMES["confusion"],
         observation=REGIMES["observation"],
         code=code("workflow/scripts/confusion.py"),
     log:

@@ -1,9 +1,10 @@
-# Sweeps that a user asks for, not part of the default build: snakemake sweep_NAME. A few points are measured, and by what
-# they took the sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
+# Sweeps: snakemake sweep_NAME; the default build makes the tables that companion figures draw. A few points are measured,
+# and by what they took a sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
 
 import json
 
 from vibroimpact_pipeline.config.sweeps import LIMIT_HOURS
+from vibroimpact_pipeline.sweeps.places import table_path, tile_path
 from vibroimpact_pipeline.sweeps.words import announced
 
 SWEEPS = config.get("sweeps", {})
@@ -26,29 +27,38 @@ def sweep_tiles(wildcards):
     with open(checkpoints.plan_of_sweep.get(sweep=sweep).output[0], encoding="utf-8") as file:
         plan = json.load(file)
     number = plan["tiles"]
-    tiles = [f"results/sweeps/{sweep}/tiles/{tile}-of-{number}.csv" for tile in range(1, number + 1)]
+    tiles = [str(tile_path(sweep, tile, number)) for tile in range(1, number + 1)]
     if workflow.is_main_process and sweep not in ANNOUNCED and not all(map(os.path.exists, tiles)):
         ANNOUNCED.add(sweep)
         print(announced(sweep, plan), file=sys.stderr, flush=True)
     return tiles
 
 
+def table_of(name):
+    return table_path(name, SWEEPS[name]["axes"])
+
+
+def sweep_keys(name):
+    """Entries of the config that decide on the numbers of a sweep."""
+    keys = [f"sweeps.{name}.{key}" for key in SWEEPS[name] if key != "limit_hours"]
+    return keys + ["regimes.observation"] * ("regimes" in SWEEPS[name]["observe"])
+
+
 def sweep_provenance(wildcards):
-    sweep = SWEEPS[wildcards.sweep]
-    keys = [f"sweeps.{wildcards.sweep}.{key}" for key in sweep if key != "limit_hours"]
-    keys += ["regimes.observation"] if "regimes" in sweep["observe"] else []
-    return provenance(f"sweep_{wildcards.sweep}", keys, [sweep["case"]], SWEEP_STEPS)
+    name = wildcards.sweep
+    return provenance(f"sweep_{name}", sweep_keys(name), [SWEEPS[name]["case"]], SWEEP_STEPS)
 
 
 SWEEP_PICTURE = "vibroimpact.figures.companions.sweep"
 SWEEP_STEPS = [
-    step("the case at every point, with one or two parameters moved", DOUBLE, "workflow/scripts/sweep_tile.py"),
+    step(*STEPS["tile_of_sweep"]),
     step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),
 ]
 
 
 wildcard_constraints:
     sweep="[a-z][a-z0-9_]+",
+    kind="csv|parquet",
     tile=r"\d+",
     tiles=r"\d+",
 
@@ -80,9 +90,11 @@ checkpoint plan_of_sweep:
         limit_hours=lambda wildcards: SWEEPS[wildcards.sweep].get("limit_hours", LIMIT_HOURS),
         code=code("workflow/scripts/sweep_plan.py"),
     resources:
-        tile_seconds=60,
+        tile_seconds=20,
     log:
         "results/logs/sweeps/{sweep}/plan.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/plan.tsv"
     script:
         "../scripts/sweep_plan.py"
 
@@ -93,6 +105,7 @@ rule tile_of_sweep:
     params:
         request=sweep_request,
         code=code("workflow/scripts/sweep_tile.py"),
+    threads: 1
     log:
         "results/logs/sweeps/{sweep}/{tile}-of-{tiles}.log",
     benchmark:
@@ -105,19 +118,21 @@ rule table_of_sweep:
     input:
         sweep_tiles,
     output:
-        "results/sweeps/{sweep}.csv",
+        "results/sweeps/{sweep}.{kind}",
     params:
         request=sweep_request,
         code=code("workflow/scripts/sweep_table.py"),
     log:
-        "results/logs/sweeps/{sweep}/table.log",
+        "results/logs/sweeps/{sweep}/table_{kind}.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/table_{kind}.tsv"
     script:
         "../scripts/sweep_table.py"
 
 
 rule picture_of_sweep:
     input:
-        table=rules.table_of_sweep.output[0],
+        table=lambda wildcards: table_of(wildcards.sweep),
     output:
         **figure_files("results/sweeps/{sweep}/figure"),
     params:
@@ -132,7 +147,7 @@ rule picture_of_sweep:
 
 rule page_of_sweep:
     input:
-        table=rules.table_of_sweep.output[0],
+        table=lambda wildcards: table_of(wildcards.sweep),
         plan="results/sweeps/{sweep}/plan.json",
         svg=rules.picture_of_sweep.output.svg,
     output:
@@ -152,6 +167,6 @@ for name in SWEEPS:
         name:
             f"sweep_{name}"
         input:
-            f"results/sweeps/{name}.csv",
+            table_of(name),
             f"results/sweeps/{name}.html",
             figure_files(f"results/sweeps/{name}/figure").values(),

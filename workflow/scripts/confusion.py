@@ -6,9 +6,9 @@ import pandas as pd
 
 from job import running
 from vibroimpact.figures.kit import tables
+from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.regimes.confusion import confusion
-from vibroimpact.regimes.regime_map import tile
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.system import System
 
@@ -17,7 +17,7 @@ def main(parameters: dict, settings: dict, observation: dict, output) -> None:
     """Gather over the cells of a coarse map of forcing amplitudes."""
     system, states = System(**parameters), starts(settings["starts"], settings["seed"])
     counts = Counter()
-    for f10, f20 in tile(settings["f10_range"], settings["f20_range"], settings["points"], 0, 1):
+    for f10, f20 in plane_of_forces(settings["f10_range"], settings["f20_range"], settings["points"]):
         cell = system.with_(f10_hat=f10, f20_hat=f20)
         counts += confusion(cell, states, Observation(**observation), settings["times"])
     rows = [(name, later, counts[name, later]) for name in REGIMES for later in REGIMES if counts[name, later]]

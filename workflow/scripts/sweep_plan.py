@@ -8,7 +8,8 @@ from job import running
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.sweeps.cost import Cost, tiles
 from vibroimpact.sweeps.request import fingerprint
-from vibroimpact_pipeline.sweeps.tiles import is_of, tile_path
+from vibroimpact_pipeline.sweeps.places import tile_path
+from vibroimpact_pipeline.sweeps.tiles import is_of
 
 
 def main(name: str, request: dict, probe, target: float, limit_hours: float, output) -> None:

@@ -3,6 +3,7 @@
 import pandas as pd
 
 from job import running
+from vibroimpact.exact.engine.all_cores import at_most
 from vibroimpact.figures.kit import tables
 from vibroimpact.sweeps.request import fingerprint, understood
 from vibroimpact.sweeps.rows import columns, rows
@@ -17,6 +18,6 @@ def main(request: dict, number: int, tiles: int, output) -> None:
 
 
 if "snakemake" in globals():
-    with running(snakemake):
+    with running(snakemake), at_most(snakemake.threads):
         number, tiles = int(snakemake.wildcards.tile), int(snakemake.wildcards.tiles)
         main(snakemake.params.request, number, tiles, snakemake.output[0])

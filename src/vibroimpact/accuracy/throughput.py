@@ -1,14 +1,12 @@
 """Speed and memory of very many runs: what an ensemble costs beside the runs themselves."""
 
-import os
 import re
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from vibroimpact.accuracy.timing import shortest_time
-from vibroimpact.exact.engine.all_cores import cores
+from vibroimpact.exact.engine.all_cores import at_most, cores
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate, simulate_many
 from vibroimpact.system import System
@@ -37,7 +35,7 @@ def throughput(system: System, starts: int) -> dict[str, float]:
     all_cores = shortest_time(lambda: ensemble(system, more, SHORT), SECONDS) / len(more)
     single = shortest_time(lambda: simulate_many(system, few, SHORT), SECONDS) / len(few)
     count = cores()
-    with _one_core():
+    with at_most(1):
         one_core = shortest_time(lambda: ensemble(system, more, SHORT), SECONDS) / len(more)
         own = shortest_time(lambda: [simulate(system, state, LONG) for state in few], SECONDS)
         plain = shortest_time(lambda: ensemble(system, few, LONG, settle=LONG), SECONDS)
@@ -51,20 +49,6 @@ def throughput(system: System, starts: int) -> dict[str, float]:
         "times faster than simulate_many": single / all_cores,
         "bytes of memory per start": 1024 * kilobytes / starts,
     }
-
-
-@contextmanager
-def _one_core():
-    """On one core, where the system lets a process choose."""
-    if not hasattr(os, "sched_setaffinity"):
-        yield
-        return
-    allowed = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, [min(allowed)])
-    try:
-        yield
-    finally:
-        os.sched_setaffinity(0, allowed)
 
 
 def _most_memory(anew=False):

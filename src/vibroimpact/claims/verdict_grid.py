@@ -6,7 +6,7 @@ from vibroimpact.claims.verdict_table import NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.regimes.regime_map import tile
+from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.search import fixed_points
 
@@ -21,7 +21,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     "no orbit" where there is none (see `companion_verdicts.partners`).
     """
     rows = []
-    for f10, f20 in tile(f10_range, f20_range, points, 0, 1):
+    for f10, f20 in plane_of_forces(f10_range, f20_range, points):
         here = system.with_(f10_hat=f10, f20_hat=f20)
         listed = fixed_points(here)
         says = [criteria.of_fixed_point(here, point) for point in listed]

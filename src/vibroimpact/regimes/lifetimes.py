@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import simulate_many
+from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.regimes.classification import UNSETTLED, observe
 
 UNSEEN = 0.05
@@ -82,5 +82,5 @@ def bracket(values, escapes) -> tuple[float, float]:
 
 def _staying(system, states, step, window, nearness):
     """Where those starts are after a step that no periodic motion has caught."""
-    finals = [run.final for run in simulate_many(system, states, step)]
-    return [state for state in finals if observe(system, state, window, nearness).name == UNSETTLED]
+    ends = finals(system, states, step)
+    return [state for state in ends if observe(system, state, window, nearness).name == UNSETTLED]

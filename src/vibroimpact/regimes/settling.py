@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass, replace
 
-from vibroimpact.exact.engine.simulation import simulate, simulate_many
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import finals
+from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.regimes.character import character
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 
@@ -51,17 +54,17 @@ def settle(system, states, observation: Observation) -> list[Regime]:
 def _rounds(system, states, observation):
     """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
     found: list[Regime | None] = [None] * len(states)
-    waiting, now = range(len(states)), states
+    waiting, now = np.arange(len(states)), np.asarray(states)
     for _ in range(observation.rounds):
-        runs = dict(zip(waiting, simulate_many(system, now, observation.cycles), strict=True))
-        for place, run in runs.items():
-            found[place] = observe(system, run.final, observation.window, observation.nearness)
-        waiting = [place for place in runs if _passing(found[place])]
-        now = [runs[place].final for place in waiting]
-        if not waiting:
+        before, now = now, finals(system, now, observation.cycles)
+        for place, state in zip(waiting, now, strict=True):
+            found[place] = observe(system, state, observation.window, observation.nearness)
+        passing = [_passing(found[place]) for place in waiting]
+        waiting, before, now = waiting[passing], before[passing], now[passing]
+        if not len(waiting):
             break
-    for place in waiting:
-        found[place] = named(runs[place], observation)
+    for place, state in zip(waiting, before, strict=True):
+        found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
             found[place] = _later(system, found[place], observation)
     return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vibroimpact.regimes.cells import centres
 from vibroimpact.system import System
 
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
@@ -23,14 +24,23 @@ class Axis:
     values: tuple[float, ...]
 
 
-def axis(along: Sequence[str], range=None, values: int | None = None, scale: str = LINEAR, listed=None) -> Axis:
-    """The axis of `values` values from one end of a range to the other, both included, or of those listed.
+def axis(
+    along: Sequence[str],
+    range=None,
+    values: int | None = None,
+    scale: str = LINEAR,
+    listed=None,
+    cells: int | None = None,
+) -> Axis:
+    """The axis of `values` values from one end of a range to the other, both included, or of the middles of so many
+    equal `cells` of it, or of those listed.
 
     Args:
-        along: names of parameters of System. scale: one of SPACED.
+        along: names of parameters of System. scale: one of SPACED, of values.
     """
-    through = listed if listed is not None else SPACED[scale](*range, values)
-    return Axis(tuple(along), tuple(float(value) for value in through))
+    if listed is None:
+        listed = centres(range, cells) if cells else SPACED[scale](*range, values)
+    return Axis(tuple(along), tuple(float(value) for value in listed))
 
 
 class Grid:

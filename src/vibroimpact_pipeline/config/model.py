@@ -10,7 +10,7 @@ from vibroimpact_pipeline.config.regimes import Regimes
 from vibroimpact_pipeline.config.report import Report
 from vibroimpact_pipeline.config.section import Problem, Section, marked, sections
 from vibroimpact_pipeline.config.stability import Stability
-from vibroimpact_pipeline.config.sweeps import Sweeps
+from vibroimpact_pipeline.config.sweeps import Sweeps, not_drawn
 from vibroimpact_pipeline.config.system import SystemSection, unsound
 
 
@@ -63,6 +63,8 @@ class Config(Section):
         return [Problem(place, what) for place, what in found.items()]
 
     def _unsound_sweeps(self):
+        for place, what in not_drawn(self.sweeps):
+            yield Problem(("sweeps", *place), what)
         for name, sweep in self.sweeps.items():
             found = [*sweep.costs(self.regimes.observation)]
             if sweep.case in self.cases:

@@ -30,7 +30,6 @@ RULES = {
     "plan_of_sweep",
     "probe_of_sweep",
     "proofs",
-    "regime_tile",
     "report",
     "scene_models",
     "simulation",

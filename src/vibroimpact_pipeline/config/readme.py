@@ -19,8 +19,7 @@ every build checks the config against. All keys are needed but those marked *opt
 choose, `[]` stands for every entry of a list. Without a unit, quantities are dimensionless or numbers of something.
 
 Conditions across keys are checked as well. No job may ask for more than {CYCLES:.0e} forcing cycles, if every start
-took as long as the observation lets it, nor hold the events of more than {HELD:.0e} at once; a finer map takes more
-tiles.
+took as long as the observation lets it, nor hold the events of more than {HELD:.0e} at once.
 """
 COLUMNS = ("key", "type", "allowed", "unit", "meaning", "now")
 TYPES = {"number": "number", "integer": "whole number", "string": "text", "array": "list", "object": "mapping"}

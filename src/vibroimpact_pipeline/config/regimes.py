@@ -183,37 +183,22 @@ class Coexistence(Section):
             yield Change(("tori", "paths", number, "values"), self.case, path.along, path.values)
 
 
-class Map(Section):
-    """Regimes over a grid of forces; it is computed in tiles, a job each."""
+class Confusion(Section):
+    """Every name of a regime against a longer run, over a grid of forces."""
 
     f10_range: ForceRange
     f20_range: ForceRange
     points: Points
-    tiles: Annotated[int, Field(ge=1, le=1000)] = Field(description="Jobs that share the cells; none may be empty")
     starts: Starts
     seed: Seed
+    times: Annotated[int, Field(ge=1, le=10_000)] = Field(description="So many times as long as all rounds")
 
     def conditions(self):
         for name in ("f10_range", "f20_range"):
             yield from not_ascending(name, getattr(self, name))
-        if self.tiles > self.points**2:
-            yield Problem(("tiles",), f"{self.tiles} is above {self.points**2}, the number of cells: points^2")
 
     def changes(self):
         return over_forces(self)
-
-    def costs(self, once, cycles):
-        factors = {"cells of a tile (points^2 / tiles)": self.points**2 / self.tiles, "starts": self.starts}
-        return costs(("map", "points"), self.starts, once, cycles, **factors)
-
-
-class Confusion(Section):
-    """Every name of a regime against a longer run, on a coarser map."""
-
-    points: Points
-    starts: Starts
-    seed: Seed
-    times: Annotated[int, Field(ge=1, le=10_000)] = Field(description="So many times as long as all rounds")
 
     def costs(self, rounds, cycles):
         longer = self.times * rounds
@@ -284,7 +269,6 @@ class Regimes(Section):
     observation: Observation
     branches: Branches
     coexistence: Coexistence
-    map: Map
     confusion: Confusion
     modulation: Modulation
     basins: Basins
@@ -293,7 +277,6 @@ class Regimes(Section):
     def conditions(self):
         once, longest = self.observation.cycles, self.observation.longest()
         yield from self.branches.attractors.costs(once, longest, len(self.branches.paths))
-        yield from self.map.costs(once, longest)
         yield from self.confusion.costs(once * self.observation.rounds, longest)
         yield from self.modulation.costs(once, longest)
         yield from self.basins.costs(once, longest)

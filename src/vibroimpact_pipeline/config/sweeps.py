@@ -14,10 +14,12 @@ from vibroimpact_pipeline.config.regimes import Cycles, Line, costs
 from vibroimpact_pipeline.config.section import Problem, Section
 from vibroimpact_pipeline.config.system import unsound
 
-POINTS = 1_000_000
+POINTS = 4_000_000
 """Points of a sweep: its table is read and drawn in the memory of one job."""
 LIMIT_HOURS = 1.0
 """Core hours that a sweep may take unless it says otherwise."""
+MAP, MAPPED = "regime_map", ("regimes", "fixed_points")
+"""The sweep that companion_regime_map draws, and what it has to observe."""
 NEEDED = {"regimes": ("starts", "seed"), "amplitudes": ("starts", "seed", "cycles", "settle")}
 """What an observation needs to know."""
 
@@ -31,32 +33,42 @@ class Axis(Line):
     values: Annotated[int, Field(ge=2, le=POINTS)] = Field(
         default=None, description="So many values over the range, both ends among them"
     )
-    scale: Literal["linear", "logarithmic"] = Field(default=None, description="How they are spaced; linear unless said")
+    cells: Annotated[int, Field(ge=2, le=POINTS)] = Field(
+        default=None, description="Instead of `values`: the middles of so many equal cells of the range"
+    )
+    scale: Literal["linear", "logarithmic"] = Field(
+        default=None, description="How `values` are spaced; linear unless said"
+    )
     listed: Annotated[list[Number], Field(min_length=2, max_length=1000)] = Field(
-        default=None, description="The values themselves, instead of `range`, `values` and `scale`"
+        default=None, description="The values themselves, instead of all of these"
     )
 
     def conditions(self):
         yield from super().conditions()
         if self.listed is not None:
             yield from repeated("listed", self.listed)
-            for name in ("range", "values", "scale"):
+            for name in ("range", "values", "cells", "scale"):
                 if getattr(self, name) is not None:
                     yield Problem((name,), "stands beside `listed`, which says all; leave one of them out")
         else:
             yield from self._spaced()
 
     def _spaced(self):
-        for name in ("range", "values"):
+        number = "values" if self.cells is None else "cells"
+        for name in ("range", number):
             if getattr(self, name) is None:
-                yield Problem((name,), "missing; an axis has `range` and `values`, or `listed`")
-        if self.range is None or self.values is None:
+                yield Problem((name,), "missing; an axis has `range` and `values` or `cells`, or `listed`")
+        if self.cells is not None:
+            for name in ("values", "scale"):
+                if getattr(self, name) is not None:
+                    yield Problem((name,), "stands beside `cells`, which says all; leave one of them out")
+        if self.range is None or (self.values is None and self.cells is None):
             return
         yield from (descending := not_ascending("range", self.range))
         if not descending and self.scale == LOGARITHMIC and self.range[0] <= 0:
             yield Problem(("range", 0), f"{self.range[0]} is not above 0, as on a logarithmic scale")
-        elif not descending and len(set(self.points())) < self.values:
-            yield Problem(("values",), f"{self.values} values in {self.range} are not all different")
+        elif not descending and len(set(self.points())) < self.number():
+            yield Problem((number,), f"{self.number()} values in {self.range} are not all different")
 
     def points(self) -> tuple[float, ...]:
         """The values, in their order."""
@@ -69,7 +81,7 @@ class Axis(Line):
         return {value: ("listed", self.listed.index(value)) for value in (min(self.listed), max(self.listed))}
 
     def number(self) -> int:
-        return len(self.listed or ()) or self.values
+        return len(self.listed or ()) or self.cells or self.values
 
 
 class Sweep(Section):
@@ -135,4 +147,19 @@ class Sweep(Section):
         return ("axes", k, *corner[k][1])
 
 
-Sweeps = Annotated[dict[Name, Sweep], Field(max_length=100, description="Sweeps by name, of which a build makes none")]
+Sweeps = Annotated[
+    dict[Name, Sweep],
+    Field(max_length=100, description=f"Sweeps by name; a build makes {MAP}, which a companion figure draws"),
+]
+
+
+def not_drawn(sweeps: Sweeps) -> Iterator[Problem]:
+    """What the sweep that a companion figure draws lacks."""
+    if MAP not in sweeps:
+        return
+    other = f"as companion_{MAP} draws it; another question takes another name"
+    forces = [axis.along == [name] for axis, name in zip(sweeps[MAP].axes, ("f10_hat", "f20_hat"), strict=False)]
+    if forces != [True, True] or any(axis.listed or axis.scale == LOGARITHMIC for axis in sweeps[MAP].axes):
+        yield Problem((MAP, "axes"), f"are not f10_hat and f20_hat, evenly over a range each, {other}")
+    if missing := [name for name in MAPPED if name not in sweeps[MAP].observe]:
+        yield Problem((MAP, "observe"), f"{' and '.join(missing)} missing, {other}")

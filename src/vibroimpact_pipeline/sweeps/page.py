@@ -8,6 +8,7 @@ from jinja2 import Environment, StrictUndefined
 
 from vibroimpact.sweeps.rows import FAILED
 from vibroimpact_pipeline.report.policy import guarded
+from vibroimpact_pipeline.sweeps.places import table_path
 from vibroimpact_pipeline.sweeps.words import announced, axis_words
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
@@ -30,6 +31,7 @@ def page(name: str, request: dict, plan: dict, table: pd.DataFrame, svg: bytes) 
     return guarded(
         template.from_string(TEMPLATE.read_text(encoding="utf-8")).render(
             name=name,
+            file=Path(table_path(name, request["axes"])).name,
             kinds=KINDS,
             said=announced(name, plan),
             picture="data:image/svg+xml;base64," + base64.b64encode(svg).decode(),

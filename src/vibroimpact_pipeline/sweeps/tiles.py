@@ -1,4 +1,4 @@
-"""Tiles of a sweep as files: where they lie, whose they are, and all of them together."""
+"""Tiles of a sweep as files: whose they are, and all of them together."""
 
 import csv
 from collections.abc import Iterable, Iterator
@@ -8,7 +8,7 @@ import pandas as pd
 
 from vibroimpact.figures.kit.tables import read
 from vibroimpact.sweeps.grid import Grid
-from vibroimpact.sweeps.rows import FAILED, POINT
+from vibroimpact.sweeps.rows import POINT
 
 OF = "of"
 """The column that holds the fingerprint of what was asked for."""
@@ -16,11 +16,6 @@ OF = "of"
 
 class NotOfThisSweep(ValueError):
     """Tiles do not make up the sweep."""
-
-
-def tile_path(sweep: str, number: int, tiles: int) -> Path:
-    """Where one of so many tiles is, counted from 1."""
-    return Path(f"results/sweeps/{sweep}/tiles/{number}-of-{tiles}.csv")
 
 
 def is_of(path: Path, fingerprint: str) -> bool:
@@ -52,4 +47,4 @@ def _parts(paths, fingerprint) -> Iterator[pd.DataFrame]:
         part = read(path)
         if set(part[OF]) != {fingerprint}:
             raise NotOfThisSweep(f"{path} is of a sweep that asked for something else. Delete it and build again.")
-        yield part.drop(columns=OF).astype({FAILED: object}).fillna({FAILED: ""})
+        yield part.drop(columns=OF)

@@ -7,7 +7,7 @@ from scipy.integrate import quad_vec
 from scipy.linalg import expm
 
 from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, jet, node
-from vibroimpact.exact.engine.squares import squares_along, squares_before, squares_of
+from vibroimpact.exact.engine.squares import forms_of, potential, squares_along, squares_before, squares_of
 from vibroimpact.system.matrices import rate_matrix
 
 CHANGES = {
@@ -22,12 +22,22 @@ CHANGES = {
 
 
 @njit
-def squares(flow, forms, mode, z, t):
+def by_forms(flow, forms, mode, z, t):
     boxes, j = (z[0], z[1], z[2], z[3]), int(t * flow.density + 0.5)
     one, two = squares_before(forms, mode, j, boxes, z[4], z[5])
     there, sine, cosine = node(flow, mode, boxes, z[4], z[5], j)
     jets, rest = jet(flow.coefficients, mode, there, sine, cosine), t - j * flow.spacing
     return one + squares_along(jets[0], rest), two + squares_along(jets[1], rest)
+
+
+@njit
+def at(squares, mode, z):
+    return potential(squares, mode, (z[0], z[1], z[2], z[3]), z[4], z[5])
+
+
+def test_potentials_serve_where_there_is_damping(chapter):
+    without = {name for name, changes in CHANGES.items() if squares_of(chapter(**changes)).forms.size}
+    assert without == {"undamped", "hardly damped", "twins, uncoupled", "stiff"}
 
 
 @pytest.mark.parametrize("changes", CHANGES.values(), ids=CHANGES)
@@ -38,4 +48,8 @@ def test_the_integral_is_that_of_quadrature(chapter, changes, mode):
     for t in (1e-3, 0.02, 1.234, 3.0):
         z = np.concatenate([rng.normal(size=4), [np.sin(0.3), np.cos(0.3)]])
         exact = quad_vec(lambda x, z=z: (expm(rate * x) @ z)[:2] ** 2, 0.0, t, epsabs=1e-15, epsrel=1e-13)[0]
-        np.testing.assert_allclose(squares(flow_of(system), squares_of(system), mode, z, t), exact, rtol=2e-13)
+        np.testing.assert_allclose(by_forms(flow_of(system), forms_of(system), mode, z, t), exact, rtol=2e-13)
+        if not squares_of(system).forms.size:
+            end, drift = expm(rate * t) @ z, squares_of(system).drifts[mode]
+            by_potential = np.subtract(at(squares_of(system), mode, end), at(squares_of(system), mode, z)) + drift * t
+            np.testing.assert_allclose(by_potential, exact, rtol=1e-11, atol=1e-12)

@@ -22,6 +22,9 @@ from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
 from vibroimpact.figures.companions import companion_modulation as modulation
 from vibroimpact.figures.companions import companion_regime_map as regime_map
 from vibroimpact.figures.kit import tables
+from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.observations import Asked
+from vibroimpact.sweeps.rows import rows
 from vibroimpact.system.state import NAMES
 from vibroimpact_pipeline.figure_check import compare as figure_check
 
@@ -49,8 +52,10 @@ def all_systems(change):
     return {case: change(system) for case, system in SYSTEMS.items()}
 
 
-def regime_cells(system):
-    return regime_map.compute_tile(system, 0, 1, 11, (0.0, 1.6), (0.0, 1.6), 5, 1, OBSERVATION)
+def mapped(system):
+    grid = Grid(system, [axis([name], (0.0, 1.6), cells=11) for name in ("f10_hat", "f20_hat")])
+    asked = Asked(("regimes", "fixed_points"), 5, 1, observation=OBSERVATION)
+    return pd.DataFrame(rows(grid, asked, range(len(grid))))
 
 
 COMPUTE = {
@@ -61,9 +66,7 @@ COMPUTE = {
     ),
     "companion_horizon": lambda change: companion_horizon.compute(change(SYSTEMS["weak"]), START, truth(), 40),
     "companion_branches": lambda change: branches.compute(change(SYSTEMS["unequal"]), **BRANCHES),
-    "companion_regime_map": lambda change: regime_map.compute(
-        [regime_cells(change(SYSTEMS["equal"]))], 11, all_systems(change)
-    ),
+    "companion_regime_map": lambda change: regime_map.compute(mapped(change(SYSTEMS["equal"])), all_systems(change)),
     "companion_modulation": lambda change: modulation.compute(
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),

@@ -2,8 +2,12 @@
 
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from contextvars import ContextVar
+
+ALLOWED = ContextVar("allowed", default=sys.maxsize)
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
@@ -25,8 +29,19 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
 
 def cores() -> int:
-    """Cores that this process may use: all, but those that a cluster or the user keeps from it."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """Cores that this process may use: all, but those that a cluster, the user or `at_most` keeps from it."""
+    there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(there, ALLOWED.get())
+
+
+@contextmanager
+def at_most(threads: int) -> Iterator[None]:
+    """Within, work is spread over so many cores at most."""
+    token = ALLOWED.set(threads)
+    try:
+        yield
+    finally:
+        ALLOWED.reset(token)
 
 
 def _report(todo):

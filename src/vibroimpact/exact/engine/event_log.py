@@ -1,7 +1,7 @@
 """What a run writes down: its events, one row each, and a ledger of what its certificate needs besides.
 
-A row is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach]; the stick
-that completes a chatter is noted at the chatter's last simulated impact.
+A row is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach, sine and
+cosine of the phase]; the stick that completes a chatter is noted at the chatter's last simulated impact.
 """
 
 from typing import NamedTuple
@@ -22,7 +22,7 @@ class Log(NamedTuple):
     ledger: np.ndarray
 
 
-PHASE, APPROACH, ROW = 12, 13, 14  # places in a row, and its length
+PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # places in a row, and its length
 
 
 @inlined

@@ -18,7 +18,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
-from vibroimpact.exact.engine.event_log import ENTRIES, EVENTS, PHASE, ROW, Log, pack
+from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
@@ -67,7 +67,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
         motion = resolve(flow, motion, Moment(elapsed, remaining, due), log)
         count = int(log.ledger[EVENTS])
         for k in range(noted, count):
-            log.rows[k, PHASE] = phase
+            log.rows[k, PHASE], log.rows[k, SINE], log.rows[k, COSINE] = phase, sine, cosine
         if remaining == 0.0:
             break
         most = most_proofs + MOST_PROOFS_PER_EVENT * count

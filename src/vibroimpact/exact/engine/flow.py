@@ -71,7 +71,7 @@ def flow_of(system) -> Flow:
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    propagators = np.array([_powers(rate_matrix(system, stuck), spacing, count) for stuck in CONTACT_STATES])
+    propagators = _powers(np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES]), spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -91,7 +91,7 @@ def flow_of(system) -> Flow:
     rotations = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     return Flow(
         coefficients,
-        np.ascontiguousarray(propagators[:, :, :4, :]),
+        propagators,
         rotations,
         spacing,
         1.0 / spacing,
@@ -100,19 +100,20 @@ def flow_of(system) -> Flow:
     )
 
 
-def _powers(rate, spacing, count):
-    """exp(rate spacing j) for j < count, in extended precision so that the table is rounded only once."""
-    scaled = rate.astype(np.longdouble) * spacing
-    term = np.eye(6, dtype=np.longdouble)
-    step = term.copy()
+def _powers(rates, spacing, count):
+    """The boxes' rows of exp(rate spacing j) for j < count, shape (4, count, 4, 6), of rates (4, 6, 6); in extended
+    precision so that the table is rounded only once.
+    """
+    scaled = rates.astype(np.longdouble) * spacing
+    term = step = np.broadcast_to(np.eye(6, dtype=np.longdouble), scaled.shape)
     for k in range(1, 25):
         term = term @ scaled / k
         step = step + term
-    table = np.eye(6, dtype=np.longdouble)[None]
-    while len(table) < count:
-        table = np.concatenate([table, table @ step])
+    table = np.broadcast_to(np.eye(6, dtype=np.longdouble)[:4], (4, 1, 4, 6))
+    while (made := table.shape[1]) < count:
+        table = np.concatenate([table, table[:, : count - made] @ step[:, None]], axis=1)
         step = step @ step
-    return table[:count].astype(float)
+    return table.astype(float)
 
 
 @inlined

@@ -2,13 +2,13 @@
 
 import math
 
-from vibroimpact.exact.engine.compiled import inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.contact import box_accelerations
-from vibroimpact.exact.engine.flow import advance, along, jet, node, slope, value
-from vibroimpact.exact.engine.motion import Motion, carry, mode_of, pair
-from vibroimpact.exact.engine.phase import ahead
-from vibroimpact.exact.engine.replay import FORCING, LENGTH, start_of
-from vibroimpact.exact.engine.squares import squares_along, squares_before
+from vibroimpact.exact.engine.event_log import APPROACH, COSINE, SINE
+from vibroimpact.exact.engine.flow import advance, jet, node, slope, value
+from vibroimpact.exact.engine.motion import Motion, glide, mode_of, pair, with_velocity
+from vibroimpact.exact.engine.replay import first_departure, next_departure
+from vibroimpact.exact.engine.squares import fall, potential, squares_along, squares_before
 from vibroimpact.system.state import IMPACT, STICK
 
 IMPACTS, STICKS, LARGEST, SQUARE, PATH, SEEN = 0, 2, 4, 6, 8, 10
@@ -17,54 +17,117 @@ the length of the ball's path; and their number."""
 
 PIECE = 1.0  # in units of the flow: over so long the velocity of a box is nearly a cubic polynomial,
 MARGIN = 1 / 384  # but for so much of it (the error of Hermite's interpolation where each rate is at most 1 / unit)
+WRONG = 2 / 384  # the same of positions, over any time, and twice: a flight is larger than its ends
 FINE = 4  # spacings of the flow table: over so long it is one but for 1e-5 of that
 NEAR = 0.02  # in units of the flow: so far from a node its Taylor polynomial is exact to rounding
 TRIES, STEPS = 8, 3
 
 
 @unfolded
-def observe(flow, forms, flights, events, opening, seen):
-    """Fill in what is seen, zeros (SEEN,), of a run's flights (`departures`) and events from the time opening on."""
-    passed = 0.0
-    for n in range(len(flights)):
-        if n < len(events) and events[n, 0] >= opening:
-            if events[n, 3] == IMPACT:
-                seen[IMPACTS + int(events[n, 1]) - 1] += 1
-            elif events[n, 3] == STICK:
-                seen[STICKS + int(events[n, 1]) - 1] += 1
-        left = flights[n, LENGTH]
-        if left > 0.0 and passed + left > opening:
-            boxes, balls, walls = start_of(flights[n])
-            phase, tail = flights[n, FORCING], 0.0
-            while left > 0.0:
-                before = opening - passed
-                t = min(left, flow.longest, before) if before > 0.0 else min(left, flow.longest)
-                motion = Motion(boxes, balls, walls, (0, 0), math.sin(phase), math.cos(phase))
-                boxes = _watch(flow, forms, motion, t, before > 0.0, seen)
-                balls = carry(balls, walls, boxes, t)
-                phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
-                left, passed = left - t, passed + t
-        else:
-            passed += left
+def observe(flow, squares, start, events, final, phase, ends, seen):
+    """Fill in what is seen, zeros (SEEN,), of a run.
+
+    start (8,), events, final: where it starts, its rows, and its boxes at the end; phase: of the forcing at both ends;
+    ends: from when on it is seen, and its duration.
+    """
+    opening, duration = ends
+    leaving, opened = first_departure(start, phase), False
+    early = first = math.sin(phase), math.cos(phase)
+    for n in range(len(events) + 1):
+        following = next_departure(flow.coefficients, events, n, leaving, (duration, phase))
+        left, end, late = following.time - leaving.time, final, first
+        if n < len(events):
+            _count(events[n], opening, seen)
+            end = _before(flow.coefficients, following.boxes, events[n]) if left > 0.0 else leaving.boxes
+            late = events[n, SINE], events[n, COSINE]
+        motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
+        if not opened and left > 0.0 and following.time > opening:
+            opened = True
+            while following.time - left < opening:
+                t = min(opening - (following.time - left), left, flow.longest)
+                motion, left = glide(flow, motion, t), left - t
+            one, two = potential(squares, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine)
+            seen[SQUARE], seen[SQUARE + 1] = -one, -two
+        if opened and left > 0.0:
+            _watch(flow, squares, motion, end, late, left, seen)
+        if opened:
+            mode = mode_of(motion.walls)
+            if n == len(events):
+                one, two = potential(squares, mode, end, late[0], late[1])
+            else:
+                one, two = fall(squares, (mode, end), (mode_of(following.walls), following.boxes), late)
+            seen[SQUARE], seen[SQUARE + 1] = seen[SQUARE] + one, seen[SQUARE + 1] + two
+        leaving, early = following, late
 
 
-@unfolded
-def _watch(flow, forms, motion, t, closed, seen):
-    """Add what is seen of a flight no longer than flow.longest, unless the eyes are closed; the boxes at its end."""
-    mode, j = mode_of(motion.walls), int(t * flow.density + 0.5)
-    rest = t - j * flow.spacing
-    there, s, c = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
-    jets = jet(flow.coefficients, mode, there, s, c)
-    boxes = along(jets, rest)
-    if not closed:
-        one, two = squares_before(forms, mode, j, motion.boxes, motion.sine, motion.cosine)
-        seen[SQUARE] += one + squares_along(jets[0], rest)
-        seen[SQUARE + 1] += two + squares_along(jets[1], rest)
-        rates = _rate(jets[0], rest), _rate(jets[1], rest)
-        swung = _swing(flow, motion, t, boxes, rates, seen)
+@inlined
+def _count(event, opening, seen):
+    if event[0] >= opening and event[3] == IMPACT:
+        seen[IMPACTS + int(event[1]) - 1] += 1
+    elif event[0] >= opening and event[3] == STICK:
+        seen[STICKS + int(event[1]) - 1] += 1
+
+
+@inlined
+def _before(q, boxes, event):
+    """The boxes before an event, from those after it."""
+    if event[3] != IMPACT:
+        return boxes
+    i = int(event[1]) - 1
+    return with_velocity(boxes, i, boxes[2 + i] + (1.0 + q.kappa) * q.epsilon * q.inverse_mass * event[APPROACH])
+
+
+@inlined
+def _watch(flow, squares, motion, end, late, length, seen):
+    """Add what is seen of a flight, but for the potentials at its ends; late: sine and cosine of the forcing there."""
+    mode = mode_of(motion.walls)
+    for i in range(2):
+        seen[LARGEST + i] = max(seen[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
+        seen[SQUARE + i] += squares.drifts[mode, i] * length
+        seen[PATH + i] += abs(motion.balls[2 + i]) * length if motion.walls[i] == 0 else 0.0
+    plain = mode == 0 and squares.forms.shape[1] == 0
+    for i in range(2):
+        plain = plain and _within(flow, i, motion.boxes, end, length, seen[LARGEST + i])
+    if not plain:
+        _search(flow, squares.forms, motion, end, late, length, seen)
+
+
+@inlined
+def _within(flow, i, start, end, length, most):
+    """Whether box i certainly stays within +- most, on the way from the boxes at the start to those at the end.
+
+    A cubic polynomial with the positions and velocities of both ends stays within its Bernstein coefficients, here
+    those of its halves; it is wrong by a fourth derivative, which is bounded as if each rate were 1 / unit.
+    """
+    unit, third = flow.unit, length * (1 / 3)
+    size = max(abs(start[0]), abs(end[0])) + max(abs(start[1]), abs(end[1])) + flow.coefficients.drive * unit * unit
+    size += unit * (max(abs(start[2]), abs(end[2])) + max(abs(start[3]), abs(end[3])))
+    beat = (length / unit) ** 2
+    a, b, c, d = start[i], start[i] + third * start[2 + i], end[i] - third * end[2 + i], end[i]
+    early, middle, late = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + d)
+    inner, outer = 0.5 * (early + middle), 0.5 * (middle + late)
+    left = most - WRONG * beat * beat * size
+    return abs(early) < left and abs(late) < left and abs(inner) < left and abs(outer) < left
+
+
+@compiled
+def _search(flow, forms, motion, end, late, left, seen):
+    """Add what is seen on the way of a flight: its turns, and what no potentials tell."""
+    mode = mode_of(motion.walls)
+    while left > 0.0:
+        t = min(left, flow.longest)
+        now = Motion(end, motion.balls, motion.walls, (0, 0), late[0], late[1]) if t == left else glide(flow, motion, t)
+        if forms.shape[1] > 0:
+            j = int(t * flow.density + 0.5)
+            there, s, c = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
+            jets, rest = jet(flow.coefficients, mode, there, s, c), t - j * flow.spacing
+            one, two = squares_before(forms, mode, j, motion.boxes, motion.sine, motion.cosine)
+            seen[SQUARE] += one + squares_along(jets[0], rest)
+            seen[SQUARE + 1] += two + squares_along(jets[1], rest)
+        swung = _swing(flow, motion, t, now, seen)
         for i in range(2):
-            seen[PATH + i] += abs(motion.balls[2 + i]) * t if motion.walls[i] == 0 else swung[i]
-    return boxes
+            seen[PATH + i] += swung[i] if motion.walls[i] != 0 else 0.0
+        motion, left = now, left - t
 
 
 @inlined
@@ -74,8 +137,9 @@ def _rate(p, t):
 
 
 @unfolded
-def _swing(flow, motion, length, last, last_rates, seen):
-    """Note the largest |X_i| of a flight that ends so; the lengths of both boxes' paths.
+def _swing(flow, motion, length, last, seen):
+    """Note the largest |X_i| of a flight of this length to the last motion; the lengths of both boxes' paths, where
+    balls stick to them.
 
     The velocities at the ends of a piece and their rates make a cubic polynomial. Where its Bernstein coefficients are
     all of one sign, and no closer to zero than the polynomial to the velocity, the box does not turn.
@@ -85,18 +149,19 @@ def _swing(flow, motion, length, last, last_rates, seen):
     now, rates = motion.boxes, box_accelerations(q, motion.walls, motion.boxes, motion.sine)
     while start < length:
         j += stride
-        end, there, rates_there = length, last, last_rates
+        end, there, s = length, last.boxes, last.sine
         if j * flow.spacing < length:
             end = j * flow.spacing
             there, s, _ = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
-            rates_there = box_accelerations(q, motion.walls, there, s)
+        rates_there = box_accelerations(q, motion.walls, there, s)
         for i in range(2):
-            v, w, third = now[2 + i], there[2 + i], (end - start) * (1 / 3)
-            a, b = v + third * rates[i], w - third * rates_there[i]
-            near = MARGIN * (abs(v) + abs(w) + flow.unit * (abs(rates[i]) + abs(rates_there[i])))
             path = abs(there[i] - now[i])
-            if min(v, w, a, b) < near and max(v, w, a, b) > -near:
-                path = _turns(flow, motion, i, (start, end), (v, a, b, w), (now[i], there[i]), seen)
+            if motion.walls[i] != 0 or not _within(flow, i, now, there, end - start, seen[LARGEST + i]):
+                v, w, third = now[2 + i], there[2 + i], (end - start) * (1 / 3)
+                a, b = v + third * rates[i], w - third * rates_there[i]
+                near = MARGIN * (abs(v) + abs(w) + flow.unit * (abs(rates[i]) + abs(rates_there[i])))
+                if min(v, w, a, b) < near and max(v, w, a, b) > -near:
+                    path = _turns(flow, motion, i, (start, end), (v, a, b, w), (now[i], there[i]), seen)
             paths = pair(paths, i, paths[i] + path)
             seen[LARGEST + i] = max(seen[LARGEST + i], abs(now[i]), abs(there[i]))
         now, rates, start = there, rates_there, end

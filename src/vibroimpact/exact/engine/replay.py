@@ -1,13 +1,14 @@
 """The course of a run: the flights between its events, flown once more for those who ask what happened on the way."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.exact.engine.motion import carry, mode_of, pair
+from vibroimpact.exact.engine.motion import carry, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.phase import TWO_PI, ahead
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
@@ -29,33 +30,56 @@ def replayed(flow, start, events, start_phase, duration):
     return flights
 
 
+class Departure(NamedTuple):
+    """Where a flight starts: boxes and balls, the wall (or 0) each ball sticks to, the time and the forcing phase."""
+
+    boxes: tuple[float, float, float, float]
+    balls: tuple[float, float, float, float]
+    walls: tuple[int, int]
+    time: float
+    phase: float
+
+
 @unfolded
 def departures(q, start, events, start_phase, duration):
     """The flights of a run (see `replayed`) without the states at their ends."""
     flights = np.zeros((len(events) + 1, COLUMNS))
-    state, walls, now, phase = np.empty(8), (0, 0), 0.0, start_phase
-    to_internal(start, state)
+    leaving = first_departure(start, start_phase)
     for n in range(len(flights)):
         flight = flights[n]
-        flight[WALLS], flight[WALLS + 1] = walls
-        flight[FORCING] = phase
-        _put(state, flight, BEFORE)
-        completes = n < len(events) and completes_chatter(events, n)
-        if not completes:
-            stop = events[n, 0] if n < len(events) else duration
-            there = events[n, PHASE] if n < len(events) else start_phase
-            flight[LENGTH] = _length(q, stop - now, there - phase)
-            now, phase = stop, there
-        if n == len(events):
-            break
-        i, wall, kind = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3]
-        if kind != IMPACT:
-            walls = pair(walls, i, wall if kind == STICK else 0)
-        if completes:  # box and ball go on together
-            state[2 + i] = state[6 + i] = (state[2 + i] + q.epsilon * state[6 + i]) * q.inverse_mass
-        else:
-            to_internal(events[n, 4:PHASE], state)
+        flight[WALLS], flight[WALLS + 1], flight[FORCING] = leaving.walls[0], leaving.walls[1], leaving.phase
+        for k in range(4):
+            flight[BEFORE + k], flight[BEFORE + 4 + k] = leaving.boxes[k], leaving.balls[k]
+        following = next_departure(q, events, n, leaving, (duration, start_phase))
+        flight[LENGTH] = _length(q, following.time - leaving.time, following.phase - leaving.phase)
+        leaving = following
     return flights
+
+
+@inlined
+def first_departure(start, phase):
+    """That of a run from start (8,), in public order."""
+    return Departure(
+        (start[0], start[2], start[4], start[6]), (start[1], start[3], start[5], start[7]), (0, 0), 0.0, phase
+    )
+
+
+@inlined
+def next_departure(q, events, n, leaving, end):
+    """Where the flight after event n starts; after the last, the time and the phase of the end of the run."""
+    if n == len(events):
+        return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
+    event, walls = events[n], leaving.walls
+    i = int(event[1]) - 1
+    if event[3] != IMPACT:
+        walls = pair(walls, i, int(event[2]) if event[3] == STICK else 0)
+    if completes_chatter(events, n):  # box and ball go on together
+        boxes, balls = leaving.boxes, leaving.balls
+        common = (boxes[2 + i] + q.epsilon * balls[2 + i]) * q.inverse_mass
+        boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)
+        return Departure(boxes, balls, walls, leaving.time, leaving.phase)
+    boxes, balls = (event[4], event[6], event[8], event[10]), (event[5], event[7], event[9], event[11])
+    return Departure(boxes, balls, walls, event[0], event[PHASE])
 
 
 @unfolded
@@ -78,12 +102,6 @@ def land(flow, flight):
         left -= t
     for k in range(4):
         flight[AFTER + k], flight[AFTER + 4 + k] = boxes[k], balls[k]
-
-
-@inlined
-def _put(state, flight, place):
-    for k in range(8):
-        flight[place + k] = state[k]
 
 
 @inlined
@@ -115,10 +133,3 @@ def walls_after(events, n, walls):
         if events[k, 3] == RELEASE:
             walls = pair(walls, int(events[k, 1]) - 1, 0)
     return walls
-
-
-@inlined
-def to_internal(public, state):
-    """Write a public state (8,) in the order [boxes, balls]."""
-    for k in range(4):
-        state[k], state[4 + k] = public[2 * k], public[2 * k + 1]

@@ -1,16 +1,19 @@
 """Integrals of quadratic forms along a flight, as of the squares of the boxes' positions, to rounding, as the flow is.
 
-In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z, so the integral of z G z over a time t is a quadratic form
-of z at the start. A table has the form at the times of the flow table (`flow`); Gauss's rule on the Taylor polynomial
-there adds the rest.
+In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. Where there is damping, X_i^2 is the rate of a potential,
+z S z + c t, with A' S + S A + c (sin^2 + cos^2) = X_i^2 (Lyapunov's equation): of a run count its ends, and what the
+velocities lose at impacts. With hardly any damping, S is too large to leave its differences their digits; then the
+integral over a time t is another quadratic form of z at the start, which a table has at the times of the flow table
+(`flow`), and Gauss's rule on the Taylor polynomial there adds the rest.
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
-from vibroimpact.exact.engine.flow import flow_of, value
+from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, value
 from vibroimpact.system.matrices import rate_matrix
 
 SIZE, ENTRIES = 6, 21
@@ -24,12 +27,50 @@ SHARES = 5 / 18, 8 / 18, 5 / 18
 
 POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
 """z G z is X_i^2."""
+LARGEST = 1e3
+"""Up to here, times the largest rate, an entry of S leaves differences their digits."""
+
+
+class Squares(NamedTuple):
+    """Of a system in each contact state and for each module: potentials S (4, 2, 6, 6) and drifts c (4, 2), or, where
+    those will not do, zeros and forms (`integrals_of`), which else are of no times.
+    """
+
+    potentials: np.ndarray
+    drifts: np.ndarray
+    forms: np.ndarray
+
+
+def _lyapunov():
+    """For the upper triangle of S: that of A' S + S A, linear in A (36, 21, 21), and that of sin^2 + cos^2 (21,)."""
+    units = np.zeros((ENTRIES, SIZE, SIZE))
+    units[np.arange(ENTRIES), ROWS, COLUMNS] = units[np.arange(ENTRIES), COLUMNS, ROWS] = 1.0
+    rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)
+    images = rates.transpose(0, 1, 3, 2) @ units + units @ rates
+    return images[..., ROWS, COLUMNS].transpose(0, 2, 1), ((ROWS == COLUMNS) & (ROWS >= 4)).astype(float)
+
+
+OPERATORS, FORCING = _lyapunov()
 
 
 @lru_cache(maxsize=64)
-def squares_of(system) -> np.ndarray:
-    """The forms of X_1^2 and X_2^2 (see `integrals_of`)."""
-    return integrals_of(system, POSITIONS)
+def squares_of(system) -> Squares:
+    """What the integrals of a system take."""
+    rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
+    equations = np.zeros((4, ENTRIES + 1, ENTRIES + 1))
+    equations[:, :-1, :-1] = np.tensordot(rates.reshape(4, -1), OPERATORS, 1)
+    equations[:, :-1, -1] = equations[:, -1, :-1] = FORCING  # S and S + sin^2 + cos^2 do alike
+    squares = np.zeros((ENTRIES + 1, 2))
+    squares[0, 0] = squares[SIZE, 1] = 1.0
+    try:
+        solved = np.linalg.solve(equations, np.broadcast_to(squares, (4, ENTRIES + 1, 2)))
+    except np.linalg.LinAlgError:
+        solved = np.full((4, ENTRIES + 1, 2), np.inf)
+    potentials = np.empty((4, 2, SIZE, SIZE))
+    potentials[..., ROWS, COLUMNS] = potentials[..., COLUMNS, ROWS] = solved[:, :-1].transpose(0, 2, 1)
+    if np.abs(solved).max() * np.abs(rates).max() < LARGEST:
+        return Squares(potentials, solved[:, -1].copy(), np.empty((4, 0, 2, ENTRIES)))
+    return Squares(np.zeros_like(potentials), np.zeros((4, 2)), integrals_of(system, POSITIONS))
 
 
 def integrals_of(system, kernels) -> np.ndarray:
@@ -69,6 +110,45 @@ def _over_one(rate, spacing, kernels):
             power += term
         forms += weight * spacing / 2 * (power.T @ kernels @ power)
     return forms
+
+
+@inlined
+def potential(squares, mode, boxes, sine, cosine):
+    """The potentials of X_1^2 and X_2^2 at a point of a flight."""
+    z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
+    one, two = 0.0, 0.0
+    for a in range(SIZE):
+        first, second = 0.0, 0.0
+        for b in range(SIZE):
+            first += squares.potentials[mode, 0, a, b] * z[b]
+            second += squares.potentials[mode, 1, a, b] * z[b]
+        one += z[a] * first
+        two += z[a] * second
+    return one, two
+
+
+@inlined
+def fall(squares, before, after, forcing):
+    """By how much the potentials fall in an instant; before, after: contact state and boxes, in the same places.
+
+    Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
+    """
+    (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
+    if mode != later:
+        one, two = potential(squares, mode, boxes, sine, cosine)
+        there, here = potential(squares, later, others, sine, cosine)
+        return one - there, two - here
+    one, two, fast, slow = 0.0, 0.0, boxes[2] + others[2], boxes[3] + others[3]
+    z = (2.0 * others[0], 2.0 * others[1], fast, slow, 2.0 * sine, 2.0 * cosine)
+    for a in range(2, 4):
+        change = boxes[a] - others[a]
+        if change != 0.0:
+            first, second = 0.0, 0.0
+            for b in range(SIZE):
+                first += squares.potentials[mode, 0, a, b] * z[b]
+                second += squares.potentials[mode, 1, a, b] * z[b]
+            one, two = one + change * first, two + change * second
+    return one, two
 
 
 @inlined

@@ -1,7 +1,5 @@
 """Companion: which regimes starts end in over both forcing amplitudes, with the theory's predictions drawn over it."""
 
-import dataclasses
-
 import numpy as np
 import pandas as pd
 from matplotlib.collections import LineCollection
@@ -9,11 +7,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
 from vibroimpact.regimes.classification import REGIMES
-from vibroimpact.regimes.classification import starts as spread_starts
-from vibroimpact.regimes.regime_map import cell, tile
-from vibroimpact.regimes.settling import Observation
+from vibroimpact.sweeps.observations import FROM_REST
 
 LINES = {
     "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 0.9},
@@ -27,46 +23,19 @@ TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
 
-def compute_tile(system, number: int, tiles: int, points: int, f10_range, f20_range, starts, seed, observation):
-    """One tile of the map (numbered from 0): a row per cell.
+def compute(table: pd.DataFrame, systems: dict) -> dict:
+    """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Args:
-        points: cells along each axis. starts, seed: see `regimes.classification.starts`.
-        observation: arguments of `regimes.settling.Observation`.
-
-    Returns columns f10_hat, f20_hat, a share per regime, from_rest, fixed_points, stable_points.
-    """
-    states, observed = spread_starts(starts, seed), Observation(**observation)
-    cells = [
-        cell(system.with_(f10_hat=f10, f20_hat=f20), states, observed)
-        for f10, f20 in tile(f10_range, f20_range, points, number, tiles)
-    ]
-    rows = [dataclasses.asdict(c) for c in cells]
-    return pd.DataFrame({**row.pop("shares"), **row} for row in rows)
-
-
-def compute(tiles: list[pd.DataFrame], points: int, systems: dict) -> dict:
-    """The map from its tiles, in the order of f10_hat, then f20_hat.
-
-    Args:
-        points: cells along each axis.
         systems: case -> system, whose forcing amplitudes are marked.
 
     Returns "csv": columns panel, series ("cell" or "case"), label (regime from rest or name of the case), f10_hat,
     f20_hat, the share of each regime, fixed_points, stable_points.
-
-    Raises:
-        ValueError: the tiles do not make up a full square of cells.
     """
-    table = pd.concat(tiles).sort_values(["f10_hat", "f20_hat"], ignore_index=True)
-    if len(table) != points**2 or table.duplicated(["f10_hat", "f20_hat"]).any():
-        raise ValueError(f"tiles: {len(table)} cells do not make up a full map of {points**2}")
-    table = table.rename(columns={"from_rest": "label"})
+    cells = table.rename(columns={FROM_REST: "label"}).assign(series="cell")
     marks = pd.DataFrame({"label": case, "f10_hat": s.f10_hat, "f20_hat": s.f20_hat} for case, s in systems.items())
-    table = pd.concat([table.assign(series="cell"), marks.assign(series="case")], ignore_index=True)
-    first = ["panel", "series", "label", "f10_hat", "f20_hat"]
-    table = table.assign(panel="map")
-    return {"csv": table[first + [name for name in table if name not in first]]}
+    table = pd.concat([cells, marks.assign(series="case")], ignore_index=True).assign(panel="map")
+    return {"csv": table[["panel", "series", "label", "f10_hat", "f20_hat", *REGIMES, "fixed_points", "stable_points"]]}
 
 
 @styled
@@ -82,6 +51,8 @@ def draw(tables: dict) -> Figure:
         axes.set_axis_off()
     for axes, regime, letter in zip(grid.flat, REGIMES, "abcdefghijklmnop", strict=False):
         mesh = axes.pcolormesh(f10, f20, _square(cells, regime), cmap="Greys", vmin=0, vmax=DARKEST, rasterized=True)
+        if cells[regime].isna().any():
+            hatch_gaps(axes)
         for column, style in LINES.items():
             borders = _borders(f10, f20, _square(cells, column.replace(" ", "_")))
             axes.add_collection(LineCollection(borders, colors=BLACK, **style))

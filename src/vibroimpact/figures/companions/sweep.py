@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.kit.method_looks import looks
-from vibroimpact.figures.kit.style import DOUBLE_COLUMN, GREY, new_figure, side_by_side, styled
+from vibroimpact.figures.kit.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.grid import LOGARITHMIC
@@ -88,7 +88,7 @@ def _map(place, names, part, axes):
     square = part.pivot(index=y, columns=x, values="value")
     edges = [_edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
     most = 1.0 if names[1] in REGIMES else max(part["value"].max(), 1e-12)
-    place.patch.set(hatch="xxx", edgecolor=GREY)  # what a point without a value leaves to be seen
+    hatch_gaps(place)
     mesh = place.pcolormesh(*edges, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
     bar = place.figure.colorbar(mesh, ax=place)
     bar.locator = MaxNLocator(4)

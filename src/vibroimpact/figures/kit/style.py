@@ -54,6 +54,11 @@ def letter_panel(axes, letter: str) -> None:
     axes.set_title(letter, loc="left", weight="bold", pad=3)
 
 
+def hatch_gaps(axes) -> None:
+    """Let cells of a map that have no value be seen."""
+    axes.patch.set(hatch="xxx", edgecolor=GREY)
+
+
 @styled
 def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
     """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all.

@@ -1,0 +1,25 @@
+"""Work is spread over the cores that there are, or over as many as a job is given."""
+
+import threading
+
+from vibroimpact.exact.engine import all_cores
+from vibroimpact.exact.engine.all_cores import at_most, cores, on_all_cores
+
+
+def test_no_more_threads_than_a_job_is_given(monkeypatch):
+    monkeypatch.setattr(all_cores.os, "sched_getaffinity", lambda process: range(8), raising=False)
+    both = threading.Barrier(2, timeout=60)
+    workers = set()
+
+    def work(number):
+        workers.add(threading.get_ident())
+        both.wait()
+        return number
+
+    with at_most(2):
+        assert cores() == 2
+        assert on_all_cores(work, [(number,) for number in range(8)], [1] * 8, progress=False) == list(range(8))
+    assert len(workers) == 2
+    with at_most(100):
+        assert cores() == 8
+    assert cores() == 8
