@@ -36,7 +36,7 @@ def first_harmonic(v, kappa):
 
 
 def slope_change(v, kappa):
-    """By how much an impact changes the slope of Z: 4 C / (pi (1 - v^2)); the ball meets a wall with 1 / (1 + kappa) of it."""
+    """By how much an impact changes the slope of Z: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
     C, _ = amplitudes(np.square(v), kappa)
     return 4 * C / (np.pi * (1 - np.square(v)))
 

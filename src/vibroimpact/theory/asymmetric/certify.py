@@ -1,13 +1,11 @@
 """Proof that the list of asymmetric fixed points is complete, in interval arithmetic (python-flint's arb).
 
-The conditions |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1: every
-real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). Boxes are counted as for symmetric points; a chart's
-functions are expanded to second order about the centre of a box, with the second order enclosed over the reach of the
-box.
+The conditions |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1:
+every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). Boxes are counted as for symmetric points; the
+functions of a chart are expanded to second order about the centre of a box, the second order enclosed over its reach.
 """
 
 import functools
-import itertools
 from dataclasses import dataclass
 
 from vibroimpact.system.extras import need
@@ -94,23 +92,25 @@ class _Balance(Conditions):
 
     def _sides(self, x, y, half):
         """Local |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
-        (z1, q1, b1), (z2, q2, b2) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
-        total = (self.f[0] + self.f[1]) * self.K
-        n1 = [self.f[0] * q + total * z for q, z in zip(q2, z2, strict=True)]
-        n2 = [self.f[1] * q + total * z for q, z in zip(q1, z1, strict=True)]
-        delta = [[a * q + self.K * (z * q + a * w) for q, w in zip(q2, z2, strict=True)] for a, z in zip(q1, z1, strict=True)]
-        return tuple(map(modulus_squared, (delta, _outer(b1, n1), _outer(n2, b2))))
+        (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
+        row = [q + self.K * z for q, z in zip(q2, z2, strict=True)]
+        delta = [[a * b + z * self.K * q for b, q in zip(row, q2, strict=True)] for a, z in zip(q1, z1, strict=True)]
+        return modulus_squared(delta), _outer(beta1, n1), _outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Coefficients of z, q = e z + n and beta in t = (x - at) / half, the last one enclosed for |t| <= REACH."""
+        """Coefficients of z, q = e z + n, beta^2 and |n_j|^2, j the other module, in t = (x - at) / half.
+
+        The highest of z, q and beta and of the numerator n_j are enclosed for |t| <= REACH.
+        """
         exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, REACH * half))
-        parts = [
-            [acb(term) * arb(half) ** k for k, term in enumerate([one[0], one[1], all_of[2]])]
+        real, imaginary, n, beta = (
+            [acb(term) * arb(half) ** k for k, term in enumerate([*one[:2], all_of[2]])]
             for one, all_of in zip(exact, wide, strict=True)
-        ]
-        real, imaginary, n, beta = parts
+        )
         z = [a + acb(0, 1) * b for a, b in zip(real, imaginary, strict=True)]
-        return z, [self.e[module] * a + b for a, b in zip(z, n, strict=True)], beta
+        q = [self.e[module] * a + b for a, b in zip(z, n, strict=True)]
+        numerator = [self.f[1 - module] * a + sum(self.f) * self.K * b for a, b in zip(q, z, strict=True)]
+        return z, q, modulus_squared([beta])[0], modulus_squared([numerator])[0]
 
 
 def _functions(name, at, kappa):
@@ -119,11 +119,16 @@ def _functions(name, at, kappa):
     rho, mu, x = 2 * (1 - kappa) / (pi * (1 + kappa)), 8 / pi**2, arb_series([at, 1], prec=_ORDERS)
     one = arb_series([1], prec=_ORDERS)
     if name == ASYMMETRIC:
-        c, s = (_evaluated(coefficients, x) for coefficients in series(_TERMS, pi))
+        c, s = (_evaluated(coefficients, x) for coefficients in _series())
         functions = -4 / pi**2 * c, -rho * s, mu * c * c * s, ((1 - x) * s - 4 / pi**2 * c) * c
     else:
         functions = {SMALL: (1 - x, -rho * x, mu * x, one), LARGE: (x - 1, -rho * one, mu * one, x)}[name]
     return [[function[k] for k in range(_ORDERS)] for function in functions]
+
+
+@functools.cache
+def _series():
+    return series(_TERMS, arb.pi())
 
 
 def _evaluated(coefficients, x):

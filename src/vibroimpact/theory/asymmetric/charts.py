@@ -1,7 +1,7 @@
 """The manifold, symmetric and asymmetric, as three charts of one real parameter x in [-1, 1], all of them polynomials.
 
 A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta, so
-the describing function of the ball is N = n / z. C = path / beta. With c = cos(pi v / 2) and s = sin(pi v / 2) / (pi v / 2),
+the describing function of the ball is N = n / z. C = path / beta. With c = cos(pi v / 2), s = 2 sin(pi v / 2) / (pi v),
 which are entire functions of v^2 (docs/derivation.md, section 11):
 
     chart         x      z                          n          beta                            path

@@ -4,8 +4,8 @@ As for symmetric ones (docs/derivation.md, section 5) the balance is linear in w
 depend on the chart parameters x_i alone, here over compact squares: |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2. That
 none is missed is proved by `certify`, not here.
 
-v^2 < 0 is kept too: no motion at leading order, but where the branch goes on beyond symmetry breaking. A motion next to it
-exists once terms of order epsilon carry v^2 above 0.
+v^2 < 0 is kept too: no motion at leading order, but where the branch goes on beyond symmetry breaking. A motion next to
+it exists once terms of order epsilon carry v^2 above 0.
 """
 
 import itertools
@@ -17,16 +17,22 @@ from scipy.linalg import eigvals
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
 from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.verdict import all_stable, verdict
+from vibroimpact.theory import masri
+from vibroimpact.theory.asymmetric import branch
 from vibroimpact.theory.asymmetric.charts import ASYMMETRIC, LARGE, SMALL, Chart, charts
 from vibroimpact.theory.fixed_points.search import refuse_free_motion
+from vibroimpact.theory.penetration import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
-_STARTS = 24  # along each edge of the square
+_STARTS = 20  # along each edge of the square
 _STEPS = 40
 _REACH = 0.25
+_OUTSIDE = 1.5  # beyond this a start is given up
 _SETTLED = 1e-12
 _SAME = 1e-7
+_ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -39,6 +45,7 @@ class AsymmetricPoint(Glance):
         asymmetric: whether each module is on the asymmetric branch, shape (2,).
         squared: v^2 of each module, shape (2,), v the difference of its flights over the period; 0 where symmetric.
         C, B, psi, slow_eigenvalues: as of a FixedPoint.
+        middle: phase of U half-way from the impact with W = +1 to the next one [rad], shape (2,).
     """
 
     charts: tuple[str, str]
@@ -48,7 +55,34 @@ class AsymmetricPoint(Glance):
     C: np.ndarray
     B: np.ndarray
     psi: np.ndarray
+    middle: np.ndarray
     slow_eigenvalues: np.ndarray
+
+    def fast(self, kappa) -> np.ndarray:
+        """Multipliers, shape (4,), of the impact maps of both modules over a cycle, B and phi held."""
+        return np.concatenate([one[1] for one in self._modules(kappa)])
+
+    def fast_verdict(self, kappa) -> str:
+        """ "stable", "unstable" or "undecided" by the impact maps of both modules; unstable with a v^2 below 0."""
+        return all_stable(one[0] for one in self._modules(kappa))
+
+    def _modules(self, kappa):
+        for skewed, C, squared in zip(self.asymmetric, self.C, self.squared, strict=True):
+            theory, x = (branch, squared) if skewed else (masri, C)
+            yield theory.stable(x, kappa), theory.multipliers(x, kappa)
+
+    def slow_verdict(self) -> str:
+        """ "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
+        values = self.slow_eigenvalues
+        return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
+
+    def admissible(self, kappa) -> bool:
+        """Whether it is a motion at leading order and both balls stay between their walls."""
+        modules = zip(self.asymmetric, self.C, self.squared, strict=True)
+        return self.real and all(
+            branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
+            for skewed, C, squared in modules
+        )
 
     @property
     def real(self) -> bool:
@@ -130,17 +164,18 @@ def _zeros(conditions):
     """Zeros in the square |x_i| <= 1, shape (n, 2)."""
     ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
-    step = np.zeros_like(x)
+    settled = [np.empty((0, 2))]
     for _ in range(_STEPS):
         residual, jacobian = conditions(x)
         regular = np.abs(np.linalg.det(jacobian)) > 0
-        x, residual, jacobian = x[regular], residual[regular], jacobian[regular]
-        step = np.linalg.solve(jacobian, residual[..., None])[..., 0]
-        size = np.abs(step).max(axis=1, keepdims=True)
-        x = np.clip(x - step * np.minimum(1.0, _REACH / np.maximum(size, _REACH)), -1.5, 1.5)
-    settled = (np.abs(step).max(axis=1) < _SETTLED) & (np.abs(x) <= 1).all(axis=1)
+        step = np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
+        size = np.abs(step).max(axis=1)
+        x = x[regular] - step * np.minimum(1.0, _REACH / np.maximum(size, _REACH))[:, None]
+        done, near = size < _SETTLED, (np.abs(x) < _OUTSIDE).all(axis=1)
+        settled.append(x[done & (np.abs(x) <= 1).all(axis=1)])
+        x = x[~done & near]
     distinct = np.empty((0, 2))
-    for zero in x[settled]:
+    for zero in np.concatenate(settled):
         if not (np.abs(distinct - zero).max(axis=1) < _SAME).any():
             distinct = np.vstack([distinct, zero])
     return distinct
@@ -148,17 +183,19 @@ def _zeros(conditions):
 
 def _point(system, pair, x):
     known = charts(system.kappa)
-    mine = [known[name] for name in pair]
+    places = [(known[name], value) for name, value in zip(pair, x, strict=True)]
     psi = -np.angle(balance(system, pair).phasors(x))
-    curves = [np.array(part) for part in zip(*(chart.ball(value) for chart, value in zip(mine, x, strict=True)))]
+    C = np.array([chart.amplitudes(value)[0] for chart, value in places])
+    B, ball, B_x, ball_x = np.transpose([chart.ball(value) for chart, value in places])
     asymmetric = np.array([name == ASYMMETRIC for name in pair])
     return AsymmetricPoint(
         charts=pair,
         x=x,
         asymmetric=asymmetric,
         squared=np.where(asymmetric, x, 0.0),
-        C=np.array([chart.amplitudes(value)[0] for chart, value in zip(mine, x, strict=True)]),
-        B=curves[0],
+        C=C,
+        B=B.real,
         psi=psi,
-        slow_eigenvalues=descending(eigvals(*pencil(system, psi, *curves))),
+        middle=np.angle([-chart.z(value) / chart.beta(value) for chart, value in places]),
+        slow_eigenvalues=descending(eigvals(*pencil(system, psi, B.real, ball, B_x.real, ball_x))),
     )
