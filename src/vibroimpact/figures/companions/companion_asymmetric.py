@@ -28,9 +28,9 @@ PIECES = {
 }
 NAMES = {
     "symmetric, stable": "symmetric, stable",
-    "symmetric, left": "unstable",
+    "symmetric, left": "symmetric, unstable",
     "asymmetric, stable": "asymmetric, stable",
-    "asymmetric, right": "unstable ",
+    "asymmetric, right": "asymmetric, unstable",
 }
 MARKS = {
     THEORY: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6},
@@ -133,7 +133,7 @@ def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
     table = tables["csv"]
     cases = [panel for panel in dict.fromkeys(table["panel"]) if panel != MANIFOLD]
-    figure = new_figure(DOUBLE_COLUMN, 74.0)
+    figure = new_figure(DOUBLE_COLUMN, 80.0)
     grid = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
     for axes, letter in zip(grid, ascii_lowercase, strict=False):
         letter_panel(axes, letter)
@@ -142,6 +142,7 @@ def draw(tables: dict) -> Figure:
         _draw_case(axes, table, case)
     if cases:
         grid[1].set_ylabel("$v^2$")
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=8.5)
     return figure
 
 
@@ -153,7 +154,6 @@ def _draw_manifold(axes, table):
         rows = select(table, MANIFOLD, series)
         axes.plot(rows["C"], rows["B"], linestyle="none", color=BLACK, label=series, zorder=3, **style)
     axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_i$", ylabel="$B_i$")
-    axes.legend(fontsize=8, loc="upper center")
 
 
 def _draw_case(axes, table, case):
