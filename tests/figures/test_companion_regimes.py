@@ -9,6 +9,8 @@ from matplotlib.lines import Line2D
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
+from verdict_tables import verdicts_of
+from vibroimpact.figures.companions import companion_asymmetric
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -23,6 +25,7 @@ MODULES = {
     "modulation": modulation,
     "basins": basins,
     "epsilon": epsilon_limit,
+    "asymmetric": companion_asymmetric,
 }
 
 
@@ -48,6 +51,9 @@ def tables():
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
         "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
+        "asymmetric": companion_asymmetric.compute(
+            SYSTEMS, verdicts_of(SYSTEMS)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
+        ),
         "epsilon": epsilon_limit.compute(
             SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}
         ),

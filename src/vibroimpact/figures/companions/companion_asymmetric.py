@@ -133,7 +133,7 @@ def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
     table = tables["csv"]
     cases = [panel for panel in dict.fromkeys(table["panel"]) if panel != MANIFOLD]
-    figure = new_figure(DOUBLE_COLUMN, 80.0)
+    figure = new_figure(DOUBLE_COLUMN, 84.0)
     grid = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
     for axes, letter in zip(grid, ascii_lowercase, strict=False):
         letter_panel(axes, letter)
@@ -142,7 +142,7 @@ def draw(tables: dict) -> Figure:
         _draw_case(axes, table, case)
     if cases:
         grid[1].set_ylabel("$v^2$")
-    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=8.5)
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)
     return figure
 
 
