@@ -1,7 +1,8 @@
 """How complete the lists of fixed points and orbits of all cases are -> JSON, by case.
 
-Proved in interval arithmetic of fixed points, those with unequal flights too, and symmetric orbits. Of asymmetric orbits nothing is proved: the number
-of Newton starts that led to the one that was met least says how likely another one was missed.
+Proved in interval arithmetic of fixed points, those with unequal flights too, and symmetric orbits. Of asymmetric
+orbits nothing is proved: the number of Newton starts that led to the one that was met least says how likely another one
+was missed.
 """
 
 import dataclasses

@@ -17,7 +17,7 @@ from vibroimpact.theory.asymmetric.search import fixed_points
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
 
-MANIFOLD, THEORY, EXACT, WAY = "manifold", "fixed point", "exact orbit", "way"
+MANIFOLD, THEORY, EXACT, WAY, END = "manifold", "fixed point", "exact orbit", "way", "end"
 GREYED = {"color": GREY}
 PIECES = {
     "symmetric, left": UNSTABLE,
@@ -56,7 +56,7 @@ def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below
 
     Returns "csv": panel "manifold" (series: pieces of both branches with C, B; "fixed point", "exact orbit": modules
     with unequal flights, labelled "case, label") and one per case (series "way" of each pair, labelled: epsilon,
-    squared, the larger v^2; "fixed point": where it leads, at epsilon 0); and "points", a row per fixed point.
+    squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); and "points", a row per fixed point.
     """
     kappa = next(iter(systems.values())).kappa
     curves, rows = _manifold(kappa, C_max), []
@@ -100,7 +100,7 @@ def _way(case, label, way, end):
     yield curve(case, WAY, label=label, epsilon=[s.system.epsilon for s in way], squared=places[:, 2:4].max(axis=1))
     yield from _in_plane(EXACT, f"{case}, {label}", places[0, 2:4], places[0, :2], way[0].box_amplitudes)
     if end is not None:
-        yield curve(case, THEORY, label=label, epsilon=0.0, squared=end.squared[end.asymmetric].max())
+        yield curve(case, END, label=label, epsilon=0.0, squared=end.squared[end.asymmetric].max())
 
 
 def _in_plane(series, label, squared, C, B):
@@ -162,7 +162,7 @@ def _draw_case(axes, table, case):
         axes.plot(way["epsilon"], way["squared"], color=BLACK, linestyle=dashes, linewidth=1.2)
         last = way.iloc[0]
         axes.annotate(label, (last["epsilon"], last["squared"]), (-2, 3), textcoords="offset points", ha="right")
-    ends = select(table, case, THEORY)
+    ends = select(table, case, END)
     axes.plot(ends["epsilon"], ends["squared"], linestyle="none", color=BLACK, clip_on=False, zorder=3, **MARKS[THEORY])
     axes.axhline(0, color=BLACK, linewidth=0.6)
     axes.set_title(case, loc="right", pad=3)
