@@ -85,7 +85,7 @@ COMPANIONS = {
         "settings": keys_of("regimes.asymmetric") | {"C_max": "stability.companion_10_04.C_max"},
         "inputs": {"orbits": "results/orbits.csv"},
         "before": [step(*STEPS["orbits"])],
-        "tables": {"points": "results/asymmetric_fixed_points.csv"},
+        "tables": {"points": "results/asymmetric_fixed_points.csv", "relaxation": "results/regimes/relaxation.csv"},
     },
 }
 

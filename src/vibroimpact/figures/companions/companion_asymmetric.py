@@ -16,6 +16,7 @@ from vibroimpact.theory.asymmetric import branch
 from vibroimpact.theory.asymmetric.search import fixed_points
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
+from vibroimpact.theory.relaxation import lost_at, relax
 
 MANIFOLD, THEORY, EXACT, WAY, END = "manifold", "fixed point", "exact orbit", "way", "end"
 GREYED = {"color": GREY}
@@ -42,7 +43,9 @@ _PHASES, _SPEEDS = (
 )
 COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
-COMPARED = ["orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
+RELAXED = 400, 100
+"""Cycles that the slow flow is followed for, and that it is left to settle before."""
+COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
 
 
 def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below: float, C_max: float) -> dict:
@@ -56,10 +59,11 @@ def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below
 
     Returns "csv": panel "manifold" (series: pieces of both branches with C, B; "fixed point", "exact orbit": modules
     with unequal flights, labelled "case, label") and one per case (series "way" of each pair, labelled: epsilon,
-    squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); and "points", a row per fixed point.
+    squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); "points", a row per fixed point; and
+    "relaxation", what the slow flow makes of balls that it loses, a row per case and module.
     """
     kappa = next(iter(systems.values())).kappa
-    curves, rows = _manifold(kappa, C_max), []
+    curves, rows, relaxed = _manifold(kappa, C_max), [], []
     for case, system in systems.items():
         points = fixed_points(system)
         pairs = _pairs(system, orbits[orbits["case"] == case])
@@ -71,8 +75,11 @@ def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below
             rows.append(_row(system, case, f"U{number}", point, label, ways.get(label), fit_below))
             curves += _in_plane(THEORY, f"{case}, U{number}", point.squared, point.C, point.B)
         curves += [part for label, way in ways.items() for part in _way(case, label, way, ends[label])]
+        found = relax(system, *RELAXED)
+        relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
     table = pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED])
-    return {"csv": join(curves), "points": table}
+    relaxation = pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"])
+    return {"csv": join(curves), "points": table, "relaxation": relaxation}
 
 
 def _manifold(kappa, C_max):
@@ -115,8 +122,10 @@ def _row(system, case, name, point, label, way, fit_below):
     verdicts = [point.real, point.admissible(kappa), point.fast_verdict(kappa), point.slow_verdict()]
     judged = [*verdicts, max(*slow, *np.abs(point.fast(kappa)))]
     row = [case, name, *point.squared, *point.C, *point.B, *point.psi, *judged]
+    stable = point.slow_verdict() == "stable"
+    row = [*row, lost_at(system, point) if stable else np.nan]
     if way is None:
-        return [*row, "", *[np.nan] * (len(COMPARED) - 1)]
+        return [*row, "", *[np.nan] * (len(COMPARED) - 2)]
     distance = np.array([np.linalg.norm(asymmetric_limit.offset(station, point)) for station in way])
     epsilon = np.array([station.system.epsilon for station in way])
     small = epsilon < fit_below
