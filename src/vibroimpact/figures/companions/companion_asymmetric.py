@@ -177,3 +177,4 @@ def _draw_case(axes, table, case):
     axes.set_title(case, loc="right", pad=3)
     axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
     axes.margins(y=0.08)
+    axes.locator_params(axis="x", nbins=3)
