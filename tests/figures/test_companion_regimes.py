@@ -19,6 +19,7 @@ from vibroimpact.figures.companions import companion_regime_map as regime_map
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+EQUAL = {"equal": SYSTEMS["equal"]}
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
@@ -52,7 +53,7 @@ def tables():
         ),
         "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
         "asymmetric": companion_asymmetric.compute(
-            SYSTEMS, verdicts_of(SYSTEMS)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
+            EQUAL, verdicts_of(EQUAL)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
         ),
         "epsilon": epsilon_limit.compute(
             SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}

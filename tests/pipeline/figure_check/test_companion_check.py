@@ -55,6 +55,10 @@ def all_systems(change):
     return {case: change(system) for case, system in SYSTEMS.items()}
 
 
+def asymmetric(systems):
+    return companion_asymmetric.compute(systems, verdicts_of(systems)[1], [0.1, 1e-3], 9, 0.05, 2.5)
+
+
 def regime_cells(system):
     return regime_map.compute_tile(system, 0, 1, 11, (0.0, 1.6), (0.0, 1.6), 5, 1, OBSERVATION)
 
@@ -74,9 +78,7 @@ COMPUTE = {
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
     "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), 15, OBSERVATION),
-    "companion_asymmetric": lambda change: companion_asymmetric.compute(
-        all_systems(change), verdicts_of(all_systems(change))[1], [0.1, 1e-3], 9, 0.05, 2.5
-    ),
+    "companion_asymmetric": lambda change: asymmetric({"equal": change(SYSTEMS["equal"])}),
     "companion_epsilon": lambda change: epsilon_limit.compute(
         all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}
     ),

@@ -50,20 +50,28 @@ def test_the_branch_begins_where_symmetry_breaks_and_only_grows(kappa):
     assert (np.diff(C) > 0).all()
     assert (np.diff(B) > 0).all()
     assert C.max() < 2
-    assert (np.diff(branch.trace(squared, kappa)) < 0).all()
     np.testing.assert_allclose(
         np.sort(branch.multipliers(0.0, kappa).real), np.sort(masri.multipliers(C[0], kappa).real), rtol=1e-9
     )
 
 
-@pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
+@pytest.mark.parametrize("kappa", [1e-6, 0.65, 0.95, 0.999])
 def test_the_branch_is_stable_up_to_a_period_doubling(kappa):
     end = branch.period_doubling(kappa)
+    assert (np.diff(branch.trace(np.linspace(0, 1.2 * end, 100), kappa)) < 0).all()
     assert min(abs(branch.multipliers(end, kappa) + 1)) < 1e-9
     for squared, said in ((0.5 * end, "stable"), (end, "undecided"), (1.01 * end, "unstable"), (-0.01, "unstable")):
         assert branch.stable(squared, kappa) == said
         inside = bool((abs(branch.multipliers(squared, kappa)) < 1).all())
         assert said == "undecided" or inside == (said == "stable")
+
+
+@pytest.mark.parametrize("kappa", [0.9, 0.99, 1 - 1e-9])
+def test_where_multipliers_come_back_into_the_circle_the_ball_is_outside(kappa):
+    squared = np.linspace(1.01 * branch.period_doubling(kappa), 0.999, 200)
+    back = [one for one in squared if branch.stable(one, kappa) == "stable"]
+    assert back
+    assert min(branch.overshoot(np.sqrt(one), kappa) for one in back) > 0.1
 
 
 @pytest.mark.parametrize(("v", "kappa"), PLACES)

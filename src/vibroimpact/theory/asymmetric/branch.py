@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 from vibroimpact.system.verdict import verdict
 from vibroimpact.theory.asymmetric.charts import ASYMMETRIC, charts
 from vibroimpact.theory.manifold import rho
-from vibroimpact.theory.masri import ROUNDING
+
+_ROUNDING = 1e-12  # of a trace
 
 
 def amplitudes(squared, kappa):
@@ -60,13 +61,13 @@ def multipliers(squared: float, kappa: float) -> np.ndarray:
 
 
 def period_doubling(kappa: float) -> float:
-    """The v^2 at which a multiplier is -1: the branch is stable between 0 and there."""
-    return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 1 - 1e-9, xtol=1e-15)
+    """The v^2 at which a multiplier is -1, 0.17 to 0.22: the branch is stable between 0 and there."""
+    return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 
 
-def stable(squared: float, kappa: float, error: float = 0.0) -> str:
-    """ "stable", "unstable" or "undecided": whether v^2 lies between 0 and `period_doubling`, known to within error."""
-    return verdict(min(squared, period_doubling(kappa) - squared), error + ROUNDING)
+def stable(squared: float, kappa: float) -> str:
+    """ "stable", "unstable" or "undecided": whether both multipliers are inside the unit circle."""
+    return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
 
 def overshoot(v: float, kappa: float) -> float:
