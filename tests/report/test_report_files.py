@@ -135,7 +135,7 @@ def test_numbers_on_a_page_are_those_of_the_results(site):
     ("page", "folder", "figures", "number"),
     [
         ("figures", "figures", "fig10_", 11),
-        ("companions", "figures", "companion_", 9),
+        ("companions", "figures", "companion_", 10),
         ("accuracy", "accuracy", ("work_precision", "hazards"), 2),
     ],
 )

@@ -30,7 +30,7 @@ _STARTS = 20  # along each edge of the square
 _STEPS = 40
 _REACH = 0.25
 _OUTSIDE = 1.5  # beyond this a start is given up
-_SETTLED = 1e-12
+_SETTLED, _STALLED = 1e-12, 1e-8  # the second where all steps are used up: next to a double zero
 _SAME = 1e-7
 _ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
 
@@ -103,9 +103,8 @@ class Balance:
         self.forcing = np.array([system.f10_hat, system.f20_hat])
         self.q = [e * chart.z + chart.n for e, chart in zip(self.e, (one, two), strict=True)]
         total = self.forcing.sum() * self.K
-        own = self.forcing[0] * self.q[1] + total * two.z, self.forcing[1] * self.q[0] + total * one.z
-        self.numerators = own
-        self._functions = (*self.q, one.z, two.z, own[0], own[1], one.beta, two.beta)
+        self.numerators = self.forcing[0] * self.q[1] + total * two.z, self.forcing[1] * self.q[0] + total * one.z
+        self._functions = (*self.q, one.z, two.z, *self.numerators, one.beta, two.beta)
         self._slopes = tuple(function.deriv() for function in self._functions)
 
     def __call__(self, x):
@@ -165,13 +164,13 @@ def _zeros(conditions):
     ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
     settled = [np.empty((0, 2))]
-    for _ in range(_STEPS):
+    for limit in [_SETTLED] * (_STEPS - 1) + [_STALLED]:
         residual, jacobian = conditions(x)
         regular = np.abs(np.linalg.det(jacobian)) > 0
         step = np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
         size = np.abs(step).max(axis=1)
         x = x[regular] - step * np.minimum(1.0, _REACH / np.maximum(size, _REACH))[:, None]
-        done, near = size < _SETTLED, (np.abs(x) < _OUTSIDE).all(axis=1)
+        done, near = size < limit, (np.abs(x) < _OUTSIDE).all(axis=1)
         settled.append(x[done & (np.abs(x) <= 1).all(axis=1)])
         x = x[~done & near]
     distinct = np.empty((0, 2))
