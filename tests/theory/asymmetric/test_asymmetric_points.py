@@ -1,5 +1,6 @@
 """Asymmetric fixed points: they stand still, their eigenvalues are those of the flow, and none is missed."""
 
+import functools
 import itertools
 
 import numpy as np
@@ -19,19 +20,16 @@ SYSTEMS |= {
     "strong": SYSTEMS["equal"].with_(f20_hat=1.1),
     "both": SYSTEMS["equal"].with_(f10_hat=1.9, f20_hat=1.6, gamma1_hat=0.1, gamma2_hat=0.1),
 }
-POINTS = {case: search(system) for case, system in SYSTEMS.items()}
-PROOFS = {}
 
 
+@functools.cache
+def points(case):
+    return search(SYSTEMS[case])
+
+
+@functools.cache
 def proof(case):
-    """Shared: a second each."""
-    if case not in PROOFS:
-        PROOFS[case] = certify.certify(SYSTEMS[case])
-    return PROOFS[case]
-
-
-def real_points():
-    return [(case, point) for case, found in POINTS.items() for point in found if point.real]
+    return certify.certify(SYSTEMS[case])
 
 
 def harmonic(system, skewed, squared, C):
@@ -48,16 +46,20 @@ def harmonic(system, skewed, squared, C):
     return 2 * np.mean(Z * np.exp(-1j * x)) / (-1j * B), B
 
 
-@pytest.mark.parametrize(("case", "point"), real_points())
-def test_every_real_point_stands_still(case, point):
+@pytest.mark.parametrize("case", ["equal", "both"])
+def test_every_real_point_stands_still(case):
     """The balance of section 4, with describing functions from the saw-teeth."""
     system = SYSTEMS[case]
-    N, B = np.transpose([harmonic(system, *of) for of in zip(point.asymmetric, point.squared, point.C, strict=True)])
-    np.testing.assert_allclose(point.B, B.real, rtol=1e-12)
     e, K = impedances(system)
-    b = point.B * np.exp(-1j * point.psi)
-    balance = np.array([system.f10_hat, system.f20_hat]) - (e + N) * b - K * (b - b[::-1])
-    assert abs(balance).max() < 1e-7
+    real = [point for point in points(case) if point.real]
+    assert len(real) >= 2
+    for point in real:
+        modules = zip(point.asymmetric, point.squared, point.C, strict=True)
+        N, B = np.transpose([harmonic(system, *module) for module in modules])
+        np.testing.assert_allclose(point.B, B.real, rtol=1e-12)
+        b = point.B * np.exp(-1j * point.psi)
+        balance = np.array([system.f10_hat, system.f20_hat]) - (e + N) * b - K * (b - b[::-1])
+        assert abs(balance).max() < 1e-7
 
 
 def flow(system, point, b):
@@ -76,7 +78,7 @@ def flow(system, point, b):
 @pytest.mark.parametrize("case", ["equal", "both"])
 def test_eigenvalues_are_those_of_the_flow_in_the_plane_of_b(case):
     system, step = SYSTEMS[case], 1e-6
-    for point in POINTS[case]:
+    for point in points(case):
         b = point.B * np.exp(-1j * point.psi)
         assert abs(flow(system, point, b)).max() < 1e-10
         columns = []
@@ -92,26 +94,26 @@ def test_eigenvalues_are_those_of_the_flow_in_the_plane_of_b(case):
 @pytest.mark.parametrize("case", SYSTEMS)
 def test_none_is_missed(case):
     assert proof(case).complete
-    assert len(proof(case).isolated) == len(POINTS[case])
+    assert len(proof(case).isolated) == len(points(case))
 
 
 def test_the_cases_have_modules_of_every_kind():
-    kinds = {point.charts for _, point in real_points()}
+    kinds = {point.charts for case in SYSTEMS for point in points(case) if point.real}
     assert (ASYMMETRIC, ASYMMETRIC) in kinds
     assert any(pair[0] == ASYMMETRIC != pair[1] for pair in kinds)
     assert any(pair[1] == ASYMMETRIC != pair[0] for pair in kinds)
 
 
 def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
-    listed = POINTS["equal"]
-    for points in (listed[1:], [*listed, listed[0]]):
-        monkeypatch.setattr(certify, "search", lambda system, points=points: points)
+    listed = points("equal")
+    for spoilt in (listed[1:], [*listed, listed[0]]):
+        monkeypatch.setattr(certify, "search", lambda system, spoilt=spoilt: spoilt)
         assert not certify.certify(SYSTEMS["equal"]).complete
 
 
 def test_boxes_hold_the_points():
     for (pair, box), point in zip(
-        sorted(proof("equal").isolated), sorted(POINTS["equal"], key=lambda p: (p.charts, *p.x)), strict=True
+        sorted(proof("equal").isolated), sorted(points("equal"), key=lambda p: (p.charts, *p.x)), strict=True
     ):
         assert pair == point.charts
         assert all(low <= x <= high for (low, high), x in zip(box, point.x, strict=True))
@@ -123,14 +125,14 @@ def test_without_coupling_each_module_is_on_its_own():
     e, forces, known = impedances(system)[0], (system.f10_hat, system.f20_hat), charts(system.kappa)
     roots = {}
     for (module, force), (name, chart) in itertools.product(enumerate(forces), known.items()):
-        x = np.linspace(-1, 1, 20001)
+        x = np.linspace(-1, 1, 4001)
         excess = abs(e[module] * chart.z(x) + chart.n(x)) - abs(force * chart.beta(x))
         roots[module, name] = x[:-1][excess[:-1] * excess[1:] < 0]
     for first, second in itertools.product(known, known):
         if ASYMMETRIC in (first, second):
             expected = sorted(itertools.product(roots[0, first], roots[1, second]))
             found = sorted(tuple(p.x) for p in search(system) if p.charts == (first, second))
-            np.testing.assert_allclose(np.reshape(found, (-1, 2)), np.reshape(expected, (-1, 2)), atol=2e-4)
+            np.testing.assert_allclose(np.reshape(found, (-1, 2)), np.reshape(expected, (-1, 2)), atol=6e-4)
 
 
 def test_points_are_where_symmetry_breaks_at_the_same_force():
