@@ -9,6 +9,8 @@ from matplotlib.lines import Line2D
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
+from verdict_tables import verdicts_of
+from vibroimpact.figures.companions import companion_asymmetric
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -21,12 +23,14 @@ from vibroimpact.sweeps.rows import rows as rows_of
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+EQUAL = {"equal": SYSTEMS["equal"]}
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
     "modulation": modulation,
     "basins": basins,
     "epsilon": epsilon_limit,
+    "asymmetric": companion_asymmetric,
 }
 
 
@@ -56,6 +60,9 @@ def tables():
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
         "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
+        "asymmetric": companion_asymmetric.compute(
+            EQUAL, verdicts_of(EQUAL)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
+        ),
         "epsilon": epsilon_limit.compute(
             SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}
         ),

@@ -8,6 +8,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.figures.companions import (
     coexistence,
+    companion_asymmetric,
     companion_basins,
     companion_branches,
     companion_epsilon,
@@ -58,6 +59,14 @@ def test_theory_and_orbit_without_either_are_not_compared():
     assert tables["csv"].empty
     assert tables["orders"].empty
     companion_epsilon.draw(tables)
+
+
+def test_without_asymmetric_orbits_the_manifold_is_shown():
+    orbits = pd.DataFrame(columns=["case", "label", "symmetric", "C1", "C2"])
+    tables = companion_asymmetric.compute({"still": STILL}, orbits, [0.1, 0.01], 3, 0.05, 2.5)
+    assert set(tables["csv"]["panel"]) == {"manifold"}
+    assert tables["points"].empty
+    companion_asymmetric.draw(tables)
 
 
 def test_no_order_is_fitted_to_a_single_epsilon():

@@ -1,5 +1,6 @@
 """The slow flow derived from (10.3) by computer algebra, as in section 10.3, and compared with the code."""
 
+import functools
 from types import SimpleNamespace
 
 import numpy as np
@@ -86,6 +87,7 @@ def test_leading_order_is_10_8():
         assert sp.simplify(of_W - (U0[i].diff(t0, 2) + Z[i].diff(t0, 2) + U0[i])) == 0
 
 
+@functools.cache
 def solvability():
     """D_1 B_i and D_1 phi_i, (10.20), from the absence of secular terms at order eps."""
     residuals, _, U1, Z = multiple_scales(1)
@@ -139,6 +141,19 @@ def test_slow_flow_is_the_solvability_condition(monkeypatch):
         derived_psi = autonomous(sigma_e - solution[unknown[2 * i + 1]])
         assert sp.simplify(derived_B - dB[i]) == 0
         assert sp.simplify(derived_psi - dpsi[i]) == 0
+
+
+def test_complex_form_holds_for_a_saw_tooth_of_any_harmonic():
+    """2i D_1 b_i = f_i - (e_i + N_i) b_i - K (b_i - b_j), N_i U_i the first harmonic of Z_i, whatever that is."""
+    solution, unknown = solvability()
+    turn = [sp.exp(sp.I * (phi[i] - sigma_e * t1)) for i in (0, 1)]
+    b = [B[i] * turn[i] for i in (0, 1)]
+    for i, j in ((0, 1), (1, 0)):
+        N = 8 / sp.pi**2 * C[i] * sp.I * sp.exp(-sp.I * (theta[i] + phi[i])) / B[i]
+        e = (0, sigma20)[i] - 2 * sigma_e + sp.I * gamma[i]
+        balance = f[i] - (e + N) * b[i] - (alpha12 + sp.I * gamma12) * (b[i] - b[j])
+        D1_b = (solution[unknown[2 * i]] + sp.I * B[i] * (solution[unknown[2 * i + 1]] - sigma_e)) * turn[i]
+        assert sp.simplify(sp.expand((2 * sp.I * D1_b - balance).rewrite(sp.exp))) == 0
 
 
 def test_first_harmonic_constant():

@@ -31,6 +31,7 @@ def test_fixed_points_and_symmetric_orbits_are_proved_complete(built):
     assert set(proofs) == {"equal", "unequal", "weak"}
     for found in proofs.values():
         assert found["fixed_points"]["complete"]
+        assert found["asymmetric_fixed_points"]["complete"]
         assert found["symmetric_orbits"]["complete"]
         assert found["fixed_points"]["undecided"] == found["symmetric_orbits"]["undecided"] == []
 

@@ -101,6 +101,14 @@ COMPANIONS = {
         "settings": keys_of("regimes.epsilon"),
         "tables": {"orders": "results/regimes/epsilon_orders.csv"},
     },
+    "companion_asymmetric": {
+        "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
+        "systems": True,
+        "settings": keys_of("regimes.asymmetric") | {"C_max": "stability.companion_10_04.C_max"},
+        "inputs": {"orbits": "results/orbits.csv"},
+        "before": [step(*STEPS["orbits"])],
+        "tables": {"points": "results/asymmetric_fixed_points.csv", "relaxation": "results/regimes/relaxation.csv"},
+    },
 }
 
 

@@ -19,7 +19,8 @@ class NoOrbit(ValueError):
 class Comparison:
     """A fixed point and the symmetric orbit next to it, at one epsilon.
 
-    offset: C and impact phases [rad] of both modules, orbit minus fixed point, (4,); distance: its norm.
+    offset: orbit minus fixed point in what places them, C and impact phases [rad] of both modules, (4,), for symmetric
+    ones; distance: its norm.
     rates: log(mu) / (epsilon 2 pi / Omega) of the exact multipliers, predicted: what slow flow (first four) and impact
     map (last four) give for the same, paired so that the multipliers are nearest together; both (8,) complex.
     multipliers, predicted_multipliers likewise.
@@ -45,14 +46,18 @@ def compare(system, point) -> Comparison:
         NoOrbit: the system has no symmetric orbit.
     """
     root, offset = _nearest(system, point)
-    exact = symmetric_orbit(system, root).multipliers
-    slow_time = system.epsilon * system.period
     fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C])
-    predicted = np.concatenate([np.exp(point.slow_eigenvalues * slow_time), fast])
+    return paired(system, offset, symmetric_orbit(system, root).multipliers, point.slow_eigenvalues, fast)
+
+
+def paired(system, offset, exact, slow, fast) -> Comparison:
+    """The Comparison of exact multipliers (8,) with slow eigenvalues (4,) and fast multipliers (4,)."""
+    slow_time = system.epsilon * system.period
+    predicted = np.concatenate([np.exp(slow * slow_time), fast])
     # Slow multipliers are predicted to second order in epsilon, fast ones to first: weighed so that both count alike.
     weights = np.repeat([1 / slow_time, 1.0], 4)
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
-    rates = np.concatenate([point.slow_eigenvalues, np.log(fast.astype(complex)) / slow_time])
+    rates = np.concatenate([slow, np.log(fast.astype(complex)) / slow_time])
     return Comparison(
         epsilon=system.epsilon,
         offset=offset,

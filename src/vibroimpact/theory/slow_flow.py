@@ -58,29 +58,40 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     r = rho(system.kappa)
     C = np.asarray(C, dtype=float)
     B, B_C = B_of_C(C, r), slope(C, r)
+    ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
+    ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
+    return pencil(system, psi, B, ball, B_C, ball_C)
+
+
+def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
+    """`linearisation` for modules on any curve B(x), N(x) B(x) of a parameter x, for small changes of (x_i, psi_i).
+
+    Args:
+        psi: phases [rad], shape (2,).
+        B, ball: amplitudes B_i and complex N_i B_i, each shape (2,).
+        B_x, ball_x: their derivatives by x_i.
+    """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
     ahead = np.exp(1j * np.asarray(psi))
-    ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
-    ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
     # D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i), the complex form of (10.22).
     from_other = K * ahead * (B / ahead)[::-1]
     drive = forcing * ahead - (e + K) * B - ball + from_other
-    drive_own_C = -(e + K) * B_C - ball_C
+    drive_own_x = -(e + K) * B_x - ball_x
     drive_own_psi = 1j * (forcing * ahead + from_other)
-    drive_other_C = K * ahead * (B_C / ahead)[::-1]
+    drive_other_x = K * ahead * (B_x / ahead)[::-1]
     drive_other_psi = -1j * from_other
 
     J, M = np.zeros((4, 4)), np.eye(4)
     for i in (0, 1):
         own, other = 2 * i, 2 * (1 - i)
         row = np.zeros(4, dtype=complex)
-        row[own : own + 2] = drive_own_C[i], drive_own_psi[i]
-        row[other : other + 2] = drive_other_C[i], drive_other_psi[i]
+        row[own : own + 2] = drive_own_x[i], drive_own_psi[i]
+        row[other : other + 2] = drive_other_x[i], drive_other_psi[i]
         J[own] = row.imag / 2
         J[own + 1] = row.real / (2 * B[i])
-        J[own + 1, own] -= drive[i].real * B_C[i] / (2 * B[i] ** 2)
-        M[own, own] = B_C[i]
+        J[own + 1, own] -= drive[i].real * B_x[i] / (2 * B[i] ** 2)
+        M[own, own] = B_x[i]
     return J, M
 
 
@@ -106,5 +117,9 @@ def slow_eigenvalues(system, psi, C) -> np.ndarray:
     Args:
         psi, C: phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).
     """
-    values = eigvals(*linearisation(system, psi, C))
+    return descending(eigvals(*linearisation(system, psi, C)))
+
+
+def descending(values) -> np.ndarray:
+    """Eigenvalues by descending real part."""
     return values[np.argsort(-values.real, kind="stable")]

@@ -243,15 +243,14 @@ class Mixed(Section):
     label: Label
 
 
-class EpsilonLimit(Section):
-    """Theory against exact responses as epsilon tends to 0."""
+class EpsilonRange(Section):
+    """Values of epsilon at which theory and exact responses are compared."""
 
     epsilon: Annotated[list[Epsilon], Field(min_length=2, max_length=2)] = Field(description="First and last value")
     values: Annotated[int, Field(ge=3, le=1000)] = Field(description="Values, evenly on a logarithmic scale")
     fit_below: Annotated[float, Field(gt=0, le=10)] = Field(
         description="Orders are fitted to the values of epsilon below this, which takes two of them at least"
     )
-    mixed: Mixed = None
 
     def conditions(self):
         yield from repeated("epsilon", self.epsilon)
@@ -261,6 +260,12 @@ class EpsilonLimit(Section):
 
     def changes(self):
         yield Change(("epsilon",), None, ["epsilon"], self.epsilon)
+
+
+class EpsilonLimit(EpsilonRange):
+    """Theory against exact responses as epsilon tends to 0."""
+
+    mixed: Mixed = None
 
 
 class Regimes(Section):
@@ -273,6 +278,7 @@ class Regimes(Section):
     modulation: Modulation
     basins: Basins
     epsilon: EpsilonLimit
+    asymmetric: EpsilonRange
 
     def conditions(self):
         once, longest = self.observation.cycles, self.observation.longest()

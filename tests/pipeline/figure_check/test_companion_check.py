@@ -15,7 +15,13 @@ from checking import LIMITS, assert_caught, build, copy_pictures
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.figures.companions import companion_10_04, companion_10_05, companion_horizon, companion_stability
+from vibroimpact.figures.companions import (
+    companion_10_04,
+    companion_10_05,
+    companion_asymmetric,
+    companion_horizon,
+    companion_stability,
+)
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -58,6 +64,10 @@ def mapped(system):
     return pd.DataFrame(rows(grid, asked, range(len(grid))))
 
 
+def asymmetric(systems):
+    return companion_asymmetric.compute(systems, verdicts_of(systems)[1], [0.1, 1e-3], 9, 0.05, 2.5)
+
+
 COMPUTE = {
     "companion_10_04": lambda change: companion_10_04.compute(change(SYSTEMS["equal"]).kappa, 2.5),
     "companion_10_05": lambda change: companion_10_05.compute((0.5, 2.2)),
@@ -71,6 +81,7 @@ COMPUTE = {
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
     "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), 15, OBSERVATION),
+    "companion_asymmetric": lambda change: asymmetric({"equal": change(SYSTEMS["equal"])}),
     "companion_epsilon": lambda change: epsilon_limit.compute(
         all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}
     ),
@@ -85,6 +96,7 @@ MODULES = {
     "companion_regime_map": regime_map,
     "companion_modulation": modulation,
     "companion_basins": basins,
+    "companion_asymmetric": companion_asymmetric,
     "companion_epsilon": epsilon_limit,
 }
 OF_SYSTEMS = [name for name in MODULES if name != "companion_10_05"]

@@ -21,8 +21,8 @@ need("reference", "flint")
 
 from flint import acb, arb, ctx  # noqa: E402 (after the word on what is missing)
 
-_BITS = 128
-_REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
+BITS = 128
+REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
 _NARROWEST = 2.0**-24
 _KNOWN = 2.0**-20  # half-width at which a zero is known well enough to be told from the others
 _MOST = 20_000  # boxes to look at: the rest is reported as undecided
@@ -54,21 +54,26 @@ def certify(system) -> Proof:
         ValueError: as `fixed_points.search`.
     """
     listed = search(system)
-    with ctx.workprec(_BITS):
-        isolated, undecided = ([], []) if system.has_undriven_module else _subdivide(_Balance(system))
+    with ctx.workprec(BITS):
+        isolated, undecided = ([], []) if system.has_undriven_module else subdivide(_Balance(system))
     points = [point.C for point in listed.points + listed.outside]
-    counts = np.array([[_holds(box, C) for C in points] for box in isolated], dtype=int)
+    return Proof(isolated, undecided, matched(isolated, points) and not undecided)
+
+
+def matched(isolated, points) -> bool:
+    """Whether each box holds one of the points and each point is in one box."""
+    counts = np.array([[_holds(box, point) for point in points] for box in isolated], dtype=int)
     counts = counts.reshape(len(isolated), len(points))
-    matched = len(points) == len(isolated) and (counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all()
-    return Proof(isolated, undecided, bool(matched and not undecided))
+    one_each = (counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all()
+    return len(points) == len(isolated) and bool(one_each)
 
 
 def _holds(box, C):
     return all(low <= c <= high for (low, high), c in zip(box, C, strict=True))
 
 
-def _subdivide(balance):
-    """Boxes with exactly one zero, and those that stay open."""
+def subdivide(balance):
+    """Boxes with exactly one zero of a system of Conditions, and those that stay open."""
     # Powers of two, so that centres are exact.
     pending = [(0.0, 0.0, 2.0 ** math.ceil(math.log2(balance.radius)))]
     found, undecided = [], []
@@ -88,7 +93,7 @@ def _subdivide(balance):
             half /= 2
             pending += [(x + i * half, y + j * half, half) for i in (-1, 1) for j in (-1, 1)]
     distinct, unclear = _distinct(sorted(found))
-    return [_box(*zero) for zero in distinct], [_box(x, y, half / _REACH) for x, y, half in undecided + unclear]
+    return [_box(*zero) for zero in distinct], [_box(x, y, half / REACH) for x, y, half in undecided + unclear]
 
 
 def _narrowed(balance, x, y, half):
@@ -108,16 +113,54 @@ def _distinct(zeros):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
         if any(gap < 0.5 for gap in gaps):  # within the reach of the first box, where it has one zero only
             continue
-        (unclear if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
+        (unclear if any(gap < 2 * REACH for gap in gaps) else distinct).append(zero)
     return distinct, unclear
 
 
 def _box(x, y, half) -> Box:
-    reach = _REACH * half
+    reach = REACH * half
     return (x - reach, x + reach), (y - reach, y + reach)
 
 
-class _Balance:
+class Conditions:
+    """Two equations in (x, y), expanded about the centre of a box; what is said holds for all |t| <= REACH there.
+
+    A subclass has `radius`, the half-width of the square to look at, and the local polynomials with intervals as
+    coefficients, entry [j][k] belonging to t_1^j t_2^k: `pair`(x, y, half) of both equations, `denominator`(x, y, half)
+    of |Delta|^2. Coefficients of the highest powers may enclose a remainder.
+    """
+
+    def count(self, x, y, half):
+        """Zeros in the box of this half-width about (x, y): 0 none, 1 exactly one in REACH times it, or None.
+
+        With 1, also centre and half-width of a box around the zero.
+        """
+        local = self.pair(x, y, half)
+        if any(_excludes_zero(polynomial) for polynomial in local):
+            return 0, None
+        inverse = _inverse([[float(polynomial[1][0]), float(polynomial[0][1])] for polynomial in local])
+        if inverse is None:
+            return None, None
+        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus what the other terms can add.
+        mapped = [_combine(row, local) for row in inverse]
+        for own, polynomial in enumerate(mapped):
+            polynomial[1 - own][own] -= 1
+        if any(abs(g[0][0]) > 1 + _size(g, 1) for g in mapped):
+            return 0, None
+        maps = all(abs(g[0][0]) + _size(g, REACH) < REACH for g in mapped)
+        if not (maps and all(_slope(g, REACH) < 1 for g in mapped)):
+            return None, None
+        centre = [float(-g[0][0].mid()) * half for g in mapped]
+        radius = max(float((_size(g, REACH) + g[0][0].rad()).upper()) for g in mapped) * half
+        rounding = 4 * sys.float_info.epsilon * (abs(x) + abs(y) + half)
+        return 1, (x + centre[0], y + centre[1], radius + rounding)
+
+    def phases_follow(self, x, y, half):
+        """Whether Delta is not 0 near (x, y), so that the phases are those of n_i / Delta."""
+        return _excludes_zero(self.denominator(x, y, REACH * half))
+
+
+class _Balance(Conditions):
     """The two polynomials and |Delta|^2 with intervals as coefficients; entry [j][k] belongs to C_1^j C_2^k."""
 
     def __init__(self, system):
@@ -130,52 +173,31 @@ class _Balance:
         z = acb(1), acb(-1, -rho)
         q1, q2 = ([own * z[0], own * z[1] + mu] for own in e)
         delta = [[q1[j] * q2[k] + K * (z[j] * q2[k] + q1[j] * z[k]) for k in (0, 1)] for j in (0, 1)]
-        n1 = [[f1 * q2[k] + (f1 + f2) * K * z[k] for k in (0, 1)]]
-        n2 = [[f2 * q1[j] + (f1 + f2) * K * z[j]] for j in (0, 1)]
-        self.delta, one, two = (_modulus_squared(polynomial) for polynomial in (delta, n1, n2))
-        self.pair = _minus(self.delta, one), _minus(two, one)
+        n1 = [[f1 * q2[k] + (f1 + f2) * K * z[k] for k in (0, 1)], [acb(0), acb(0)]]
+        n2 = [[f2 * q1[j] + (f1 + f2) * K * z[j], acb(0)] for j in (0, 1)]
+        self._delta, one, two = (modulus_squared(polynomial) for polynomial in (delta, n1, n2))
+        self._pair = minus(self._delta, one), minus(two, one)
         grow = ((1 + rho**2) * (f1**2 + f2**2)).sqrt()
         self.radius = float(((grow + (grow**2 + 4 * mu * rho * (abs(f1) + abs(f2))).sqrt()) / (2 * mu * rho)).upper())
 
-    def count(self, x, y, half):
-        """Zeros in the box of this half-width about (x, y): 0 none, 1 exactly one in _REACH times it, or None.
+    def pair(self, x, y, half):
+        return [_about(polynomial, x, y, half) for polynomial in self._pair]
 
-        With 1, also centre and half-width of a box around the zero.
-        """
-        local = [_about(polynomial, x, y, half) for polynomial in self.pair]
-        if any(_excludes_zero(polynomial) for polynomial in local):
-            return 0, None
-        inverse = _inverse([[float(polynomial[1][0]), float(polynomial[0][1])] for polynomial in local])
-        if inverse is None:
-            return None, None
-        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus what the other terms can add.
-        mapped = [_combine(row, local) for row in inverse]
-        for own, polynomial in enumerate(mapped):
-            polynomial[1 - own][own] -= 1
-        if any(abs(g[0][0]) > 1 + _size(g, 1) for g in mapped):
-            return 0, None
-        maps = all(abs(g[0][0]) + _size(g, _REACH) < _REACH for g in mapped)
-        if not (maps and all(_slope(g, _REACH) < 1 for g in mapped)):
-            return None, None
-        centre = [float(-g[0][0].mid()) * half for g in mapped]
-        radius = max(float((_size(g, _REACH) + g[0][0].rad()).upper()) for g in mapped) * half
-        rounding = 4 * sys.float_info.epsilon * (abs(x) + abs(y) + half)
-        return 1, (x + centre[0], y + centre[1], radius + rounding)
-
-    def phases_follow(self, x, y, half):
-        """Whether Delta is not 0 near (x, y), so that the phases are those of n_i / Delta."""
-        return _excludes_zero(_about(self.delta, x, y, _REACH * half))
+    def denominator(self, x, y, half):
+        return _about(self._delta, x, y, half)
 
 
-def _modulus_squared(polynomial):
-    square = [[arb(0)] * 3 for _ in range(3)]
-    terms = [(j, k, value) for j, row in enumerate(polynomial) for k, value in enumerate(row)]
-    for (j, k, a), (m, n, b) in itertools.product(terms, terms):
+def modulus_squared(polynomial):
+    """Coefficients of |polynomial|^2."""
+    sizes = 2 * len(polynomial) - 1, 2 * len(polynomial[0]) - 1
+    square = [[arb(0)] * sizes[1] for _ in range(sizes[0])]
+    for (j, k, a), (m, n, b) in itertools.product(_terms(polynomial), repeat=2):
         square[j + m][k + n] += a.real * b.real + a.imag * b.imag
     return square
 
 
-def _minus(one, other):
+def minus(one, other):
+    """Coefficients of the difference of two polynomials of the same degrees."""
     return [[a - b for a, b in zip(*rows, strict=True)] for rows in zip(one, other, strict=True)]
 
 
@@ -199,14 +221,16 @@ def _excludes_zero(polynomial):
 
 def _size(polynomial, reach):
     """Bound on all terms but the constant one for |t| <= reach."""
-    terms = itertools.product(range(3), range(3))
-    return sum((abs(polynomial[j][k]) * reach ** (j + k) for j, k in terms if j or k), arb(0))
+    return sum((abs(value) * reach ** (j + k) for j, k, value in _terms(polynomial) if j or k), arb(0))
 
 
 def _slope(polynomial, reach):
     """Bound on the sum of both derivatives for |t| <= reach."""
-    terms = itertools.product(range(3), range(3))
-    return sum(((j + k) * abs(polynomial[j][k]) * reach ** (j + k - 1) for j, k in terms if j or k), arb(0))
+    return sum(((j + k) * abs(value) * reach ** (j + k - 1) for j, k, value in _terms(polynomial) if j or k), arb(0))
+
+
+def _terms(polynomial):
+    return ((j, k, value) for j, row in enumerate(polynomial) for k, value in enumerate(row))
 
 
 def _inverse(matrix):
@@ -219,4 +243,6 @@ def _inverse(matrix):
 
 def _combine(weights, polynomials):
     one, two = polynomials
-    return [[weights[0] * one[j][k] + weights[1] * two[j][k] for k in range(3)] for j in range(3)]
+    return [
+        [weights[0] * a + weights[1] * b for a, b in zip(*rows, strict=True)] for rows in zip(one, two, strict=True)
+    ]
