@@ -6,12 +6,11 @@ import pytest
 from vibroimpact.rivals import METHODS, heyoka_taylor
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
-from vibroimpact.rivals.penalty import tuned
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 
-@pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty, LSODA"])
+@pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty", "Ivanov", "Ivanov, events"])
 def test_work_is_limited_by_counting_steps(name, method, motion):
     system, state, _, _ = motion("periodic")
     rival = method(name)
@@ -35,15 +34,6 @@ def test_without_heyoka_its_method_is_unavailable_and_says_why(monkeypatch):
     reasons = {method.name: method.available() for method in METHODS}
     assert reasons.pop("heyoka") == "No module named 'heyoka'"
     assert set(reasons.values()) == {None}
-
-
-def test_penalty_has_the_restitution_coefficient_and_the_duration_it_is_tuned_to():
-    """Against the closed form of a damped oscillator: half a period later the speed is kappa times as large."""
-    stiffness, damping = tuned(epsilon=0.1, kappa=0.65, duration=0.01)
-    mass = 0.1 / 1.1
-    exponents = np.roots([mass, damping, stiffness])
-    assert np.pi / abs(exponents[0].imag) == pytest.approx(0.01, rel=1e-12)
-    assert np.exp(exponents[0].real * 0.01) == pytest.approx(0.65, rel=1e-12)
 
 
 def test_leading_order_velocities_are_those_of_its_displacements(motion):
