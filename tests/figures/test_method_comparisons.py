@@ -47,4 +47,4 @@ def test_every_verdict_has_its_mark_and_number():
     for verdict, (mark, _) in hazards.VERDICTS.items():
         assert mark in shown
         assert f"{mark}  {verdict}" in shown
-    assert shown.count("3e-5 −1 +2") == len(rows)
+    assert shown.count("3e-5\n−1\N{THIN SPACE}+2") == len(rows)
