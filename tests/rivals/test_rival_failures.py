@@ -1,9 +1,13 @@
 """Methods that cannot go on say so, with a counted limit of work and never without a reason."""
 
+from types import SimpleNamespace
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 
-from vibroimpact.rivals import METHODS, heyoka_taylor
+from vibroimpact.accuracy import hazards
+from vibroimpact.rivals import METHODS, heyoka_taylor, solve_ivp
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
@@ -54,3 +58,33 @@ def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
     assert contacts.walls == [1, 0]
     assert s[4] == s[5]
     assert s[4] + system.epsilon * s[5] == pytest.approx(before, abs=1e-18)
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        (ValueError("f(a) and f(b) must have different signs"), "its interpolant misses the impact"),
+        (
+            SimpleNamespace(status=-1, message="Required step size", t=np.zeros(1), nfev=0),
+            "the step falls below rounding",
+        ),
+    ],
+)
+def test_a_failure_of_scipy_is_said_in_the_words_of_the_method(fault, words, method, motion, monkeypatch):
+    monkeypatch.setattr(solve_ivp, "solve_ivp", Mock(side_effect=[fault]))
+    system, state, cycles, _ = motion("periodic")
+    assert method("LSODA").run(system, state, cycles, 0.0, 1e-3).failure.reason.startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("hazard", "verdicts"),
+    [
+        ("hits by 1e-6", {"penalty": hazards.WRONG, "Hunt-Crossley": hazards.WRONG, "Ivanov, events": hazards.RIGHT}),
+        ("stick and release", {"power law": hazards.WRONG, "Hertz": hazards.RIGHT, "Ivanov, events": hazards.ENDLESS}),
+        ("kappa = 1e-3", {"Ivanov": hazards.WRONG, "power law": hazards.RIGHT}),
+    ],
+)
+def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
+    problem = next(one for one in hazards.hazards() if one.name == hazard)
+    found = hazards.judge(problem, [method(name) for name in verdicts])
+    assert {row["method"]: row["verdict"] for row in found} == verdicts

@@ -37,7 +37,7 @@ class Ivanov(Method):
         located: whether a step ends where the right-hand side jumps.
     """
 
-    family, knob, limit = "transformed coordinates", "steps per cycle", 1_000_000_000
+    family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
 
     def __init__(self, name: str, located: bool, ladder, careful, order):
         self.name, self.ladder, self.careful, self.order = name, ladder, careful, order
@@ -96,14 +96,15 @@ def _rates(tau, z, q, k, boxes, ways, d):
 @kept()
 def _step(tau, z, h, q, k, boxes, ways, looking):
     """The coordinates a step later; if it is looking, each stage has the right-hand side of the place it is at."""
-    rates, total, at = np.empty(8), np.zeros(8), z.copy()
+    rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
         if looking:
             _look(at, boxes, ways)
         _rates(tau + (0.0, 0.5, 0.5, 1.0)[stage] * h, at, q, k, boxes, ways, rates)
-        total += (1.0, 2.0, 2.0, 1.0)[stage] * rates
-        at[:] = z + (0.5, 0.5, 1.0, 0.0)[stage] * h * rates
-    return z + h / 6.0 * total
+        for c in range(8):
+            ahead[c] += (1.0, 2.0, 2.0, 1.0)[stage] * h / 6.0 * rates[c]
+            at[c] = z[c] + (0.5, 0.5, 1.0, 0.0)[stage] * h * rates[c]
+    return ahead
 
 
 @kept()

@@ -68,4 +68,4 @@ def _number(row):
         return ""
     impacts = [f"{sign}{count:.0f}" for sign, count in (("−", row.missed), ("+", row.spurious)) if count]
     mantissa, exponent = f"{row.error_state:.0e}".split("e")
-    return "\n".join([f"{mantissa}e{int(exponent)}", *filter(None, ["\N{THIN SPACE}".join(impacts)])])
+    return "\n".join([f"{mantissa}e{int(exponent)}", *filter(None, ["".join(impacts)])])
