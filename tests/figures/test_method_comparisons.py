@@ -47,4 +47,12 @@ def test_every_verdict_has_its_mark_and_number():
     for verdict, (mark, _) in hazards.VERDICTS.items():
         assert mark in shown
         assert f"{mark}  {verdict}" in shown
-    assert shown.count("3e-5 −1 +2") == len(rows)
+    assert shown.count("3e-5\n−1+2") == len(rows)
+
+
+def test_no_text_is_too_small_to_read():
+    failed = ROW | dict(method="b", error_state=float("inf"), error_time=float("inf"), outcome="refused", reason="no")
+    verdict = dict(group="g", hazard="h", method="m", verdict="right", error_state=3e-5, missed=12, spurious=34)
+    for figure in (work_precision.draw(pd.DataFrame([ROW, failed]), "versions"), hazards.draw(pd.DataFrame([verdict]))):
+        drawn = figure.findobj(lambda artist: hasattr(artist, "get_fontsize") and artist.get_text())
+        assert min(text.get_fontsize() for text in drawn) >= 6.5

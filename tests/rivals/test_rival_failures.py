@@ -1,17 +1,20 @@
 """Methods that cannot go on say so, with a counted limit of work and never without a reason."""
 
+from types import SimpleNamespace
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 
-from vibroimpact.rivals import METHODS, heyoka_taylor
+from vibroimpact.accuracy import hazards
+from vibroimpact.rivals import METHODS, heyoka_taylor, solve_ivp
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
-from vibroimpact.rivals.penalty import tuned
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 
-@pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty, LSODA"])
+@pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty", "Ivanov", "Ivanov, events"])
 def test_work_is_limited_by_counting_steps(name, method, motion):
     system, state, _, _ = motion("periodic")
     rival = method(name)
@@ -37,15 +40,6 @@ def test_without_heyoka_its_method_is_unavailable_and_says_why(monkeypatch):
     assert set(reasons.values()) == {None}
 
 
-def test_penalty_has_the_restitution_coefficient_and_the_duration_it_is_tuned_to():
-    """Against the closed form of a damped oscillator: half a period later the speed is kappa times as large."""
-    stiffness, damping = tuned(epsilon=0.1, kappa=0.65, duration=0.01)
-    mass = 0.1 / 1.1
-    exponents = np.roots([mass, damping, stiffness])
-    assert np.pi / abs(exponents[0].imag) == pytest.approx(0.01, rel=1e-12)
-    assert np.exp(exponents[0].real * 0.01) == pytest.approx(0.65, rel=1e-12)
-
-
 def test_leading_order_velocities_are_those_of_its_displacements(motion):
     system = motion("periodic")[0]
     for point in fixed_points(system):
@@ -64,3 +58,33 @@ def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
     assert contacts.walls == [1, 0]
     assert s[4] == s[5]
     assert s[4] + system.epsilon * s[5] == pytest.approx(before, abs=1e-18)
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        (ValueError("f(a) and f(b) must have different signs"), "its interpolant misses the impact"),
+        (
+            SimpleNamespace(status=-1, message="Required step size", t=np.zeros(1), nfev=0),
+            "the step falls below rounding",
+        ),
+    ],
+)
+def test_a_failure_of_scipy_is_said_in_the_words_of_the_method(fault, words, method, motion, monkeypatch):
+    monkeypatch.setattr(solve_ivp, "solve_ivp", Mock(side_effect=[fault]))
+    system, state, cycles, _ = motion("periodic")
+    assert method("LSODA").run(system, state, cycles, 0.0, 1e-3).failure.reason.startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("hazard", "verdicts"),
+    [
+        ("hits by 1e-6", {"penalty": hazards.WRONG, "Hunt-Crossley": hazards.WRONG, "Ivanov, events": hazards.RIGHT}),
+        ("stick and release", {"power law": hazards.WRONG, "Hertz": hazards.RIGHT, "Ivanov, events": hazards.ENDLESS}),
+        ("kappa = 1e-3", {"Ivanov": hazards.WRONG, "power law": hazards.RIGHT}),
+    ],
+)
+def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
+    problem = next(one for one in hazards.hazards() if one.name == hazard)
+    found = hazards.judge(problem, [method(name) for name in verdicts])
+    assert {row["method"]: row["verdict"] for row in found} == verdicts

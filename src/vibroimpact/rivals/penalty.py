@@ -1,106 +1,209 @@
-"""Penalty contact: each wall a spring and a damper, integrated by a stiff solver.
+"""Compliant contact: walls of springs and dampers (contact_laws), their force integrated like any other.
 
-While the ball is beyond a wall by p > 0 it feels the force k p + c p'. With the mass mu = epsilon / (1 + epsilon) of
-the relative motion a contact lasts T = pi / (omega sqrt(1 - zeta^2)), omega = sqrt(k / mu), and multiplies the speed by
-exp(-pi zeta / sqrt(1 - zeta^2)), zeta = c / (2 sqrt(k mu)): zeta is tuned so that this is kappa.
+By the method of Dormand and Prince (1980): explicit, since a contact is an oscillation that has to be resolved, and
+compiled, since a general solver would spend nearly all of the time between the evaluations of so cheap a force.
 """
 
 import math
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import RK45
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.contact_laws import (
+    HERTZ,
+    HUNT_CROSSLEY,
+    SPRING,
+    Law,
+    damping_of,
+    fading,
+    power_law,
+    stiffness_of,
+    stiffness_turning_at_the_wall,
+)
+from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
 from vibroimpact.rivals.right_hand_side import accelerations, coefficients
 
-RELATIVE, ABSOLUTE = 1e-7, 1e-10
+RELATIVE, ABSOLUTE = 1e-9, 1e-12
+SLOWEST = 1e-3
+"""A slower contact is damped as one of this speed: a law whose damping grows like 1 / V has no limit at rest."""
+NOTICED = 0.01
+"""Speed with which a ball comes just as far as an impact is counted, where a spring all through its box is the wall."""
+LADDER = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
+HALVINGS = 40  # of a step, to end it where a contact begins
+_STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Compliant contact by LSODA; setting: duration T of a contact, as a fraction of the forcing period."""
+    """Walls of one law of contact; setting: duration T of an undamped contact at speed 1, in forcing periods."""
 
-    name, family, knob, order = "penalty, LSODA", "compliant contact", "contact duration", 1
-    ladder = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
-    careful = 1e-4
+    family, knob, order = "compliant contact", "contact duration", 1
+    limit = 10_000_000
+
+    def __init__(self, name: str, law: Law, ladder=LADDER, careful=1e-5):
+        self.name, self.ladder, self.careful = name, ladder, careful
+        self._law = law
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
-        limit = limit or self.limit
-        stiffness, damping = tuned(system.epsilon, system.kappa, setting * system.period)
-        numbers, s = coefficients(system), np.array(state, dtype=float)
-        steps, evaluations, impacts = 0, 0, []
-        for cycle in range(cycles):
-            if steps >= limit:
-                return failed(UNFINISHED, f"{limit} steps reach cycle {cycle}", steps, evaluations, impacts)
-            tau = tau0 + cycle * system.period
-            run = solve_ivp(
-                _rates,
-                (tau, tau0 + (cycle + 1) * system.period),
-                s,
-                method="LSODA",
-                args=(numbers, stiffness, damping),
-                events=_touching,
-                rtol=RELATIVE,
-                atol=ABSOLUTE,
-            )
-            steps, evaluations = steps + len(run.t) - 1, evaluations + run.nfev
-            if not run.success:
-                return failed(REFUSED, run.message, steps, evaluations, impacts)
-            impacts += sorted(_touches(run, 0) + _touches(run, 1))
-            s = run.y[:, -1].copy()
-        return RivalRun(s, np.array(impacts, IMPACT), steps, evaluations)
+        law, wall = self.wall(system, setting)
+        end, start = tau0 + cycles * system.period, np.array(state, dtype=float)
+        numbers, steps = coefficients(system), limit or self.limit
+        final, rows, steps, tau = _march(numbers, law_numbers(law, *wall), _STAGES, start, tau0, end, steps)
+        rows = [tuple(row) for row in rows]
+        if tau < end:
+            return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, 6 * steps, rows)
+        return RivalRun(final, np.array(rows, IMPACT), steps, 6 * steps)
+
+    def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
+        """The law; K, D at speed 1, and where |W| is in contact."""
+        mass = system.epsilon / (1.0 + system.epsilon)
+        stiffness = stiffness_of(self._law, mass, setting * system.period)
+        return self._law, (stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
 
     def scale(self, setting, run):
         return setting
 
 
-def tuned(epsilon: float, kappa: float, duration: float) -> tuple[float, float]:
-    """Stiffness and damping of a wall at which a contact lasts `duration` and has the restitution coefficient kappa."""
-    mass = epsilon / (1.0 + epsilon)
-    decay = -math.log(kappa)
-    zeta = decay / math.hypot(math.pi, decay)
-    omega = math.pi / (duration * math.sqrt(1.0 - zeta * zeta))
-    return mass * omega**2, 2.0 * zeta * mass * omega
+class PowerLaw(Penalty):
+    """A spring W^(2n - 1) through all of the box; setting: n.
+
+    Args:
+        speed: with which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
+    """
+
+    knob = "exponent"
+
+    def __init__(self, name: str, ladder=(10, 30, 100, 300, 1_000, 3_000, 10_000), careful=10_000, speed: float = 1.0):
+        super().__init__(name, None, ladder, careful)
+        self._speed = speed
+
+    def wall(self, system, setting):
+        law, mass = power_law(setting), system.epsilon / (1.0 + system.epsilon)
+        stiffness = stiffness_turning_at_the_wall(law, mass, system.kappa, self._speed)
+        contact = (NOTICED / self._speed) ** (1.0 / setting)
+        return law, (stiffness, damping_of(law, mass, system.kappa, stiffness), contact)
+
+    def scale(self, setting, run):
+        return 1.0 / setting
+
+
+def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
+    """[n, m, K, D at speed 1, power of 1 / V in D, where p begins, where |W| is in contact]."""
+    return np.array([law.stiffness, law.damping, stiffness, damping, fading(law), float(law.walls), contact])
+
+
+def variants() -> list[Penalty]:
+    """One method for each law."""
+    return [
+        Penalty("penalty", SPRING),
+        Penalty("Hertz", HERTZ),
+        Penalty("Hunt-Crossley", HUNT_CROSSLEY),
+        PowerLaw("power law"),
+    ]
 
 
 @kept()
-def _force(gap, speed, stiffness, damping):
-    """Force on the box (its opposite on the ball) from the wall that the ball is beyond."""
-    if gap > 1.0:
-        return -stiffness * (gap - 1.0) - damping * speed
-    if gap < -1.0:
-        return -stiffness * (gap + 1.0) - damping * speed
-    return 0.0
+def force(gap, speed, law, damping):
+    """Force on the ball (its opposite on the box) from its walls, for W and W' and the D of this contact."""
+    depth = abs(gap) - law[5]
+    if depth <= 0.0:
+        return 0.0
+    outwards = 1.0 if gap > 0.0 else -1.0
+    return outwards * law[2] * depth ** law[0] + damping * depth ** law[1] * speed
 
 
 @kept()
-def _rates(tau, s, q, stiffness, damping):
-    d = np.empty(8)
-    d[:4] = s[4:]
-    a1, a2 = accelerations(tau, s, q, 0.0, 0.0)
-    p1 = _force(s[0] - s[1], s[4] - s[5], stiffness, damping)
-    p2 = _force(s[2] - s[3], s[6] - s[7], stiffness, damping)
-    d[4], d[5], d[6], d[7] = a1 + p1, -p1 / q[9], a2 + p2, -p2 / q[9]
-    return d
+def _rates(tau, s, q, law, dampings, d):
+    """Derivative of the state, into d."""
+    a = accelerations(tau, s, q, 0.0, 0.0)
+    for i in range(2):
+        push = force(s[2 * i] - s[2 * i + 1], s[2 * i + 4] - s[2 * i + 5], law, dampings[i])
+        d[2 * i], d[2 * i + 1] = s[2 * i + 4], s[2 * i + 5]
+        d[2 * i + 4], d[2 * i + 5] = a[i] - push, push / q[9]
 
 
-def _touches(run, i):
-    """The impacts of ball i in a piece of the run: where it began to go beyond a wall."""
-    touches = []
-    for t, s in zip(run.t_events[i], run.y_events[i], strict=True):
-        wall = 1 if s[2 * i] > s[2 * i + 1] else -1
-        touches.append((t, i + 1, wall, wall * (s[2 * i + 4] - s[2 * i + 5])))
-    return touches
+@kept()
+def _sum(weights, rates, count, c):
+    total = 0.0
+    for k in range(count):
+        total += weights[k] * rates[k, c]
+    return total
 
 
-def _touch(i):
-    """A function that falls through zero when ball i meets a wall."""
+@kept()
+def _step(stages, tau, s, h, q, law, dampings):
+    """The state a step later, and the error as a multiple of what is allowed."""
+    A, B, C, E = stages
+    rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
+    for k in range(6):
+        for c in range(8):
+            ahead[c] = s[c] + h * _sum(A[k], rates, k, c)
+        _rates(tau + C[k] * h, ahead, q, law, dampings, rates[k])
+    for c in range(8):
+        ahead[c] = s[c] + h * _sum(B, rates, 6, c)
+    _rates(tau + h, ahead, q, law, dampings, rates[6])
+    for c in range(8):
+        allowed = ABSOLUTE + RELATIVE * max(abs(s[c]), abs(ahead[c]))
+        error += (h * _sum(E, rates, 7, c) / allowed) ** 2 / 8.0
+    return ahead, math.sqrt(error)
 
-    def value(tau, s, numbers, stiffness, damping):
-        return 1.0 - (s[2 * i] - s[2 * i + 1]) ** 2
 
-    value.terminal, value.direction = False, -1.0
-    return value
+@kept()
+def _reach(s, i, law):
+    """How far beyond the beginning of contact ball i is."""
+    return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
-_touching = [_touch(0), _touch(1)]
+@kept()
+def _outwards(s, i):
+    """Wall on whose side ball i is, and its speed towards it."""
+    wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
+    return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
+
+
+@kept()
+def _march(q, law, stages, s, tau, end, limit):
+    """The state where it gets in at most `limit` steps, rows [tau, module, wall, speed] of impacts, steps, time."""
+    rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
+    touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
+    h, steps = 0.01 * (end - tau), 0
+    while steps < limit:
+        for i in range(2):  # a contact begins where a step ends
+            wall, speed = _outwards(s, i)
+            if not touching[i] and _reach(s, i, law) >= 0.0:
+                touching[i], dampings[i] = True, law[3] * max(speed, SLOWEST) ** -law[4]
+                if speed > 0.0:
+                    rows.append((tau, i + 1.0, wall, speed))
+            elif _reach(s, i, law) < 0.0:
+                touching[i] = False
+        if tau >= end:
+            break
+        h = min(h, end - tau)
+        ahead, error = _step(stages, tau, s, h, q, law, dampings)
+        steps += 1
+        if error <= 1.0:
+            taken, ahead = _until_contact(stages, tau, s, h, ahead, q, law, dampings, touching)
+            tau, s = end if taken >= end - tau else tau + taken, ahead
+        h *= min(5.0, max(0.2, 0.9 * error**-0.2)) if error > 0.0 else (5.0 if error == 0.0 else 0.2)
+    return s, rows, steps, tau
+
+
+@kept()
+def _until_contact(stages, tau, s, h, ahead, q, law, dampings, touching):
+    """The step, cut short just after the first contact that begins in it."""
+    least = 0.0
+    for _ in range(HALVINGS):
+        if not _begins(ahead, law, touching) or least == h:
+            break
+        half = 0.5 * (least + h)
+        there, _ = _step(stages, tau, s, half, q, law, dampings)
+        if _begins(there, law, touching):
+            h, ahead = half, there
+        else:
+            least = half
+    return h, ahead
+
+
+@kept()
+def _begins(s, law, touching):
+    return (not touching[0] and _reach(s, 0, law) >= 0.0) or (not touching[1] and _reach(s, 1, law) >= 0.0)

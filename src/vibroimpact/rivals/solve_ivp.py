@@ -9,6 +9,7 @@ from vibroimpact.rivals.right_hand_side import accelerations, jacobian, rates
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
+LOST = "its interpolant misses the impact that its step has found"
 PATIENCE = 100  # events without any progress of time
 
 
@@ -49,11 +50,12 @@ class SolveIvp(Method):
                     atol=ABSOLUTE * setting,
                     **options,
                 )
-            except ValueError as error:  # LSODA's interpolant may miss the sign change that its step showed
-                return failed(REFUSED, str(error), steps, evaluations, contacts.impacts)
+            except ValueError:  # of the search for the event, which says nothing of why
+                return failed(REFUSED, f"{LOST} at tau = {tau:.6g}", steps, evaluations, contacts.impacts)
             steps, evaluations = steps + len(flight.t) - 1, evaluations + flight.nfev
             if flight.status < 0:
-                return failed(REFUSED, flight.message, steps, evaluations, contacts.impacts)
+                reason = f"the step falls below rounding at tau = {flight.t[-1]:.6g}"
+                return failed(REFUSED, reason, steps, evaluations, contacts.impacts)
             idle = idle + 1 if flight.t[-1] <= tau else 0
             if idle > PATIENCE:
                 return failed(UNFINISHED, f"time stands still at tau = {tau:.6g}", steps, evaluations, contacts.impacts)

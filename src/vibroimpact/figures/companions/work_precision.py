@@ -26,11 +26,11 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
             reason, order.
         footer: versions, printed below.
     """
-    figure = new_figure(DOUBLE_COLUMN, 158.0)
+    figure = new_figure(DOUBLE_COLUMN, 170.0)
     problems, look = list(dict.fromkeys(table["problem"])), looks(table["method"])
     failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
     numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.28))
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.34))
     grid = upper.subplots(len(ERRORS), len(problems), sharex=True, sharey=True, squeeze=False)
     for row, (error, label) in enumerate(ERRORS.items()):
         for column, problem in enumerate(problems):
@@ -42,6 +42,7 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
             axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
             axes.minorticks_off()
             axes.tick_params(labelbottom=True)
+            _better(axes)
             letter_panel(axes, "abcdef"[row * len(problems) + column])
             axes.set_title(problem if row == 0 else "", pad=3)
         grid[row, 0].set_ylabel("time per cycle [s]")
@@ -64,23 +65,26 @@ def _panel(axes, here, error, look):
             )
 
 
+def _better(axes):
+    """An arrow towards less error for less time, where no method is."""
+    arrow = {"arrowstyle": "->", "color": GREY, "linewidth": 0.8}
+    place = {"xycoords": "axes fraction", "textcoords": "axes fraction", "fontsize": 7, "color": GREY}
+    axes.annotate("better", (0.05, 0.38), (0.14, 0.5), arrowprops=arrow, **place)
+
+
 def _lane(axes, here, look, numbers):
     """The margin for runs without a result."""
     axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
     failed = here[(here["outcome"] != "finished") & here["seconds_per_cycle"].notna()]
-    for row in failed.itertuples():
-        x = LANE * LANE_STEP ** (
-            numbers[_failure(row)] % 3 - 1
-        )  # side by side, so that equal costs do not cover each other
+    labelled = set()
+    for row in failed.sort_values("seconds_per_cycle", ascending=False).itertuples():  # labels above
+        number = numbers[_failure(row)]
+        x = LANE * LANE_STEP ** (number % 3 - 1)  # side by side, so that equal costs do not cover each other
         axes.plot(x, row.seconds_per_cycle, markersize=4.0, **look[row.method])
-        axes.annotate(
-            numbers[_failure(row)],
-            (x, row.seconds_per_cycle),
-            xytext=(0, 5),
-            textcoords="offset points",
-            fontsize=6.5,
-            ha="center",
-        )
+        if number not in labelled:
+            place = {"xytext": (0, 5), "textcoords": "offset points", "ha": "center"}
+            axes.annotate(number, (x, row.seconds_per_cycle), fontsize=6.5, **place)
+            labelled.add(number)
 
 
 def _legend(figure, table, look):
@@ -92,7 +96,7 @@ def _legend(figure, table, look):
         handles.append(Line2D([], [], linewidth=0.8, label=label, **style))
     hollow = Line2D([], [], linestyle="", marker="o", markerfacecolor="white", color=GREY)
     hollow.set_label("hollow: impacts missed or spurious")
-    figure.legend(handles=[*handles, hollow], loc="upper center", ncols=4, fontsize=8)
+    figure.legend(handles=[*handles, hollow], loc="upper center", ncols=4, fontsize=7.5)
 
 
 def _notes(figure, numbers, table, footer):
@@ -102,7 +106,7 @@ def _notes(figure, numbers, table, footer):
         lines.append(f"{row.method}: unavailable ({row.reason})")
     title = ["grey lane: no result"] if lines else []
     figure.text(0.02, 0.5, "\n".join([*title, *lines]), fontsize=6.5, va="top", linespacing=1.25)
-    figure.text(0.02, 0.02, footer, fontsize=5.5, color=GREY, va="bottom")
+    figure.text(0.02, 0.02, footer, fontsize=6.5, color=GREY, va="bottom")
 
 
 def _failure(row):

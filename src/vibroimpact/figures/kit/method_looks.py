@@ -2,9 +2,11 @@
 
 from itertools import cycle
 
-# Okabe and Ito's palette, told apart by colour-blind readers too; the markers tell the same without colour.
-_COLOURS = "#000000", "#D55E00", "#56B4E9", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#8C6D31", "#7F7F7F"
-_MARKERS = "*", "D", "o", "s", "^", "v", "P", "X", "h"
+# The palettes of Okabe and Ito and of Tol are told apart by colour-blind readers, too; the markers say the same.
+_OKABE_ITO = "#000000", "#D55E00", "#56B4E9", "#0072B2", "#009E73", "#CC79A7", "#E69F00"
+_TOL = "#8C6D31", "#882255", "#999933", "#44AA99", "#332288", "#AA4499", "#7F7F7F"
+_COLOURS = *_OKABE_ITO, *_TOL
+_MARKERS = "*", "D", "o", "s", "^", "v", "P", "X", "<", ">", "d", "p", "H", "8"
 
 
 def looks(methods) -> dict[str, dict]:

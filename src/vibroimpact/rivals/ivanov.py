@@ -1,0 +1,206 @@
+"""Ivanov's transformation, extended from one wall to the two of a box: coordinates in which impacts are no jumps.
+
+The box is unfolded (Zhuravlev 1976): W = T(s), the triangular wave of slope +1 or -1 with walls at odd s, so that the
+ball runs through the walls; and its speed is measured in a unit that shrinks there (Ivanov 1994), W' = T'(s) R v with
+
+    R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
+
+so that R falls from 1 + k to 1 - k in passing a wall: their ratio is kappa, v stays. With the acceleration a of W in
+flight
+
+    s' = R v,   v' = (-1)^n a / R - k v |v|.
+
+An impact kicks the box, too, but not the centre of mass (X + epsilon Y) / (1 + epsilon) of box and ball, whose
+acceleration is a / (1 + epsilon): it is the other coordinate of a module. All eight are continuous; the right-hand
+side jumps, at walls and where v changes its sign. Without locating the jumps a step across one is an error of the order
+of the step squared, whatever the order of the integrator, here Runge and Kutta's four stages. There is no state of
+rest on a wall: a ball that sticks goes on impacting.
+"""
+
+import math
+
+import numpy as np
+
+from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.right_hand_side import accelerations, coefficients
+from vibroimpact.system.state import BALLS, BOXES
+
+SHORTEST, PATIENCE = 1e-6, 100  # time between two jumps, and how many in turn may be as short: chatter gets no further
+HALVINGS = 50  # of a step, to locate a jump in it
+
+
+class Ivanov(Method):
+    """Steps of equal length in Ivanov's coordinates, setting: steps per cycle.
+
+    Args:
+        located: whether a step ends where the right-hand side jumps.
+    """
+
+    family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
+
+    def __init__(self, name: str, located: bool, ladder, careful, order):
+        self.name, self.ladder, self.careful, self.order = name, ladder, careful, order
+        self._located = located
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        limit = limit or self.limit
+        if setting * cycles > limit:
+            return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
+        k, step = (1.0 - system.kappa) / (1.0 + system.kappa), system.period / setting
+        start = unfolded(np.array(state, dtype=float), system.epsilon, k)
+        march = _march_to_jumps if self._located else _march_across_jumps
+        z, boxes, rows, steps, stuck = march(coefficients(system), k, start, tau0, step, setting * cycles)
+        if not math.isnan(stuck):
+            return failed(UNFINISHED, f"impacts without end at tau = {stuck:.6g}", steps, 4 * steps, rows)
+        return RivalRun(folded(z, boxes, system.epsilon, k), np.array(rows, IMPACT), steps, 4 * steps)
+
+
+def unfolded(state, epsilon: float, k: float) -> np.ndarray:
+    """[s, v, centre of mass, its velocity] of both modules, shape (8,), of a state (8,): in box n = 0."""
+    x, y = state[BOXES], state[BALLS]
+    W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
+    centre = (x + epsilon * y) / (1.0 + epsilon)
+    return np.stack([W, W_rate / (1.0 + k * np.sign(W_rate) * W), centre[:2], centre[2:]], axis=1).ravel()
+
+
+def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
+    """The state (8,) of unfolded coordinates (8,), given the box n that each ball is in."""
+    s, v, centre, rate = z.reshape(2, 4).T
+    p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
+    W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
+    state = np.empty(8)
+    state[BOXES] = np.concatenate([centre + epsilon / (1.0 + epsilon) * W, rate + epsilon / (1.0 + epsilon) * W_rate])
+    state[BALLS] = state[BOXES] - np.concatenate([W, W_rate])
+    return state
+
+
+@kept(error_model="numpy")
+def _rates(tau, z, q, k, boxes, ways, d):
+    """Derivative of unfolded coordinates, into d, with the right-hand side of given boxes and signs of v.
+
+    It goes on smoothly beyond where these hold.
+    """
+    share, s = q[9] / (1.0 + q[9]), np.empty(8)
+    for i in range(2):
+        sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
+        d[4 * i] = (1.0 + k * ways[i] * p) * v
+        s[2 * i], s[2 * i + 4] = z[4 * i + 2] + share * sign * p, z[4 * i + 3] + share * sign * d[4 * i]
+    a = accelerations(tau, s, q, 0.0, 0.0)
+    for i in range(2):
+        sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
+        d[4 * i + 1] = sign * a[i] / (1.0 + k * ways[i] * p) - k * ways[i] * v * v
+        d[4 * i + 2], d[4 * i + 3] = z[4 * i + 3], a[i] / (1.0 + q[9])
+
+
+@kept()
+def _step(tau, z, h, q, k, boxes, ways, looking):
+    """The coordinates a step later; if it is looking, each stage has the right-hand side of the place it is at."""
+    rates, ahead, at = np.empty(8), z.copy(), z.copy()
+    for stage in range(4):
+        if looking:
+            _look(at, boxes, ways)
+        _rates(tau + (0.0, 0.5, 0.5, 1.0)[stage] * h, at, q, k, boxes, ways, rates)
+        for c in range(8):
+            ahead[c] += (1.0, 2.0, 2.0, 1.0)[stage] * h / 6.0 * rates[c]
+            at[c] = z[c] + (0.5, 0.5, 1.0, 0.0)[stage] * h * rates[c]
+    return ahead
+
+
+@kept()
+def _look(z, boxes, ways):
+    """The sign of every v, and which box the ball is in: on a wall the one that it goes on to."""
+    for i in range(2):
+        ways[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
+        there = 0.5 * (z[4 * i] + ways[i])
+        boxes[i] = math.floor(there) if ways[i] > 0.0 else math.ceil(there)
+
+
+@kept()
+def _impact(tau, i, box, way, speed, k):
+    """What the protocol says of running out of a box."""
+    return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * way, (1.0 + k) * abs(speed)
+
+
+@kept()
+def _march_across_jumps(q, k, z, tau0, h, count):
+    """Coordinates and boxes at the end, impacts, number of steps, and nan, for it always gets there."""
+    rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
+    before, boxes, ways = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
+    for n in range(count):
+        ahead = _step(tau0 + n * h, z, h, q, k, boxes, ways, True)
+        _look(ahead, boxes, ways)
+        for i in range(2):
+            if boxes[i] != before[i]:
+                wall = before[i] + boxes[i]  # in s
+                part = (wall - z[4 * i]) / (ahead[4 * i] - z[4 * i])
+                way = 1.0 if boxes[i] > before[i] else -1.0
+                rows.append(_impact(tau0 + (n + part) * h, i, before[i], way, ahead[4 * i + 1], k))
+        z, before[:] = ahead, boxes
+    return z, boxes, rows, count, math.nan
+
+
+@kept()
+def _march_to_jumps(q, k, z, tau0, h, count):
+    """The same with steps that end at jumps; instead of nan, the time after which there is no end of impacts."""
+    rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
+    boxes, ways, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
+    for i in range(2):
+        ways[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
+    for n in range(count):
+        done = 0.0
+        while done < 1.0:
+            tau, part = tau0 + (n + done) * h, 1.0 - done
+            ahead, steps = _step(tau, z, part * h, q, k, boxes, ways, False), steps + 1
+            if _beyond(ahead, boxes, ways):
+                part, ahead = _first_jump(tau, z, part, h, q, k, boxes, ways)
+                for i in range(2):
+                    to_wall, speed = _ahead_of(ahead, i, boxes, ways)
+                    if to_wall < 0.0:
+                        rows.append(_impact(tau + part * h, i, boxes[i], ways[i], ahead[4 * i + 1], k))
+                        ahead[4 * i], boxes[i] = 2 * boxes[i] + ways[i], boxes[i] + int(ways[i])
+                    elif speed < 0.0:
+                        ahead[4 * i + 1], ways[i] = 0.0, -ways[i]
+                idle = idle + 1 if part * h < SHORTEST else 0
+                if idle > PATIENCE:
+                    return ahead, boxes, rows, steps, tau
+            z, done = ahead, done + part
+    return z, boxes, rows, steps, math.nan
+
+
+@kept()
+def _first_jump(tau, z, part, h, q, k, boxes, ways):
+    """The shortest part of a step found to end beyond a jump, by halving, and the coordinates there."""
+    least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
+    for _ in range(HALVINGS):
+        half = 0.5 * (least + part)
+        there = _step(tau, z, half * h, q, k, boxes, ways, False)
+        if _beyond(there, boxes, ways):
+            part, ahead = half, there
+        else:
+            least = half
+    return part, ahead
+
+
+@kept()
+def _beyond(z, boxes, ways):
+    """Also where the step is so long that R vanishes on the way and the coordinates are no numbers."""
+    within = True
+    for i in range(2):
+        to_wall, speed = _ahead_of(z, i, boxes, ways)
+        within = within and to_wall >= 0.0 and speed >= 0.0
+    return not within
+
+
+@kept()
+def _ahead_of(z, i, boxes, ways):
+    """How far the next wall is, and the size of v: negative once the right-hand side should have jumped."""
+    return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
+
+
+def variants() -> list[Ivanov]:
+    """Without and with location of the jumps."""
+    return [
+        Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
+        Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),
+    ]

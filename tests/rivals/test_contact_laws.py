@@ -1,0 +1,88 @@
+"""Every law of contact has the restitution coefficient it is tuned to: one contact, with another integrator."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from vibroimpact.rivals.contact_laws import (
+    HERTZ,
+    HUNT_CROSSLEY,
+    SPRING,
+    damping_of,
+    fading,
+    hunt_crossley_number,
+    power_law,
+    stiffness_of,
+    stiffness_turning_at_the_wall,
+)
+from vibroimpact.rivals.penalty import force, law_numbers
+
+MASS, DURATION = 0.1 / 1.1, 0.01
+LAWS = {"spring": SPRING, "Hertz": HERTZ, "Hunt-Crossley": HUNT_CROSSLEY, "power law": power_law(20)}
+
+
+def contact(law, stiffness, damping, speed):
+    """(speed afterwards over speed before, duration, deepest W) of a ball on its way into a wall that does not move."""
+    numbers = law_numbers(law, stiffness, damping, 1.0)
+    begin = 1.0 if law.walls else 0.0
+
+    def rates(time, state):
+        return [state[1], -force.py_func(state[0], state[1], numbers, damping) / MASS]
+
+    def left(time, state):
+        return state[0] - begin + (time == 0.0)
+
+    def turned(time, state):
+        return state[1]
+
+    left.terminal, left.direction = True, -1.0
+    span = 10.0 if not law.walls else 20.0 * DURATION
+    events = [left, turned]
+    run = solve_ivp(rates, (0.0, span), (begin, speed), "DOP853", events=events, rtol=1e-11, atol=1e-14)
+    return -run.y[1, -1] / speed, run.t[-1], run.y_events[1][0][0]
+
+
+def stiffness_in(law, kappa):
+    if law.walls:
+        return stiffness_of(law, MASS, DURATION)
+    return stiffness_turning_at_the_wall(law, MASS, kappa, 1.0)
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("kappa", [0.3, 0.65, 0.95])
+def test_restitution_is_kappa_at_every_speed(name, kappa):
+    law = LAWS[name]
+    stiffness = stiffness_in(law, kappa)
+    damping = damping_of(law, MASS, kappa, stiffness)
+    for speed in (0.5, 1.0, 2.0):
+        found = contact(law, stiffness, damping * speed ** -fading(law), speed)[0]
+        assert found == pytest.approx(kappa, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["spring", "Hertz"])
+def test_an_undamped_contact_lasts_as_long_as_it_is_tuned_to(name):
+    stiffness = stiffness_in(LAWS[name], 0.65)
+    assert contact(LAWS[name], stiffness, 0.0, 1.0)[1] == pytest.approx(DURATION, rel=1e-6)
+
+
+def test_the_power_law_turns_the_ball_at_the_wall():
+    law = power_law(20)
+    stiffness = stiffness_in(law, 0.65)
+    assert contact(law, stiffness, damping_of(law, MASS, 0.65, stiffness), 1.0)[2] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_one_damping_of_hunt_and_crossley_has_kappa_at_one_speed_only():
+    stiffness = stiffness_in(HUNT_CROSSLEY, 0.65)
+    damping = damping_of(HUNT_CROSSLEY, MASS, 0.65, stiffness)
+    slow, fast = (contact(HUNT_CROSSLEY, stiffness, damping, speed)[0] for speed in (0.5, 2.0))
+    assert slow > 0.75
+    assert fast < 0.52
+
+
+@pytest.mark.parametrize("kappa", [1e-9, 1e-3, 0.1, 0.65, 0.999, 1.0 - 1e-9])
+def test_the_hunt_crossley_number_solves_its_equation(kappa):
+    d = hunt_crossley_number(kappa)
+    if kappa > 0.05:  # below, 1 - kappa d is lost in rounding
+        assert (1.0 + kappa) * d == pytest.approx(np.log1p(d) - np.log1p(-kappa * d), rel=1e-9)
+    assert 1.5 * (1.0 - kappa) <= d * (1.0 + 1e-6)  # its limit where kappa tends to 1
+    assert d * kappa <= 1.0
