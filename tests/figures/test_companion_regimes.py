@@ -55,7 +55,7 @@ def tables():
             observation=OBSERVATION,
             lifetimes=LIFETIMES,
         ),
-        "regime_map": regime_map.compute(swept(), SYSTEMS),
+        "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
@@ -160,18 +160,38 @@ def test_the_map_has_every_point_and_shows_those_without_a_value(tables, figures
     cells = tables["regime_map"]["csv"].query("series == 'cell'")
     assert cells["f10_hat"].tolist() == np.repeat(cells["f20_hat"][:6], 6).tolist()
     assert cells["label"].isna().tolist() == [number == 7 for number in range(36)]
-    assert {axes.patch.get_hatch() for axes in figures["regime_map"].axes[: len(REGIMES)]} == {"xxx"}
-    whole = (
-        tables["regime_map"]["csv"].query("label.notna()").assign(chaotic=lambda table: table["chaotic"].fillna(0.0))
-    )
-    drawn = regime_map.draw({"csv": whole[~((whole["f10_hat"] == cells["f10_hat"][7]) & (whole["series"] == "cell"))]})
-    assert drawn.axes[0].patch.get_hatch() is None
+    assert figures["regime_map"].axes[0].patch.get_hatch() == "xxx"
+    table = tables["regime_map"]["csv"]
+    gone = (table["f10_hat"] == cells["f10_hat"][7]) & (table["series"] == "cell")
+    assert regime_map.draw({"csv": table[~gone]}).axes[0].patch.get_hatch() is None
 
 
-def test_borders_run_between_cells_that_differ():
-    x, y = np.array([0.5, 1.5, 2.5]), np.array([0.5, 1.5])
-    borders = regime_map._borders(x, y, np.array([[1.0, 1.0, 3.0], [1.0, 1.0, 1.0]]))
-    assert borders.tolist() == [[[2.0, 0.0], [2.0, 1.0]], [[2.0, 1.0], [3.0, 1.0]]]
+def test_a_cell_shows_what_most_starts_other_than_rest_end_in(tables):
+    cells = tables["regime_map"]["csv"].query("series == 'cell'").dropna(subset="label")
+    for cell in cells.to_dict("records"):
+        ended = {name: round(3 * cell[name]) - (cell["label"] == name) for name in REGIMES}
+        assert sum(ended.values()) == 2
+        assert ended[cell["regime"]] == max(ended.values())
+        assert cell["coexisting"] == sum(count > 0 for name, count in ended.items() if name != "unsettled")
+    assert set(cells["coexisting"]) >= {1, 2}
+
+
+def test_on_a_border_the_theory_s_number_of_fixed_points_changes(tables):
+    """Within the last halving, to the side or upwards; where it crosses the way between two cells."""
+    table = tables["regime_map"]["csv"]
+    centres = np.unique(table.query("series == 'cell'")["f10_hat"])
+    pieces = table[table["series"] == "fixed points"]
+    assert (pieces.groupby("label").size() == 2).all()
+    step = 0.2 / 2**regime_map.HALVINGS
+    aside = [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)]
+
+    def count(f10, f20):
+        return len(vi.fixed_points(SYSTEMS["equal"].with_(f10_hat=f10, f20_hat=f20)))
+
+    crossings = [place for place in pieces[["f10_hat", "f20_hat"]].to_numpy() if np.isin(place, centres).any()]
+    assert len(crossings) > 10
+    for f10, f20 in crossings[::5]:
+        assert len({count(f10 + dx, f20 + dy) for dx, dy in aside}) > 1
 
 
 def test_measures_have_uncertainties_over_starts(tables):

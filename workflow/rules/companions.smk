@@ -41,8 +41,9 @@ def motions_of(case):
 def map_of(sweep):
     """The figure of a sweep over both forces."""
     return {
-        "method": "the points of a sweep, with the cases",
+        "method": "the points of a sweep, with the cases; borders of the theory by bisection",
         "systems": True,
+        "settings": {"starts": f"sweeps.{sweep}.starts"},
         "config": sweep_keys(sweep),
         "inputs": {"table": table_of(sweep)},
         "before": [step(*STEPS["tile_of_sweep"])],

@@ -1,79 +1,164 @@
-"""Companion: which regimes starts end in over both forcing amplitudes, with the theory's predictions drawn over it."""
+"""Companion: which regime starts end in over both forcing amplitudes, with the theory's borders drawn over it."""
+
+from functools import cache
 
 import numpy as np
 import pandas as pd
 from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from scipy import ndimage
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
-from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, select
+from vibroimpact.regimes.classification import REGIMES, UNSETTLED
+from vibroimpact.regimes.families import FixedPoints
 from vibroimpact.sweeps.observations import FROM_REST
 
-LINES = {
-    "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 0.9},
-    "stable points": {"linestyles": "solid", "linewidths": 1.2},
+BORDERS = {
+    "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 1.1},
+    "stable points": {"linestyles": "solid", "linewidths": 1.6},
 }
-_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 4.0, "markeredgewidth": 0.9}
-COLUMNS = 4
-DARKEST = 1.7
-"""Share that would be black: all starts are a grey on which black lines are seen."""
+HALVINGS = 4
+"""Of the way between two cells with different counts: the border is found to a thirty-second of it."""
+COLOURS = ["#004488", "#6699cc", "#bbddee", "#eecc66", "#994455", "#ee99aa", "#117733", "#dddddd", "#ffffff", "#888888"]
+"""One for each of REGIMES, after Paul Tol's schemes for colour-blind readers; letters say which is which."""
+LETTERS = "ABCDEFGHIJ"
+TOGETHER = "coexisting"
+NAMED_FROM = 4
+"""A patch of so many cells or more bears its letter."""
+_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 6.0, "markeredgewidth": 1.4}
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
 
-def compute(table: pd.DataFrame, systems: dict) -> dict:
+def compute(table: pd.DataFrame, systems: dict, starts: int) -> dict:
     """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Args:
-        systems: case -> system, whose forcing amplitudes are marked.
+        systems: case -> system, whose forcing amplitudes are marked; they differ in nothing else.
+        starts: of each point, the first of them rest.
 
-    Returns "csv": columns panel, series ("cell" or "case"), label (regime from rest or name of the case), f10_hat,
-    f20_hat, the share of each regime, fixed_points, stable_points.
+    Returns "csv": columns panel, series ("cell", "case", or what changes on a border), label (regime from rest; name
+    of the case; number of the piece of the border), f10_hat, f20_hat, the share of each regime, fixed_points,
+    stable_points, and what is drawn: the regime that most starts other than rest end in, and how many regimes they do.
     """
     cells = table.rename(columns={FROM_REST: "label"}).assign(series="cell")
+    cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
     marks = pd.DataFrame({"label": case, "f10_hat": s.f10_hat, "f20_hat": s.f20_hat} for case, s in systems.items())
-    table = pd.concat([cells, marks.assign(series="case")], ignore_index=True).assign(panel="map")
-    return {"csv": table[["panel", "series", "label", "f10_hat", "f20_hat", *REGIMES, "fixed_points", "stable_points"]]}
+    borders = _borders(next(iter(systems.values())), cells)
+    table = pd.concat([cells, marks.assign(series="case"), *borders], ignore_index=True).assign(panel="map")
+    shown = ["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]
+    return {"csv": table[["panel", "series", *shown]]}
+
+
+def _dominant(cells, starts):
+    """Of each cell the regime of most starts other than rest, and the number of regimes that these settle in."""
+    counts = cells[[*REGIMES]].to_numpy(float) * starts
+    if starts > 1:
+        counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
+    counts = np.where(np.isnan(counts), -1.0, counts.round())
+    names = np.where(counts.max(axis=1) >= 0, np.array(REGIMES)[counts.argmax(axis=1)], None)
+    settled = [number for number, name in enumerate(REGIMES) if name != UNSETTLED]
+    return names, np.where(counts.max(axis=1) >= 0, (counts[:, settled] > 0).sum(axis=1), np.nan)
+
+
+def _borders(system, cells):
+    """Where the counts of the theory change: pieces of lines, each between two points found by halving."""
+
+    @cache
+    def counts(f10, f20):
+        here = system.with_(f10_hat=f10, f20_hat=f20)
+        points = [FixedPoints.member(here, root) for root in FixedPoints.roots(here)]
+        return len(points), sum(FixedPoints.stable(here, point) for point in points)
+
+    for which, series in enumerate(BORDERS):
+        square = _square(cells, series.replace(" ", "_"))
+
+        @cache
+        def crossing(a, b, which=which):
+            low, high = np.array(a), np.array(b)
+            start = counts(*a)[which]
+            for _ in range(HALVINGS):
+                middle = (low + high) / 2
+                low, high = (middle, high) if counts(*middle)[which] == start else (low, middle)
+            return tuple((low + high) / 2)
+
+        pieces = [piece for corners in _squares(cells, square) for piece in _pieces(corners, crossing)]
+        if pieces:
+            f10, f20 = np.array(pieces).reshape(-1, 2).T
+            numbers = np.repeat(np.arange(len(pieces)) + 1, 2).astype(str)
+            yield curve("map", series, f10_hat=f10, f20_hat=f20).assign(label=numbers)
+
+
+def _squares(cells, square):
+    """Of every four neighbouring cells the centres, once round, each with its count; gaps left out."""
+    x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
+    for i, j in np.ndindex(len(y) - 1, len(x) - 1):
+        around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+        if not np.isnan([square[place] for place in around]).any():
+            yield [((float(x[n]), float(y[m])), square[m, n]) for m, n in around]
+
+
+def _pieces(corners, crossing):
+    """The border within a square: from side to side, or from each side to the middle where three or four parts meet."""
+    sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
+    ends = [crossing(first[0], second[0]) for first, second in sides]
+    if len(ends) == 2:
+        return [ends]
+    middle = tuple(np.mean(ends, axis=0)) if ends else None
+    return [[end, middle] for end in ends]
 
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: a panel per regime, the share of starts in grey; lines where theory changes."""
+    """Draw the table of `compute`: a colour and a letter for each regime, hatched where several coexist; borders."""
     table = tables["csv"]
-    cells, cases = (table[table["series"] == name] for name in ("cell", "case"))
+    cells, cases = (select(table, "map", name) for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
-    figure = new_figure(DOUBLE_COLUMN, 138.0)
-    grid = figure.subplots(-(-len(REGIMES) // COLUMNS), COLUMNS, sharex=True, sharey=True)
-    empty = grid.flat[len(REGIMES) :]
-    for axes in empty:
-        axes.set_axis_off()
-    for axes, regime, letter in zip(grid.flat, REGIMES, "abcdefghijklmnop", strict=False):
-        mesh = axes.pcolormesh(f10, f20, _square(cells, regime), cmap="Greys", vmin=0, vmax=DARKEST, rasterized=True)
-        if cells[regime].isna().any():
-            hatch_gaps(axes)
-        for column, style in LINES.items():
-            borders = _borders(f10, f20, _square(cells, column.replace(" ", "_")))
-            axes.add_collection(LineCollection(borders, colors=BLACK, **style))
-        axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
-        letter_panel(axes, letter)
-        axes.set_title(regime, loc="right", pad=3)
-        axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20))
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_locator(MaxNLocator(TICKS))
-    for axes in grid.flat[len(REGIMES) - COLUMNS : len(REGIMES)]:
-        axes.set_xlabel(r"$\hat f_{10}$")
-        axes.tick_params(labelbottom=True)
-    for axes in grid[:, 0]:
-        axes.set_ylabel(r"$\hat f_{20}$")
-    bar = figure.colorbar(
-        mesh, ax=grid, label="share of starts", shrink=0.6, pad=0.02, boundaries=np.linspace(0, 1, 101)
-    )
-    bar.set_ticks(np.linspace(0, 1, 6))
-    legend = empty[0].legend(handles=_legend(), loc="center left", fontsize=8.5, frameon=False)
-    legend.set_in_layout(False)
+    numbers = cells.assign(number=cells["regime"].map({name: n for n, name in enumerate(REGIMES)}))
+    shown = _square(numbers, "number")
+    figure = new_figure(DOUBLE_COLUMN, 112.0)
+    axes = figure.add_subplot()
+    axes.pcolormesh(f10, f20, shown, cmap=ListedColormap(COLOURS), vmin=-0.5, vmax=len(REGIMES) - 0.5, rasterized=True)
+    if np.isnan(shown).any():
+        hatch_gaps(axes)
+    together = np.where(_square(cells, TOGETHER) > 1, 1.0, 0.0)
+    if together.any():
+        hatched = axes.contourf(f10, f20, together, levels=[0.5, 1.5], colors="none", hatches=["////"])
+        hatched.set_label(TOGETHER)
+    for series, style in BORDERS.items():
+        pieces = select(table, "map", series)[["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
+        axes.add_collection(LineCollection(pieces, colors=BLACK, **style))
+    axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
+    for _, case in cases.iterrows():
+        offset = {"xytext": (5, 3), "textcoords": "offset points", "fontsize": 9}
+        axes.annotate(case["label"], (case["f10_hat"], case["f20_hat"]), bbox=_paper("white"), **offset)
+    _letter(axes, f10, f20, shown)
+    axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(TICKS))
+    figure.legend(handles=_legend(), loc="outside right center", fontsize=9, frameon=False)
     return figure
+
+
+def _letter(axes, x, y, shown):
+    """A letter on each patch of a regime, where it is widest."""
+    for number, (letter, name) in enumerate(zip(LETTERS, REGIMES, strict=True)):
+        patches, count = ndimage.label(shown == number)
+        insides = [np.pad(patches == patch, 1) for patch in range(1, count + 1)]
+        depths = [ndimage.distance_transform_edt(inside) for inside in insides if inside.sum() >= NAMED_FROM]
+        places = [np.unravel_index(depth.argmax(), depth.shape) for depth in depths]
+        dark = np.dot(to_rgb(COLOURS[number]), (0.3, 0.59, 0.11)) < 0.5
+        look = {"linestyle": "none", "marker": f"${letter}$", "markersize": 7.0, "color": "white" if dark else BLACK}
+        axes.plot([x[j - 1] for _, j in places], [y[i - 1] for i, _ in places], label=name, markeredgewidth=0.4, **look)
+
+
+def _paper(colour):
+    return {"facecolor": colour, "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
 
 
 def _ends(centres):
@@ -87,21 +172,16 @@ def _square(cells, column):
     return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)
 
 
-def _borders(x, y, counts):
-    """Edges (m, 2, 2) between neighbouring cells with different counts (len(y), len(x))."""
-    h, v = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
-    upright = [[(x[j] + h, y[i] - v), (x[j] + h, y[i] + v)] for i, j in np.argwhere(np.diff(counts, axis=1))]
-    level = [[(x[j] - h, y[i] + v), (x[j] + h, y[i] + v)] for i, j in np.argwhere(np.diff(counts, axis=0))]
-    return np.array(upright + level).reshape(-1, 2, 2)
-
-
 def _legend():
-    lines = {
-        "number of fixed points changes": LINES["fixed points"],
-        "number of stable fixed points changes": LINES["stable points"],
-    }
+    box = {"edgecolor": BLACK, "linewidth": 0.4}
     made = [
-        Line2D([], [], color=BLACK, linestyle=style["linestyles"], linewidth=style["linewidths"], label=label)
-        for label, style in lines.items()
+        *(
+            Patch(facecolor=COLOURS[number], label=f"{LETTERS[number]}  {name}", **box)
+            for number, name in enumerate(REGIMES)
+        ),
+        Patch(facecolor="white", hatch="////", label="others coexist", **box),
     ]
-    return [*made, Line2D([], [], label="cases", **_CASES)]
+    for series, style in BORDERS.items():
+        look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
+        made.append(Line2D([], [], color=BLACK, label=f"number of {series} changes", **look))
+    return [*made, Line2D([], [], label="cases of the config", **_CASES)]
