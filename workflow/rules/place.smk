@@ -49,3 +49,6 @@ if workflow.is_main_process:
 
 onstart:
     demand(build_directory.check_room)
+    if not workflow.local_exec:
+        # Once, here, and not in every job on a node that starts at the same time.
+        shell(f"{sys.executable} {shlex.quote(str(ROOT / 'workflow/scripts/compile.py'))}")
