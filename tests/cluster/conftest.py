@@ -94,8 +94,15 @@ class Tiles:
         until(lambda: self.begun(tile) >= times or build.poll() is not None, f"tile {tile} to begin")
         assert build.poll() is None, self.end(build)
 
-    def until_made(self, *tiles):
-        until(lambda: all((self.tree / f"results/checksums/{table(tile)}.sha256").exists() for tile in tiles), tiles)
+    def log(self) -> str:
+        """What Snakemake itself has written down."""
+        return "".join(path.read_text() for path in self.tree.path.glob(".snakemake/log/*.log"))
+
+    def until_heard(self, build, count):
+        """Until Snakemake knows that so many tiles are made."""
+        text = f"{count} of 4 steps"
+        until(lambda: build.poll() is not None or text in self.log(), text)
+        assert build.poll() is None, self.end(build)
 
     def tables(self) -> dict[str, bytes]:
         """The content of all tiles that are there."""

@@ -5,7 +5,7 @@ def test_a_cancelled_job_is_tried_again(tiles, slurm):
     tiles.hold("2-of-4")
     build = tiles.start()
     tiles.until_begun("2-of-4", build)
-    tiles.until_made("1-of-4", "3-of-4", "4-of-4")
+    tiles.until_heard(build, 3)
     [job] = slurm.running()
     slurm("scancel", job)
     tiles.until_begun("2-of-4", build, times=2)

@@ -1,4 +1,4 @@
-"""A Slurm of one machine, for tests: its own keys, ports and folder, all on the loopback address, gone with its test."""
+"""A Slurm of one machine, for tests: with keys, ports and a folder of its own, all on the loopback address."""
 
 import os
 import shutil

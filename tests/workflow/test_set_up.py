@@ -32,11 +32,12 @@ def test_packages_are_checked_by_hash(tree):
     assert not (tree / ".venv/.complete").exists()
 
 
-def test_the_lock_is_whole(tree):
+def test_the_locks_are_whole(tree):
     """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
-    text = (tree / "environment.lock").read_text().replace("\\\n", " ")
+    text = "".join((tree / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
     packages = [line.split() for line in text.splitlines()]
     assert all("==" in package[0] and package[-1].startswith("--hash=sha256:") for package in packages)
+    assert sum(package[0].startswith("snakemake-executor-plugin-slurm==") for package in packages) == 1
     assert "://" not in text
     [heyoka] = [line for line in text.splitlines() if line.startswith("heyoka==")]
     assert "sys_platform == 'linux'" in heyoka

@@ -1,0 +1,70 @@
+"""The profile for Slurm and the rules that it is about; read, since most machines have no Slurm."""
+
+import csv
+import re
+from importlib.util import find_spec
+
+import pytest
+import yaml
+
+from pipeline_trees import ROOT, copied
+
+PROFILES = {
+    name: yaml.safe_load((ROOT / f"workflow/profiles/{name}/config.yaml").read_text()) for name in ("default", "slurm")
+}
+RULES = "".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
+TO_COME = {"sweep_tile"}
+"""A rule that is named in advance."""
+
+
+def scheduled() -> set[str]:
+    [names] = re.findall(r"^SCHEDULED = \{\n(.*?)^\}", RULES, re.MULTILINE | re.DOTALL)
+    return set(re.findall(r'"(\w+)"', names))
+
+
+def test_a_build_is_the_same_on_both():
+    """All that decides what is made again and of what is said; a number of cores has no meaning on many machines."""
+    here, there = PROFILES["default"], PROFILES["slurm"]
+    assert {name: there.get(name) for name in here if name != "cores"} == {
+        name: value for name, value in here.items() if name != "cores"
+    }
+
+
+def test_what_is_scheduled_is_a_rule():
+    for name in scheduled() - TO_COME:
+        assert re.search(rf"\brule {name}\b|\"{name}\": ", RULES), name
+
+
+def test_the_profile_sets_resources_of_scheduled_rules_alone():
+    profile = PROFILES["slurm"]
+    assert set(profile["set-resources"]) | set(profile["set-threads"]) <= scheduled()
+
+
+def test_what_times_things_is_alone_on_its_node():
+    alone = {rule for rule, asked in PROFILES["slurm"]["set-resources"].items() if "--exclusive" in str(asked)}
+    assert alone == {"work_precision", "work_precision_full", "scene_models"}
+
+
+def test_jobs_ask_for_what_they_were_measured_to_need(built):
+    """Twice the memory of a job at most times fits, and a tenth of the time: as the profile says."""
+    profile = PROFILES["slurm"]
+    for path in (built / "results/benchmarks").rglob("*.tsv"):
+        rule = "regime_tile" if path.parent.name == "map" else path.stem
+        if rule in scheduled():
+            asked = profile["default-resources"] | profile["set-resources"].get(rule, {})
+            with open(path, encoding="utf-8") as file:
+                [used] = csv.DictReader(file, delimiter="\t")
+            assert 1.5 * float(used["max_rss"]) < asked["mem_mb"], rule
+            assert 2 * float(used["s"]) < 60 * int(asked["runtime"].removesuffix("m")), rule
+
+
+def test_quick_jobs_stay_where_snakemake_runs(tmp_path):
+    """Whatever is not worth a question to the scheduler; the plugin alone knows the options of the profile."""
+    if not find_spec("snakemake_executor_plugin_slurm"):
+        pytest.skip("Snakemake has no Slurm plugin here: make cluster-tools")
+    tree = copied(ROOT, tmp_path / "tree")
+    planned = tree.dry_run("--workflow-profile", "profiles/slurm", "--quiet", "host")
+    assert tree.returncode == 0, planned
+    sent = set(re.findall(r"^rule (\w+):", planned, re.MULTILINE))
+    assert sent == scheduled() - TO_COME - {"confusion", "hazards_full", "work_precision_full"}
+    assert "localrule fig10_06:" in planned
