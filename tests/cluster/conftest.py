@@ -56,13 +56,13 @@ class Tiles:
         (tree / "small.yaml").write_text(SMALL)
         tree.edit("workflow/scripts/regime_tile.py", "from job import", f"{WATCHED}\nfrom job import")
 
-    def start(self, *options, profile="profiles/slurm", tiles=TILES) -> subprocess.Popen:
+    def start(self, *options, profile="profiles/slurm", also=()) -> subprocess.Popen:
         """A build in the background; Slurm is asked for news as often as it can be."""
         polled = ["--slurm-init-seconds-before-status-checks", "1", "--max-status-checks-per-second", "1"]
         build = self.tree.start(
             *("--workflow-profile", profile, "--configfile", "small.yaml", *options),
             *(polled if profile == "profiles/slurm" else []),
-            *("--", *map(table, tiles)),
+            *("--", *map(table, TILES), *also),
             PATH=self.slurm.path,
         )
         self.builds.append(build)

@@ -2,12 +2,10 @@
 
 import csv
 import re
-from importlib.util import find_spec
 
-import pytest
 import yaml
 
-from pipeline_trees import ROOT, copied
+from pipeline_trees import ROOT
 
 PROFILES = {
     name: yaml.safe_load((ROOT / f"workflow/profiles/{name}/config.yaml").read_text()) for name in ("default", "slurm")
@@ -56,15 +54,3 @@ def test_jobs_ask_for_what_they_were_measured_to_need(built):
                 [used] = csv.DictReader(file, delimiter="\t")
             assert 1.5 * float(used["max_rss"]) < asked["mem_mb"], rule
             assert 2 * float(used["s"]) < 60 * int(asked["runtime"].removesuffix("m")), rule
-
-
-def test_quick_jobs_stay_where_snakemake_runs(tmp_path):
-    """Whatever is not worth a question to the scheduler; the plugin alone knows the options of the profile."""
-    if not find_spec("snakemake_executor_plugin_slurm"):
-        pytest.skip("Snakemake has no Slurm plugin here: make cluster-tools")
-    tree = copied(ROOT, tmp_path / "tree")
-    planned = tree.dry_run("--workflow-profile", "profiles/slurm", "--quiet", "host")
-    assert tree.returncode == 0, planned
-    sent = set(re.findall(r"^rule (\w+):", planned, re.MULTILINE))
-    assert sent == scheduled() - TO_COME - {"confusion", "hazards_full", "work_precision_full"}
-    assert "localrule fig10_06:" in planned
