@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 DAEMONS = "munged", "slurmctld", "slurmd"
-COMMANDS = "sbatch", "scancel", "scontrol", "sinfo", "squeue", "srun"
+COMMANDS = "sacct", "sbatch", "scancel", "scontrol", "sinfo", "squeue", "srun"
 PATIENCE = 300
 """Seconds after which nothing is waited for any more: some ten times what a loaded machine needs."""
 CONFIG = """
