@@ -41,3 +41,15 @@ def test_the_locks_are_whole(tree):
     assert "://" not in text
     [heyoka] = [line for line in text.splitlines() if line.startswith("heyoka==")]
     assert "sys_platform == 'linux'" in heyoka
+
+
+def test_what_a_cluster_needs_is_installed_on_request_alone(tree):
+    """By its hashes, after the rest; a default set-up knows nothing of it."""
+    said = subprocess.run(
+        ["make", "--dry-run", "cluster-tools"], cwd=tree.path, capture_output=True, text=True, check=True
+    )
+    set_up, install = said.stdout.replace("\\\n", "").splitlines()
+    assert set_up == "workflow/set_up.sh"
+    assert "--require-hashes" in install
+    assert install.endswith("--requirement cluster.lock")
+    assert "cluster.lock" not in (tree / "workflow/set_up.sh").read_text()
