@@ -7,16 +7,17 @@ unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 export WHEELS
+export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report check-bytes benchmark attack test explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test explore lock wheels cluster-tools clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { name[++n] = $$1; does[n] = $$2; if (length($$1) > w) w = length($$1) } \
 		END { for (i = 1; i <= n; i++) printf "%-" w "s  %s\n", name[i], does[i] }' $(MAKEFILE_LIST)
-	@printf '\nTo figures, check-figures, report and accept may be added:\n%s\n%s\n%s\n' \
+	@printf '\nTo figures, check-figures, report, archive and accept may be added:\n%s\n%s\n%s\n' \
 		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says' \
 		'WHEELS=folder  set-up takes all packages from there, none from the network'
 
@@ -28,6 +29,9 @@ check-figures: set-up  ## compare results/figures/ with the reference set figure
 
 report: set-up  ## build the report, results/report/index.html and a PDF of the same
 	.venv/bin/snakemake --cores $(CORES) report
+
+archive: set-up  ## pack sources, results and what describes them into one file to cite and to run elsewhere, results/archive/
+	.venv/bin/snakemake --cores $(CORES) archive
 
 accept: export REASON := $(REASON)
 accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pixels alone)

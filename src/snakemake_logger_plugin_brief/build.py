@@ -1,5 +1,6 @@
 """The course of a build: what is done, what runs, what has failed. Events go in, lines to show come out."""
 
+import math
 import re
 from logging import LogRecord
 
@@ -18,7 +19,7 @@ class Build:
     def __init__(self, record: LogRecord):
         """From the RUN_INFO event."""
         self.began = record.created
-        self.total = record.stats["total"]
+        self.total = self.foreseen = record.stats["total"]
         self.jobs_of = record.stats
         self.running: dict[int, Job] = {}
         self.finished: list[Job] = []
@@ -38,10 +39,14 @@ class Build:
         self.failed.pop(record.job_id, None)
         self.finished.append(job)
         alike = [done for done in self.finished if done.rule == job.rule]
-        if len(alike) < self.jobs_of[job.rule] or not (job.outputs or job.logs):
+        if len(alike) < self._expected(job.rule) or not (job.outputs or job.logs):
             return []
         name = job.name if len(alike) == 1 else f"{words(job.rule)} ({len(alike)})"
         return [f"{self.progress()}  {duration(sum(done.seconds for done in alike)):>12}  {name}"]
+
+    def grow(self, total: int) -> None:
+        """From a PROGRESS event: a checkpoint may have brought further jobs."""
+        self.total = total
 
     def fail(self, record: LogRecord, cause: str) -> None:
         """From a JOB_ERROR event and the message of the error before it."""
@@ -58,6 +63,10 @@ class Build:
     def stop(self) -> None:
         """On an interruption, which the jobs that run do not survive: that is no failure of theirs."""
         self.stopped, self.untold = True, []
+
+    def _expected(self, rule):
+        """Jobs of a rule; of one that nobody foresaw all that were not foreseen, once their number is known."""
+        return self.jobs_of.get(rule, self.total - self.foreseen or math.inf)
 
     def progress(self) -> str:
         """How many jobs are done of how many, in columns that stay straight."""

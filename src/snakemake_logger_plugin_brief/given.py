@@ -47,7 +47,8 @@ def refusals(arguments: list[str]) -> Iterator[str]:
     for entry in given.config:
         name, _, value = entry.partition("=")
         if not ENTRY.fullmatch(entry):
-            yield f"--config: {entry[:60]!r} is no override: write {meant(name, value)}"
+            target = "" if "=" in entry else "; targets come after --"
+            yield f"--config: {entry[:60]!r} is no override: write {meant(name, value)}{target}"
         elif "&" in value:  # names a value for aliases; the messages about all else say more once it is read
             try:
                 reader["parse_value"](value)

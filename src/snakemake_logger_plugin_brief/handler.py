@@ -48,6 +48,7 @@ class LogHandler(LogHandlerBase):
             LogEvent.RUN_INFO: self._run_info,
             LogEvent.JOB_INFO: self._job_info,
             LogEvent.JOB_FINISHED: self._job_finished,
+            LogEvent.PROGRESS: self._progress,
             LogEvent.JOB_ERROR: self._job_error,
             LogEvent.ERROR: self._error,
             None: self._message,
@@ -102,6 +103,9 @@ class LogHandler(LogHandlerBase):
 
     def _job_finished(self, record):
         self._screen.say(*self._build.finish(record))
+
+    def _progress(self, record):
+        self._build.grow(record.total)
 
     def _job_error(self, record):
         self._build.fail(record, self._cause or by_the_scheduler(record))

@@ -12,7 +12,15 @@ from snakemake_logger_plugin_brief.words import duration, words
 
 LONG = 15
 """Seconds from which on a job takes long."""
-SILENT = float(os.environ.get("SILENT_SECONDS", 300))
+USUAL_SILENCE = 300
+
+
+def silence(text: str | None) -> float:
+    """Seconds that SILENT_SECONDS tells, or the usual ones where it tells none."""
+    return float(text) if text and re.fullmatch(r"\d+(\.\d+)?", text) else USUAL_SILENCE
+
+
+SILENT = silence(os.environ.get("SILENT_SECONDS"))
 """Seconds without a line in its log from which on a job, if it also runs for longer than usual, may hang."""
 LONGER = 2
 """How many times as long as in the last build a job runs that may hang, and until it is said again."""

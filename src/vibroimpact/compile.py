@@ -13,7 +13,7 @@ def main() -> None:
     """Compile all that is not compiled yet."""
     system, rest = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
     run = simulate(system, rest, cycles=1)
-    _ = run.certificate, run.jacobian, ensemble(system, rest, cycles=1)
+    _ = run.certificate, run.jacobian, run.errors([]), ensemble(system, rest, cycles=1)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import hashlib
 import os
 import shutil
 import sys
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile, gettempdir
@@ -104,7 +105,8 @@ def sweep(now: float) -> None:
         if path.is_dir():
             shutil.rmtree(path, ignore_errors=True)
         else:
-            path.unlink(missing_ok=True)
+            with suppress(OSError):  # of somebody else, in a folder that is not ours to tidy
+                path.unlink()
 
 
 def _is_old(path, now):

@@ -1,5 +1,6 @@
 """The surroundings of the pipeline: the same for every command, and nothing from the user's own settings."""
 
+import errno
 import os
 import shutil
 from pathlib import Path
@@ -34,12 +35,16 @@ def prepare(root: Path, sources: Sources) -> None:
     }
     for variable in CACHES:
         Path(os.environ[variable]).mkdir(parents=True, exist_ok=True)
-    drop_untrusted()
+    drop_untrusted(root, Path.cwd())
 
 
 def _hand_on(compiled: Path, target: Path) -> None:
     """Copy compiled code, unless it is there already; an interrupted copy is not taken for one."""
     if compiled.is_dir() and not target.exists():
         partial = target.with_name(f"{target.name}.{os.getpid()}.partial")
-        shutil.copytree(compiled, partial)
-        partial.rename(target)
+        try:
+            shutil.copytree(compiled, partial)
+            partial.rename(target)
+        except OSError as error:  # of a copy it has neither number nor name
+            shutil.rmtree(partial, ignore_errors=True)
+            raise OSError(errno.EIO, f"compiled code cannot be copied here ({error})", str(target)) from None

@@ -4,7 +4,15 @@ import subprocess
 
 
 def git(*arguments: str, root=".") -> str | None:
-    """The output of a git command in a directory, or None where there is no repository or no git."""
+    """The output of a git command in a directory, or None where git does not know what lies there.
+
+    That is so without git, without a repository, and in a copy of the pipeline that lies inside another repository,
+    whose commit and changes say nothing about it.
+    """
+    return _run(*arguments, root=root) if _run("ls-files", "--error-unmatch", ".", root=root) else None
+
+
+def _run(*arguments, root):
     try:
         run = subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError):

@@ -15,12 +15,13 @@ def digests(folder) -> dict[str, str]:
     """Digest of every file below a folder that contains no timing, by its path there."""
     folder = Path(folder)
     files = sorted(path for path in folder.rglob("*") if path.suffix in KINDS and path.is_file())
-    timed = {path.with_suffix("") for path in files if path.suffix == ".csv" and _has_time(path)}
+    timed = {path.with_suffix("") for path in files if path.suffix == ".csv" and has_time(path)}
     kept = [path for path in files if path.with_suffix("") not in timed]
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in kept}
 
 
-def _has_time(table):
+def has_time(table) -> bool:
+    """Whether a table has a column of run times."""
     with open(table, encoding="utf-8") as file:
         return any(TIME.search(column.strip()) for column in file.readline().split(","))
 

@@ -7,6 +7,7 @@ library; content is compared, never a date, so a file that was only touched has 
 import ast
 import hashlib
 import json
+import re
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -18,6 +19,8 @@ from vibroimpact_pipeline.integrity.stamps import Stamp, stamp
 
 LIBRARY = "vibroimpact"
 PACKAGES = (LIBRARY, "vibroimpact_pipeline")
+NO_DATA = re.compile(r"\.pyc?$|^\.|~$")
+"""Names of code, and of what editors keep beside a file that is open."""
 COMPILERS = ("numba", f"{LIBRARY}.exact.engine.code_cache", f"{LIBRARY}.exact.engine.compiled")
 """What a module imports that has something to compile."""
 
@@ -110,7 +113,7 @@ class Sources:
         path = self._roots[package].joinpath(*rest)
         if not path.is_dir():
             return [path.with_suffix(".py")]
-        data = (file for file in path.iterdir() if file.is_file() and file.suffix not in (".py", ".pyc"))
+        data = (file for file in path.iterdir() if file.is_file() and not NO_DATA.search(file.name))
         return [path / "__init__.py", *sorted(data)]
 
 

@@ -65,3 +65,23 @@ def test_an_equation_is_where_the_map_says(equations, files, names):
 
 def test_the_map_has_all_equations_that_are_looked_for():
     assert {2, 6, 9, 11, 12, 16, 23, 24, 25, 26} <= cited("".join(row[0] for row in EQUATIONS))
+
+
+RELIABILITY = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+NAMED = sorted(set(re.findall(r"test_\w+\.py", RELIABILITY)))
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_what_is_promised_has_its_test(name):
+    assert list((ROOT / "tests").rglob(name))
+
+
+def test_every_fault_that_is_injected_is_told():
+    assert {path.name for path in (ROOT / "tests/faults").glob("test_*.py")} <= set(NAMED)
+
+
+def test_every_promise_names_its_test():
+    rows = [line for line in RELIABILITY.splitlines() if line.startswith("| ") and "| promised" in line[-400:]]
+    rows = [row for row in rows if not row.startswith("| fault")]
+    assert len(rows) > 50
+    assert [row for row in rows if not re.search(r"\| [^|]*(test_\w+\.py|by hand)[^|]*\|$", row)] == []

@@ -83,7 +83,7 @@ def run(command: str, project) -> str:
 
 
 def test_every_recipe_is_followed():
-    assert RECIPES == ["howto_claim", "howto_figure", "howto_hazard", "howto_integrator"]
+    assert RECIPES == ["howto_claim", "howto_figure", "howto_hazard", "howto_integrator", "howto_sweep"]
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
@@ -126,3 +126,16 @@ def test_a_hazard_can_be_added(project):
 def test_a_claim_can_be_added(project):
     (printed,) = follow("howto_claim", project)
     assert "1 failed" not in printed
+
+
+def test_parameters_can_be_swept(project):
+    said, head = follow("howto_sweep", project)
+    assert "Sweep coupling: 12 points, 36 simulated starts, about " in said
+    columns, first, second = (line.split(",") for line in head.splitlines())
+    assert columns[:4] == ["point", "alpha12_hat", "f10_hat", "f20_hat"]
+    assert [first[:4], second[:4]] == [["0", "0.5", "0.5", "0.5"], ["1", "0.5", "0.8", "0.8"]]
+    table = pd.read_csv(project / "results/sweeps/coupling.csv")
+    assert table["point"].tolist() == list(range(12))
+    for kind in ("png", "pdf", "svg"):
+        assert (project / f"results/sweeps/coupling/figure.{kind}").stat().st_size > 1000
+    assert "Sweep coupling" in (project / "results/sweeps/coupling.html").read_text(encoding="utf-8")

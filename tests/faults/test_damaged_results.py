@@ -16,6 +16,10 @@ TABLE = f"results/figures/{FIGURE}.csv"
 POINTS = "results/fixed_points/equal.csv"
 
 
+def ours(output):
+    return True
+
+
 def empty(path):
     path.write_bytes(b"")
 
@@ -90,10 +94,10 @@ def test_a_file_in_a_directory_counts_for_the_directory(tmp_path, monkeypatch):
     checksums.record(["results/report"])
     (tmp_path / "results/report/.snakemake_timestamp").touch()  # Snakemake's own, later
     said = []
-    remove_damaged(said.append, dry_run=False)
+    remove_damaged(said.append, ours, dry_run=False)
     assert said == []
     empty(page)
-    remove_damaged(said.append, dry_run=False)
+    remove_damaged(said.append, ours, dry_run=False)
     assert said == ["results/report: not what was written. Removed; made anew when needed."]
     assert not (tmp_path / "results/report").exists()
 
@@ -134,8 +138,19 @@ def test_what_cannot_be_read_is_damaged_and_what_cannot_be_removed_is_said(drawn
     assert TABLE in checksums.damaged([TABLE])
     monkeypatch.setattr(Path, "unlink", refuse)
     with pytest.raises(OSError, match="Input/output error"):
-        remove_damaged(print, dry_run=False)
+        remove_damaged(print, ours, dry_run=False)
     assert (drawn / TABLE).exists()
+
+
+def test_what_no_rule_makes_stays(drawn):
+    """A record beside it may be that of somebody else, of a workflow that uses this one as a module say."""
+    data, record = drawn / "results/data", drawn / "results/checksums/results/data.sha256"
+    data.mkdir()
+    (data / "measured.csv").write_text("1\n")
+    record.write_text("0" * 64 + " *measured.csv\n")
+    assert "results/data" not in drawn.snakemake(FIGURE)
+    assert (data / "measured.csv").exists()
+    record.unlink()
 
 
 @pytest.mark.parametrize("name", ["notes.txt", "@part/cmVz"])
@@ -144,5 +159,5 @@ def test_a_file_of_somebody_else_in_snakemakes_memory_is_left(drawn, name, monke
     stray = drawn / ".snakemake/metadata" / name
     stray.parent.mkdir(exist_ok=True)
     stray.write_text("")
-    remove_damaged(pytest.fail, dry_run=False)
+    remove_damaged(pytest.fail, ours, dry_run=False)
     assert stray.exists()

@@ -165,10 +165,10 @@ def killed(job):
 @pytest.mark.parametrize("change", [same_text, older_version])
 def test_code_compiled_by_a_job_that_was_killed_is_dropped_if_its_sources_have_been_changed(job, own_folder, change):
     killed(job)
-    compiled.drop_untrusted()
+    compiled.drop_untrusted(Path.cwd())
     assert (own_folder / "one.nbi").exists()
     change(Path("theory.py"))
-    compiled.drop_untrusted()
+    compiled.drop_untrusted(Path.cwd())
     assert not own_folder.exists()
 
 

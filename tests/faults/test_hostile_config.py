@@ -34,7 +34,7 @@ TEXTS = {
 OVERRIDES = {
     "system.kappa=0.7": "'system.kappa=0.7' is no override: write 'system={kappa: 0.7}'",
     "cases.weak.f20_hat=0.4": "'cases.weak.f20_hat=0.4' is no override: write 'cases={weak: {f20_hat: 0.4}}'",
-    "system": "'system' is no override: write 'system=VALUE'",
+    "system": "'system' is no override: write 'system=VALUE'; targets come after --",
     "=3": "'=3' is no override: write 'system={kappa: 3}'",
     'system={kappa: "[1"}': "system.kappa: expected ',' or ']', but got '<stream end>'",
     "system={kappa:0.7}": "system.'kappa:0.7': unknown key, did you mean 'kappa'?; a space belongs after a colon",

@@ -111,7 +111,7 @@ def figure_check(folder):
     drawn = {"reference drawn with": {HOSTILE: HOSTILE}, "drawn with": {HOSTILE: HOSTILE}}
     verdict = {
         "figure": HOSTILE,
-        "status": HOSTILE,
+        "status": "failed",
         "reasons": [HOSTILE] * 30,
         "tables": [row | {"distance": 1.0, "limit": 2.0}],
         "artists": {"distance": 1.0, "limit": 2.0},

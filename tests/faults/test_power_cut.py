@@ -67,11 +67,17 @@ def test_the_report_does_without_a_run_time_that_was_cut_off(tmp_path):
 
 
 def test_compiled_code_that_was_cut_off_is_dropped(tmp_path, monkeypatch):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    for name in ("whole.nbi", "empty.nbi", "whole.1.nbc", "empty.1.nbc"):
-        (tmp_path / name).write_text("x" * ("whole" in name))
-    compiled.drop_untrusted()
-    assert {path.name for path in tmp_path.iterdir()} == {"whole.nbi", "whole.1.nbc"}
+    folder = tmp_path / compiled.KEPT / "0123"
+    folder.mkdir(parents=True)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))
+    names = {"whole.nbi", "empty.nbi", "whole.1.nbc", "empty.1.nbc"}
+    for name in names:
+        (folder / name).write_text("x" * ("whole" in name))
+    compiled.drop_untrusted(tmp_path / "elsewhere")
+    assert {path.name for path in folder.iterdir()} == names
+    (tmp_path / "link").symlink_to(tmp_path)
+    compiled.drop_untrusted(tmp_path / "link")
+    assert {path.name for path in folder.iterdir()} == {"whole.nbi", "whole.1.nbc"}
 
 
 def test_numba_itself_stumbles_over_them(tmp_path):

@@ -157,6 +157,14 @@ def test_without_its_sidecar_a_file_still_tells_but_for_commit_and_time(tree):
     assert "run time" not in said
 
 
+def test_made_outside_a_checkout_the_commit_is_said_not_to_be_known(tree):
+    path = tree / "results/figures/fig10_04.provenance.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"commit": None, "tree": None}))
+    status, said = ask(tree)
+    assert status == 0
+    assert "commit: not known, made without git\n" in said
+
+
 def test_a_record_can_be_had_as_json(tree):
     status, said = ask(tree, "--json")
     assert status == 0

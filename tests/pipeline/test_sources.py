@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from vibroimpact_pipeline.sources import Sources
+from vibroimpact_pipeline.sources import NO_DATA, Sources
 
 SOURCES = Sources()
 
@@ -19,6 +19,11 @@ def test_imports_are_followed_through_the_library():
     assert "vibroimpact" in used
     assert not any(name.startswith(("vibroimpact.exact", "vibroimpact.figures")) for name in used)
     assert "vibroimpact.system.restitution" in SOURCES.modules_used(["vibroimpact.exact.engine.simulation"])
+
+
+def test_what_an_editor_keeps_beside_a_file_is_no_source():
+    names = [".manifold.py.swp", "manifold.py~", ".#manifold.py", "manifold.py", "style.mplstyle", "tolerances.yaml"]
+    assert [name for name in names if not NO_DATA.search(name)] == ["style.mplstyle", "tolerances.yaml"]
 
 
 def test_an_unknown_module_is_refused():
@@ -74,7 +79,9 @@ def test_an_edited_library_module_counts_where_it_is_used(tmp_path, edited, chan
     script.write_text("from vibroimpact.theory.masri import lower_limit\n")
 
     def fingerprint():
-        code = f"from vibroimpact_pipeline.sources import Sources; print(Sources().fingerprint({str(script)!r}))"
+        code = (
+            f"from vibroimpact_pipeline.sources import NO_DATA, Sources; print(Sources().fingerprint({str(script)!r}))"
+        )
         run = subprocess.run(
             [sys.executable, "-c", code],
             env={**os.environ, "PYTHONPATH": str(tmp_path)},

@@ -16,7 +16,7 @@ NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*"
+    "report", "api", "animations", "force_sweep", "figure_check", "sweeps*", "*_full*", "confusion*"
 )
 """Results of targets that a default build leaves alone."""
 CORES = ["--cores", "2"]
@@ -73,7 +73,9 @@ class Tree:
         output = self.dry_run(*arguments, "--quiet", "host")
         assert self.returncode == 0, output
         rules = {
-            line.split()[1].rstrip(":") for line in output.splitlines() if line.startswith(("rule ", "localrule "))
+            line.split()[1].rstrip(":")
+            for line in output.splitlines()
+            if line.startswith(("rule ", "localrule ", "checkpoint "))
         }
         return rules - {"all", "figures", "stability", "companions"}
 

@@ -4,7 +4,8 @@ import shutil
 
 import pytest
 
-from pipeline_trees import ROOT, Tree, copied
+from archives import checkout
+from pipeline_trees import ROOT, Tree, copied, made_once
 
 
 @pytest.fixture
@@ -18,3 +19,9 @@ def rebuilt(built, tmp_path) -> Tree:
     """A built tree that a test may change."""
     shutil.copytree(built.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
     return Tree(tmp_path / "tree")
+
+
+@pytest.fixture(scope="session")
+def archived(built, tmp_path_factory) -> Tree:
+    """The built project as a git checkout, with its archive. Read it, do not change it."""
+    return made_once(tmp_path_factory, "archived", lambda path: checkout(built, path), "archive")

@@ -214,6 +214,15 @@ def test_jobs_of_one_rule_are_one_line_when_the_last_is_done(handler):
     assert shown(handler, finished(1, 133)) == ["2 of 3     2 min 8 s  simulation (2)"]
 
 
+def test_jobs_that_come_to_be_known_while_others_run_are_one_line_too(handler):
+    shown(handler, jobs(plan=1, table=1), started(0, "plan"), finished(0, 1))
+    shown(handler, record(LogEvent.PROGRESS, done=1, total=4))
+    shown(handler, started(1, "tile", 10), started(2, "tile", 10))
+    assert shown(handler, finished(1, 20)) == []
+    assert shown(handler, finished(2, 30)) == ["3 of 4          30 s  tile (2)"]
+    assert shown(handler, started(3, "table", 30), finished(3, 31)) == ["4 of 4           1 s  table"]
+
+
 def test_a_job_that_takes_long_is_named_once_with_the_time_of_the_last_build(handler):
     Path("old.tsv").write_text("s\th:m:s\n92.4\t0:01:32\n")
     shown(handler, jobs(regime_tile=2), started(1, "regime_tile", 10, "old.tsv", scatteritem="2-of-4"))

@@ -8,11 +8,17 @@ from vibroimpact_pipeline.integrity import code as code_of_this_build
 from vibroimpact_pipeline.integrity.repair import remove_damaged
 
 
+def makes(output):
+    """Whether one of these rules makes it, not one of a workflow that uses this one as a module."""
+    ours = str(ROOT / "workflow")
+    return any(rule.is_producer(output) for rule in workflow.rules if str(rule.snakefile).startswith(ours))
+
+
 def seeing_to_results(record):
     """Called with each event: the first of a build, which summaries, reports and graphs do not have."""
     if getattr(record, "event", None) == LogEvent.WORKFLOW_STARTED:
         try:
-            remove_damaged(lambda line: print(line, file=sys.stderr), workflow.output_settings.dryrun)
+            remove_damaged(lambda line: print(line, file=sys.stderr), makes, workflow.output_settings.dryrun)
         except OSError as error:
             refuse([f"{error.filename}: cannot be removed ({error.strerror}). Remove it and build again."])
     return True

@@ -25,7 +25,7 @@ def certificate(system, start):
 
     state, samples = np.array(start, dtype=float), np.empty((0, 8))
     run = Run(system, state, 0.0, 1, samples, state, np.empty((0, ROW)), np.zeros(ENTRIES))
-    _ = run.certificate, run.jacobian
+    _ = run.certificate, run.jacobian, run.errors([])
 
 
 def rivals(system, start):

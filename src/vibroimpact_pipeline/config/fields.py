@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field, Strict
 
-from vibroimpact_pipeline.config.section import Problem, Section, Sweep
+from vibroimpact_pipeline.config.section import Change, Problem, Section
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def repeated(name: str, values) -> list[Problem]:
     ]
 
 
-def over_forces(grid) -> list[Sweep]:
+def over_forces(grid) -> list[Change]:
     """The forces of a grid of cells."""
     names = ("f10", "f20")
-    return [Sweep((f"{name}_range",), None, [f"{name}_hat"], getattr(grid, f"{name}_range")) for name in names]
+    return [Change((f"{name}_range",), None, [f"{name}_hat"], getattr(grid, f"{name}_range")) for name in names]

@@ -10,6 +10,7 @@ from vibroimpact_pipeline.config.regimes import Regimes
 from vibroimpact_pipeline.config.report import Report
 from vibroimpact_pipeline.config.section import Problem, Section, marked, sections
 from vibroimpact_pipeline.config.stability import Stability
+from vibroimpact_pipeline.config.sweeps import Sweeps
 from vibroimpact_pipeline.config.system import SystemSection, unsound
 
 
@@ -23,6 +24,7 @@ class Config(Section):
     regimes: Regimes
     accuracy: Accuracy
     report: Report
+    sweeps: Sweeps = {}  # noqa: RUF012
 
     def parameters(self, case: str) -> dict:
         """Parameters of System for one case."""
@@ -35,6 +37,7 @@ class Config(Section):
                 yield Problem(place, f"unknown case {case!r}{hint(case, self.cases)}")
         yield from (unsound_cases := list(self._unsound_cases()))
         if not unsound_cases:
+            yield from self._unsound_changes()
             yield from self._unsound_sweeps()
         yield from self._short_windows()
         drawn, over = self.regimes.coexistence.case, self.regimes.branches.case
@@ -51,13 +54,21 @@ class Config(Section):
                 found[("system", *name) if shared else ("cases", case, *name)] = what
         return [Problem(place, what) for place, what in found.items()]
 
-    def _unsound_sweeps(self):
+    def _unsound_changes(self):
         found = {}
         for place, section in sections(self):
-            for sweep in section.sweeps():
-                for case in {sweep.case} & self.cases.keys() if sweep.case else self.cases:
-                    found |= {(*place, *where): what for where, what in _problems_along(sweep, self.parameters(case))}
+            for change in section.changes():
+                for case in {change.case} & self.cases.keys() if change.case else self.cases:
+                    found |= {(*place, *where): what for where, what in _problems_along(change, self.parameters(case))}
         return [Problem(place, what) for place, what in found.items()]
+
+    def _unsound_sweeps(self):
+        for name, sweep in self.sweeps.items():
+            found = [*sweep.costs(self.regimes.observation)]
+            if sweep.case in self.cases:
+                found += sweep.unsound_corners(self.parameters(sweep.case))
+            for place, what in found:
+                yield Problem(("sweeps", name, *place), what)
 
     def _short_windows(self):
         """Animations that show more than their case keeps."""
@@ -69,9 +80,9 @@ class Config(Section):
                 yield Problem(("report", "animations", name, "cycles"), what)
 
 
-def _problems_along(sweep, parameters):
+def _problems_along(change, parameters):
     """What is wrong with a system on the way; limits of parameters are intervals, so that the ends speak for all."""
-    for number, value in enumerate(sweep.values):
-        for (*name,), what in unsound(parameters | dict.fromkeys(sweep.along, value)):
-            moved = name and name[0] in sweep.along
-            yield Problem((*sweep.place, number), f"{name[0]}: {what}" if moved else f"at {value}: {what}")
+    for number, value in enumerate(change.values):
+        for (*name,), what in unsound(parameters | dict.fromkeys(change.along, value)):
+            moved = name and name[0] in change.along
+            yield Problem((*change.place, number), f"{name[0]}: {what}" if moved else f"at {value}: {what}")

@@ -8,6 +8,7 @@ from vibroimpact_pipeline.report.figure_texts import OWN
 RULES = {
     "accuracy",
     "all",
+    "archive",
     "api",
     "claims",
     "coexistence",
@@ -24,12 +25,18 @@ RULES = {
     "hazards",
     "hazards_full",
     "orbits",
+    "page_of_sweep",
+    "picture_of_sweep",
+    "plan_of_sweep",
+    "probe_of_sweep",
     "proofs",
     "regime_tile",
     "report",
     "scene_models",
     "simulation",
     "stability",
+    "table_of_sweep",
+    "tile_of_sweep",
     "verdict_grid",
     "verdicts",
     "work_precision",
@@ -38,6 +45,8 @@ RULES = {
 """Rules of workflow/rules/."""
 COMPANIONS = "companion_"
 """What the names of rules of companions begin with."""
+SWEEPS = "sweep_"
+"""What the names of rules of sweeps begin with."""
 CHAPTERS = "fig10_"
 """What the names of the chapter's figures begin with."""
 
@@ -53,7 +62,7 @@ def taken(config) -> Iterator[Problem]:
 
 
 def _meant(place, name):
-    if name in RULES or name.startswith(COMPANIONS):
+    if name in RULES or name.startswith((COMPANIONS, SWEEPS)):
         yield Problem(place, "the name is that of a rule")
     if name.startswith(CHAPTERS):
         yield Problem(place, f"names with {CHAPTERS} are those of the chapter's figures")

@@ -21,7 +21,7 @@ from vibroimpact_pipeline.config.fields import (
     repeated,
     unit,
 )
-from vibroimpact_pipeline.config.section import Place, Problem, Section, Sweep
+from vibroimpact_pipeline.config.section import Change, Place, Problem, Section
 from vibroimpact_pipeline.config.system import NAMES
 
 FINEST = 200
@@ -120,9 +120,9 @@ class Branches(Section):
             yield Problem(("longest_step",), f"{self.longest_step} is below {finest:g}, a part in {FINEST} of a path")
         yield from repeated("paths", [" ".join(path.along) for path in self.paths])
 
-    def sweeps(self):
+    def changes(self):
         for number, path in enumerate(self.paths):
-            yield Sweep(("paths", number, "range"), self.case, path.along, path.range)
+            yield Change(("paths", number, "range"), self.case, path.along, path.range)
 
 
 class Lifetimes(Line):
@@ -177,10 +177,10 @@ class Coexistence(Section):
     lifetimes: Lifetimes
     tori: Tori
 
-    def sweeps(self):
-        yield Sweep(("lifetimes", "values"), self.case, self.lifetimes.along, self.lifetimes.values)
+    def changes(self):
+        yield Change(("lifetimes", "values"), self.case, self.lifetimes.along, self.lifetimes.values)
         for number, path in enumerate(self.tori.paths):
-            yield Sweep(("tori", "paths", number, "values"), self.case, path.along, path.values)
+            yield Change(("tori", "paths", number, "values"), self.case, path.along, path.values)
 
 
 class Map(Section):
@@ -199,7 +199,7 @@ class Map(Section):
         if self.tiles > self.points**2:
             yield Problem(("tiles",), f"{self.tiles} is above {self.points**2}, the number of cells: points^2")
 
-    def sweeps(self):
+    def changes(self):
         return over_forces(self)
 
     def costs(self, once, cycles):
@@ -274,8 +274,8 @@ class EpsilonLimit(Section):
         if fitted < FIT:
             yield Problem(("fit_below",), f"below {self.fit_below} are {fitted} values of epsilon; a fit takes {FIT}")
 
-    def sweeps(self):
-        yield Sweep(("epsilon",), None, ["epsilon"], self.epsilon)
+    def changes(self):
+        yield Change(("epsilon",), None, ["epsilon"], self.epsilon)
 
 
 class Regimes(Section):

@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from vibroimpact_pipeline.config.fields import Amplitude, CaseName, ForceRange, Name, not_ascending, unit
-from vibroimpact_pipeline.config.section import Problem, Section, Sweep
+from vibroimpact_pipeline.config.section import Change, Problem, Section
 
 FINEST = 1e-6
 """Least distance of values: they are written with six decimals."""
@@ -34,8 +34,8 @@ class ForceSweep(Section):
         if 0 < step < FINEST:
             yield Problem(("values",), f"{self.values} values are {step:.2g} apart, less than {FINEST:g}")
 
-    def sweeps(self):
-        yield Sweep(("range",), self.case, ["f20_hat"], self.range)
+    def changes(self):
+        yield Change(("range",), self.case, ["f20_hat"], self.range)
 
 
 class Report(Section):

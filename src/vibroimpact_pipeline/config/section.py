@@ -20,7 +20,7 @@ class Problem(NamedTuple):
     what: str
 
 
-class Sweep(NamedTuple):
+class Change(NamedTuple):
     """Values that parameters move through together; they have to stay those of a system all the way.
 
     place: of the list of values. case: whose other parameters are kept, every case's for None.
@@ -51,7 +51,7 @@ class Section(BaseModel):
         """What is wrong across fields, each of which is right by itself."""
         return ()
 
-    def sweeps(self) -> Iterable[Sweep]:
+    def changes(self) -> Iterable[Change]:
         """What parameters are changed to."""
         return ()
 

@@ -6,7 +6,7 @@ from pydantic import Field, Strict
 
 from vibroimpact_pipeline.config.cost import above
 from vibroimpact_pipeline.config.fields import Epsilon, ForceRange, Points, not_ascending, over_forces, repeated
-from vibroimpact_pipeline.config.section import Section, Sweep
+from vibroimpact_pipeline.config.section import Change, Section
 
 ORBITS = 1_000_000
 """Searches for all symmetric orbits, some ten milliseconds each."""
@@ -48,9 +48,9 @@ class VerdictGrid(Section):
         factors = {"cells (points^2)": self.points**2, "values of epsilon": len(self.epsilon)}
         yield from above(("points",), ORBITS, "searches for orbits", **factors)
 
-    def sweeps(self):
+    def changes(self):
         yield from over_forces(self)
-        yield Sweep(("epsilon",), None, ["epsilon"], self.epsilon)
+        yield Change(("epsilon",), None, ["epsilon"], self.epsilon)
 
 
 class Stability(Section):

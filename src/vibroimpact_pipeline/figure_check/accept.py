@@ -6,7 +6,6 @@ Nothing else writes into the reference set.
 import argparse
 import datetime
 import json
-import shutil
 import sys
 from pathlib import Path
 
@@ -85,31 +84,30 @@ def accept(verdicts: list[dict], new, reference, reason: str, date: datetime.dat
 
 
 def _take(figure, new, reference):
-    for path in files_of(figure, reference).values():
-        path.unlink(missing_ok=True)
-    for name, path in files_of(figure, new).items():
-        if path.is_file():
-            with replacing(reference / name) as partial:
-                _keep(path, partial)
+    fresh = {name: _kept(path) for name, path in files_of(figure, new).items() if path.is_file()}
+    for name, content in fresh.items():
+        with replacing(reference / name) as partial:
+            partial.write_bytes(content)
+    for name, path in files_of(figure, reference).items():
+        if name not in fresh:
+            path.unlink(missing_ok=True)
     origins.take(figure, new, reference)
 
 
 def _take_picture(figure, new, reference):
-    with replacing(reference / f"{figure}.png") as partial:
-        _keep(new / f"{figure}.png", partial)
+    picture = _kept(new / f"{figure}.png")
     name = f"{figure}.artists.json"
     drawn, kept = (json.loads((folder / name).read_text(encoding="utf-8")) for folder in (new, reference))
     content = json.dumps(kept | {"drawn with": drawn["drawn with"]}, indent=1, ensure_ascii=False) + "\n"
+    with replacing(reference / f"{figure}.png") as partial:
+        partial.write_bytes(picture)
     with replacing(reference / name) as partial:
         partial.write_text(content, encoding="utf-8")
 
 
-def _keep(path, target):
-    """A copy; of a picture its colours without loss, in fewer bytes."""
-    if path.suffix == ".png":
-        target.write_bytes(pictures.png(pictures.colours(path)))
-    else:
-        shutil.copyfile(path, target)
+def _kept(path) -> bytes:
+    """What is kept of a file: of a picture its colours without loss, in fewer bytes."""
+    return pictures.png(pictures.colours(path)) if path.suffix == ".png" else path.read_bytes()
 
 
 def _entry(verdict, new):

@@ -2,6 +2,7 @@
 
 from xml.etree import ElementTree
 
+from vibroimpact.figures.kit.markdown import one_line
 from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, OTHER_VERSIONS
 
 NAME = "figure check"
@@ -20,15 +21,10 @@ def junit(verdicts: list[dict]) -> str:
     for verdict in verdicts:
         case = ElementTree.SubElement(suite, "testcase", classname=NAME, name=verdict["figure"])
         if verdict["status"] == FAILED:
-            reasons = [_legal(reason) for reason in verdict["reasons"]]
+            reasons = [one_line(reason) for reason in verdict["reasons"]]
             failure = ElementTree.SubElement(case, "failure", message=reasons[0], type="difference")
             failure.text = "\n".join(reasons)
         elif verdict["status"] == NOT_COMPARABLE:
             ElementTree.SubElement(case, "skipped", message=OTHER_VERSIONS)
     ElementTree.indent(suite)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"
-
-
-def _legal(text):
-    """Without characters that XML does not know."""
-    return "".join(letter if letter.isprintable() else "\ufffd" for letter in text)

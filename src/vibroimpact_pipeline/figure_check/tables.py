@@ -105,17 +105,17 @@ def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[
 def lacks(table: pd.DataFrame, columns: dict, infinite=()) -> list[str]:
     """What a table must have to say anything, whatever its reference says: one line each.
 
-    columns: those that are compared, as in `Rules`. infinite: columns in which infinity means something.
+    columns: those that are compared, as in `Rules`; where figures share a card, one may lack some. infinite: those in
+    which infinity means something.
     """
     if table.empty:
         return ["no rows"]
     parts = {series[-1]: part for series, part in _by_series(table).items()}
-    found = []
-    for name, compared in columns.items():
+    there = {name: compared for name, compared in columns.items() if name in table}
+    found = [f"no column of those its card declares: {', '.join(columns)}"] if columns and not there else []
+    for name, compared in there.items():
         of_series = {} if isinstance(compared, str) else {key: parts[key] for key in compared if key in parts}
-        if name not in table:
-            found.append(f"no column {name}, which its card declares")
-        elif not _given(table[name]).any():
+        if not _any(table[name]):
             found.append(f"no value of {name}")
         else:
             found += [f"no value of {name} in series {key}" for key, part in of_series.items() if not _any(part[name])]

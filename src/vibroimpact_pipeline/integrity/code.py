@@ -28,5 +28,5 @@ def stamps_of(fingerprint: str) -> dict[str, Stamp]:
     try:
         known = json.loads(LIST.read_text(encoding="utf-8"))
         return {path: known["stamps"][path] for path in known["files"][fingerprint]}
-    except (OSError, KeyError):
+    except (OSError, KeyError, ValueError):
         raise Changed(f"{LIST} does not list the code of this job: it was changed meanwhile. Build again.") from None

@@ -26,7 +26,7 @@ def from_unchanged(sources: Mapping[str, Stamp], *places: Path) -> Iterator[None
     Raises:
         Changed: a source is not.
     """
-    if _folder().parent not in [place / KEPT for place in places]:
+    if not _kept_in(places):
         with unchanged(sources):
             yield
         return
@@ -43,11 +43,14 @@ def from_unchanged(sources: Mapping[str, Stamp], *places: Path) -> Iterator[None
         note.unlink(missing_ok=True)
 
 
-def drop_untrusted() -> None:
+def drop_untrusted(*places: Path) -> None:
     """Drop what a process was compiling that did not live to see its sources changed, and files without content.
 
-    Over such files, which a power cut may leave, Numba would stumble, then and ever after.
+    Over such files, which a power cut may leave, Numba would stumble, then and ever after. What is kept elsewhere than
+    below one of some directories is left alone.
     """
+    if not _kept_in(places):
+        return
     if not all(_still_true(note) for note in _folder().glob(NOTE)):
         shutil.rmtree(_folder(), ignore_errors=True)
     for path in _folder().rglob("*.nb[ci]"):
@@ -63,6 +66,11 @@ def _still_true(note):
         return True
     except ValueError:
         return False
+
+
+def _kept_in(places):
+    """Whether compiled code is kept where the pipeline keeps it, by whichever way one gets there."""
+    return _folder().parent.resolve() in [(place / KEPT).resolve() for place in places]
 
 
 def _folder():

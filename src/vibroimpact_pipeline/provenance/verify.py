@@ -139,8 +139,9 @@ def report(path, record: dict, found) -> list[str]:
     said = [f"{path}: {record['figure']}"]
     said += [f"  method: {step['method']} ({step['digits']} digits)" for step in record["steps"]]
     said += ["  drawn with: " + ", ".join(f"{name} {version}" for name, version in record["versions"].items())]
-    if record.get("commit"):
-        said.append(f"  commit: {record['commit']}, {record['tree']} tree")
+    if "commit" in record:
+        made_from = f"{record['commit']}, {record['tree']} tree" if record["commit"] else "not known, made without git"
+        said.append(f"  commit: {made_from}")
     if "seconds" in record:
         said.append(f"  run time: {record['seconds']} s")
     said += [f"  {name}: {difference or 'same'}" for name, difference in found]

@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from hard_starts import example
-from vibroimpact.exact.engine.ensemble import INADMISSIBLE
+from vibroimpact.exact.engine.ensemble import INADMISSIBLE, MOST_AT_ONCE
 from vibroimpact.exact.engine.request import ROUNDED, checked_state, within_walls
 from vibroimpact.system.state import BALLS, BOXES
 
@@ -141,6 +141,13 @@ def test_systems_and_starts_combine_as_arrays_do(case):
     assert vi.ensemble(systems, states[0], 2).shape == (2,)
     assert vi.ensemble(case, states[0], 2).shape == ()
     assert vi.ensemble(case, np.empty((0, 8)), 2).shape == (0,)
+    assert vi.ensemble([], np.empty((0, 8)), 2).shape == (0,)
+
+
+def test_many_starts_of_one_system_are_those_of_few(case):
+    states = starts(2 * MOST_AT_ONCE + 300)
+    parts = [vi.ensemble(case, states[first : first + 500], 1) for first in range(0, len(states), 500)]
+    np.testing.assert_array_equal(vi.ensemble(case, states, 1), np.concatenate(parts))
 
 
 def test_a_start_that_fails_harms_no_other(case):

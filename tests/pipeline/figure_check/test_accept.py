@@ -82,6 +82,15 @@ def test_the_new_figure_becomes_the_reference_with_its_reason(tree):
     assert "Built from 0123456789 (clean tree)." in text
 
 
+def test_a_picture_that_cannot_be_read_costs_no_reference(tree, capsys):
+    before = contents(tree / "figures")
+    picture = tree / "results/figures/fig10_04.png"
+    picture.write_bytes(picture.read_bytes()[:1000])
+    assert main(["--reason", "cut short"]) == 1
+    assert "Not accepted. " in capsys.readouterr().err
+    assert contents(tree / "figures") == before
+
+
 @pytest.mark.parametrize("reason", ["", "  ", "\n"])
 def test_without_a_reason_nothing_is_written(tree, capsys, reason):
     before = contents(tree / "figures")

@@ -56,7 +56,7 @@ def test_the_summary_has_a_row_and_a_command_for_each_figure_that_has_not_passed
     assert len(rows) == 2 + 3
     assert all(len(re.findall(r"(?<!\\)\|", row)) == 5 for row in rows)
     assert '`make accept REASON="why" FIGURES="fig_b"`' in rows[2]
-    assert "&lt;c>" in rows[2]
+    assert r"\<c\>" in rows[2]
     assert "(and 1 more)" in rows[2]
 
 

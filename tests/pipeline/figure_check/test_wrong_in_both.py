@@ -34,7 +34,7 @@ def test_a_figure_is_like_itself(both):
         (lambda table: table.iloc[:0], "fig10_04.csv: no rows"),
         (lambda table: table.assign(B=np.nan), "fig10_04.csv: no value of B"),
         (lambda table: table.assign(B=table["B"].where(table.index > 0, np.inf)), "fig10_04.csv: B is infinite"),
-        (lambda table: table.drop(columns="B"), "fig10_04.csv: no column B, which its card declares"),
+        (lambda table: table.drop(columns=["C", "B"]), "fig10_04.csv: no column of those its card declares: C, B"),
     ],
 )
 def test_a_table_that_says_nothing_is_a_failure(both, change, said):

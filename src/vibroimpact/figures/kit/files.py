@@ -24,7 +24,8 @@ def replacing(path):
         os.replace(partial, target)
         keep(target.parent)
     except OSError as error:
-        error.filename = error.filename or str(target)  # which a disk without room does not say
+        if error.errno and not error.filename:
+            error.filename = str(target)  # which a disk without room does not say
         raise
     finally:
         partial.unlink(missing_ok=True)
@@ -36,6 +37,8 @@ def keep(path) -> None:
     Raises:
         OSError: the disk does not take it.
     """
+    if os.name == "nt" and Path(path).is_dir():  # Windows opens none
+        return
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

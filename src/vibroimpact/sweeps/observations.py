@@ -1,0 +1,100 @@
+"""What a sweep may observe at a point: each is one function from a system to the numbers of its columns."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.event_loop import FINISHED
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.regimes.classification import starts as spread_starts
+from vibroimpact.regimes.families import FixedPoints
+from vibroimpact.regimes.settling import Observation, settle
+
+REGIMES_OF, AMPLITUDES, FIXED_POINTS, ORBITS = "regimes", "amplitudes", "fixed_points", "orbits"
+FROM_REST = "from_rest"
+AMPLITUDE_COLUMNS = (
+    *("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2"),
+    "unfinished",
+)
+COLUMNS = {
+    REGIMES_OF: (*REGIMES, FROM_REST),
+    AMPLITUDES: AMPLITUDE_COLUMNS,
+    FIXED_POINTS: ("fixed_points", "stable_points"),
+    ORBITS: ("orbits", "stable_orbits"),
+}
+"""The columns of each observation, in their order."""
+SIMULATED = (REGIMES_OF, AMPLITUDES)
+"""Observations that simulate, from every start."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is observed at every point.
+
+    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
+    amplitudes are observed, forcing periods; those before `settle` are left out. observation: arguments of
+    `regimes.settling.Observation`.
+    """
+
+    observe: tuple[str, ...]
+    starts: int = 1
+    seed: int = 0
+    cycles: int = 0
+    settle: int = 0
+    observation: dict | None = None
+
+    @property
+    def runs(self) -> int:
+        """Starts that are simulated at a point, for each observation anew."""
+        return self.starts * sum(name in SIMULATED for name in self.observe)
+
+
+def observed(system, asked: Asked) -> dict:
+    """The columns of all observations at one point.
+
+    Raises:
+        ArithmeticError, RuntimeError, ValueError: one of them cannot be had there.
+    """
+    states = spread_starts(asked.starts, asked.seed) if asked.runs else None
+    row = {}
+    for name in asked.observe:
+        row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, asked), strict=True)
+    return row
+
+
+def _regimes(system, states, asked):
+    """Shares of the starts, and where the first of them, rest, ends."""
+    names = [regime.name for regime in settle(system, states, Observation(**asked.observation))]
+    return *(names.count(name) / len(names) for name in REGIMES), names[0]
+
+
+def _amplitudes(system, states, asked):
+    """Over all starts the largest |X_i|, the root mean square of X_i and the mean speed of the balls."""
+    runs = ensemble(system, states, asked.cycles, settle=asked.settle)
+    done = runs[runs["status"] == FINISHED]
+    if not len(done):
+        return *[np.nan] * (len(AMPLITUDE_COLUMNS) - 1), len(runs)
+    rms = np.sqrt(done["mean_square"].mean(axis=0))
+    return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
+
+
+def _fixed_points(system, states, asked):
+    """How many the theory has, and how many of them it calls stable."""
+    points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
+    return len(points), sum(FixedPoints.stable(system, point) for point in points)
+
+
+def _orbits(system, states, asked):
+    """How many 1:1 orbits are motions of the system, and how many of them have all multipliers inside the circle."""
+    found = [orbit for orbit in orbits(system) if orbit.admissible]
+    return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
+
+
+OBSERVATIONS = {
+    REGIMES_OF: _regimes,
+    AMPLITUDES: _amplitudes,
+    FIXED_POINTS: _fixed_points,
+    ORBITS: _orbits,
+}

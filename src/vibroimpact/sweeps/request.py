@@ -1,0 +1,28 @@
+"""What a sweep asks for, as plain data: parameters, axes and observations, in a form that jobs hand on."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+
+from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.observations import Asked
+from vibroimpact.system import System
+
+
+def understood(request: Mapping) -> tuple[Grid, Asked]:
+    """The grid and what is observed there.
+
+    Args:
+        request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "asked", arguments of
+            `observations.Asked`.
+
+    Raises:
+        ValueError: the parameters are not those of a system.
+    """
+    grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
+    return grid, Asked(**request["asked"])
+
+
+def fingerprint(request: Mapping) -> str:
+    """The same for the same request and no other: tiles bear it, so that none is taken for that of another sweep."""
+    return hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:16]

@@ -1,0 +1,32 @@
+"""The table of a sweep: a row per point, and whether the rows that came back are those that were asked for."""
+
+from collections.abc import Iterable, Iterator
+
+from vibroimpact.sweeps.grid import Grid
+from vibroimpact.sweeps.observations import COLUMNS, Asked, observed
+
+POINT, FAILED = "point", "failed"
+"""The number of the point, and why it could not be observed, "" if it could."""
+
+
+def columns(grid: Grid, asked: Asked) -> list[str]:
+    """Names of the columns, in their order."""
+    moved = [name for axis in grid.axes for name in axis.along]
+    return [POINT, *moved, *(column for name in asked.observe for column in COLUMNS[name]), FAILED]
+
+
+def rows(grid: Grid, asked: Asked, numbers: Iterable[int]) -> Iterator[dict]:
+    """A row for each of some points.
+
+    A point where something cannot be computed is left blank and says why: it does not cost the others.
+
+    Raises:
+        ValueError: a point has no system.
+    """
+    for number in numbers:
+        row = {POINT: number, **grid.place(number)}
+        system = grid.system(number)
+        try:
+            yield {**row, **observed(system, asked), FAILED: ""}
+        except (ArithmeticError, RuntimeError, ValueError) as error:
+            yield {**row, FAILED: " ".join(str(error).split())}

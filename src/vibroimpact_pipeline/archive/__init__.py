@@ -1,0 +1,1 @@
+"""One file to cite and to run elsewhere: sources, results and what describes both (RO-Crate, CodeMeta, CODECHECK)."""

@@ -1,0 +1,1 @@
+"""What the pipeline adds to sweeps: tiles as files, and the page."""

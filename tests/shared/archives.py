@@ -1,0 +1,49 @@
+"""The built project as a git checkout with its archive, and archives unpacked."""
+
+import json
+import shutil
+import subprocess
+import tarfile
+from pathlib import Path
+
+from pipeline_trees import Tree
+from vibroimpact_pipeline.provenance.record import LOCK, digest
+
+COMMITTED = "2020-02-03T04:05:06+00:00"
+IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
+
+
+def commit(root: Path, date: str = COMMITTED) -> None:
+    """Make a folder a git checkout of all that it does not ignore."""
+    for command in (["init"], ["add", "--all"], ["commit", "--message", "all"]):
+        environment = {"GIT_COMMITTER_DATE": date, "GIT_CONFIG_GLOBAL": "/dev/null"}
+        subprocess.run(["git", *IDENTITY, *command], cwd=root, check=True, capture_output=True, env=environment)
+
+
+def checkout(built: Tree, path: Path) -> Tree:
+    """The built project as a checkout, its figures made with its environment.lock."""
+    shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    commit(path)
+    tree = Tree(path)
+    if others := made_with_another_lock(tree):
+        tree.snakemake("--forcerun", *others, "--", *others)
+    return tree
+
+
+def made_with_another_lock(tree: Tree) -> list[str]:
+    """Figures in what a build starts from that are older than the lock; Snakemake does not see that."""
+    records = sorted((tree / "results").rglob("*.provenance.json"))
+    lock = digest(tree / LOCK)
+    return [path.name.split(".")[0] for path in records if json.loads(path.read_text())["lock"] != lock]
+
+
+def archive_of(tree: Tree) -> Path:
+    """The one archive of a tree."""
+    (found,) = (tree / "results/archive").glob("*.tar.gz")
+    return found
+
+
+def unpacked(archive: Path, folder: Path) -> Tree:
+    with tarfile.open(archive) as packed:
+        packed.extractall(folder, filter="data")
+    return Tree(folder / archive.name.removesuffix(".tar.gz"))

@@ -1,0 +1,96 @@
+"""An archive is the same each time, and in an empty place it makes a figure again, byte by byte."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from archives import archive_of, commit, unpacked
+from pipeline_trees import ROOT, Tree
+
+FIGURE = "results/figures/fig10_04"
+HERE = str(Path(sys.executable).parent)
+SET_UP = ["make set-up", ". .venv/bin/activate"]
+"""What the test does not do: it has an environment."""
+
+
+def commands() -> list[str]:
+    """What the README says to do in the unpacked folder."""
+    (block,) = re.findall(r"In the unpacked folder .*?```\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    lines = block.splitlines()
+    assert lines[: len(SET_UP)] == SET_UP
+    return lines[len(SET_UP) :]
+
+
+@pytest.fixture
+def elsewhere(archived, tmp_path):
+    """The archive unpacked inside a repository that has nothing to do with it."""
+    (tmp_path / "file").touch()
+    commit(tmp_path)
+    return unpacked(archive_of(archived), tmp_path)
+
+
+def test_the_name_tells_version_and_commit(archived):
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=archived.path, capture_output=True, text=True, check=True)
+    version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    assert archive_of(archived).name == f"vibroimpact-{version}-{commit.stdout[:12]}.tar.gz"
+
+
+def test_the_same_bytes_twice(archived, tmp_path):
+    """In another place, where every file has another date."""
+    shutil.copytree(archived.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    tree = Tree(tmp_path / "tree")
+    shutil.rmtree(tree / "results/archive")
+    for path in tree.path.rglob("*"):
+        if not path.is_relative_to(tree / ".git") and not path.is_symlink():
+            os.utime(path)
+    said = tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
+    assert f"The archive is results/archive/{archive_of(tree).name}" in said
+    assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()
+
+
+def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
+    before = {path: path.read_bytes() for path in elsewhere.path.glob(f"{FIGURE}.*")}
+    done = subprocess.run(
+        ["bash", "-e", "-c", "\n".join(commands())],
+        cwd=elsewhere.path,
+        env={**os.environ, "PATH": f"{HERE}:{os.environ['PATH']}", "PYTHONPATH": str(elsewhere / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    made = {path for path in before if path.read_bytes() != before[path]}
+    assert made == {elsewhere / f"{FIGURE}.provenance.json"}  # which tells commit and run time
+    assert (elsewhere / f"{FIGURE}.png").stat().st_mtime > (elsewhere / "README.md").stat().st_mtime
+    assert "commit: not known, made without git" in done.stdout
+    assert done.stdout.endswith("The file matches the tree.\n")
+
+
+def test_elsewhere_nothing_is_left_to_do(elsewhere):
+    assert elsewhere.planned() == set()
+
+
+def test_elsewhere_a_change_of_the_config_is_seen(elsewhere):
+    elsewhere.edit("config/config.yaml", "fixed_point: c, periods: 2", "fixed_point: c, periods: 3")
+    assert elsewhere.planned("figures") == {"fig10_07"}
+
+
+def test_elsewhere_a_damaged_result_is_made_again(elsewhere):
+    with open(elsewhere / f"{FIGURE}.csv", "a") as table:
+        table.write("\n")
+    said = elsewhere.dry_run()
+    assert f"{FIGURE}.csv" in said.replace(str(elsewhere.path), "")
+    assert "fig10_04" in elsewhere.snakemake(f"{FIGURE}.csv", PYTHONPATH=None)
+    assert not (elsewhere / f"{FIGURE}.csv").read_text().endswith("\n\n")
+
+
+def test_elsewhere_there_is_no_archive_without_git(elsewhere):
+    said = elsewhere.dry_run("archive")
+    assert elsewhere.returncode == 1
+    assert f"archive: {elsewhere.path} is no git checkout with a commit" in said
+    assert "Traceback" not in said

@@ -1,0 +1,157 @@
+# Sweeps that a user asks for, not part of the default build: snakemake sweep_NAME. A few points are measured, and by what
+# they took the sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
+
+import json
+
+from vibroimpact_pipeline.config.sweeps import LIMIT_HOURS
+from vibroimpact_pipeline.sweeps.words import announced
+
+SWEEPS = config.get("sweeps", {})
+OBSERVED_BY = ("observe", "starts", "seed", "cycles", "settle")
+ANNOUNCED = set()
+
+
+def sweep_request(wildcards):
+    """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
+    sweep = SWEEPS[wildcards.sweep]
+    asked = {name: sweep[name] for name in OBSERVED_BY if name in sweep}
+    if "regimes" in sweep["observe"]:
+        asked["observation"] = REGIMES["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "asked": asked}
+
+
+def sweep_tiles(wildcards):
+    """The tiles that the plan cuts a sweep into; what they cost is said once, before the first of them is begun."""
+    sweep = wildcards.sweep
+    with open(checkpoints.plan_of_sweep.get(sweep=sweep).output[0], encoding="utf-8") as file:
+        plan = json.load(file)
+    number = plan["tiles"]
+    tiles = [f"results/sweeps/{sweep}/tiles/{tile}-of-{number}.csv" for tile in range(1, number + 1)]
+    if workflow.is_main_process and sweep not in ANNOUNCED and not all(map(os.path.exists, tiles)):
+        ANNOUNCED.add(sweep)
+        print(announced(sweep, plan), file=sys.stderr, flush=True)
+    return tiles
+
+
+def sweep_provenance(wildcards):
+    sweep = SWEEPS[wildcards.sweep]
+    keys = [f"sweeps.{wildcards.sweep}.{key}" for key in sweep if key != "limit_hours"]
+    keys += ["regimes.observation"] if "regimes" in sweep["observe"] else []
+    return provenance(f"sweep_{wildcards.sweep}", keys, [sweep["case"]], SWEEP_STEPS)
+
+
+SWEEP_PICTURE = "vibroimpact.figures.companions.sweep"
+SWEEP_STEPS = [
+    step("the case at every point, with one or two parameters moved", DOUBLE, "workflow/scripts/sweep_tile.py"),
+    step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),
+]
+
+
+wildcard_constraints:
+    sweep="[a-z][a-z0-9_]+",
+    tile=r"\d+",
+    tiles=r"\d+",
+
+
+rule probe_of_sweep:
+    output:
+        "results/sweeps/{sweep}/probe.json",
+    params:
+        request=sweep_request,
+        code=code("workflow/scripts/sweep_probe.py"),
+    log:
+        "results/logs/sweeps/{sweep}/probe.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/probe.tsv"
+    script:
+        "../scripts/sweep_probe.py"
+
+
+# How long a tile takes is a matter of the executor, not of the question: `set-resources` of a profile, or on the command
+# line `--set-resources plan_of_sweep:tile_seconds=600`, in whole seconds, 0 for a tile per point. A plan that is there is
+# kept: another target cuts no sweep anew.
+checkpoint plan_of_sweep:
+    input:
+        rules.probe_of_sweep.output,
+    output:
+        "results/sweeps/{sweep}/plan.json",
+    params:
+        request=sweep_request,
+        limit_hours=lambda wildcards: SWEEPS[wildcards.sweep].get("limit_hours", LIMIT_HOURS),
+        code=code("workflow/scripts/sweep_plan.py"),
+    resources:
+        tile_seconds=60,
+    log:
+        "results/logs/sweeps/{sweep}/plan.log",
+    script:
+        "../scripts/sweep_plan.py"
+
+
+rule tile_of_sweep:
+    output:
+        "results/sweeps/{sweep}/tiles/{tile}-of-{tiles}.csv",
+    params:
+        request=sweep_request,
+        code=code("workflow/scripts/sweep_tile.py"),
+    log:
+        "results/logs/sweeps/{sweep}/{tile}-of-{tiles}.log",
+    benchmark:
+        "results/benchmarks/sweeps/{sweep}/{tile}-of-{tiles}.tsv"
+    script:
+        "../scripts/sweep_tile.py"
+
+
+rule table_of_sweep:
+    input:
+        sweep_tiles,
+    output:
+        "results/sweeps/{sweep}.csv",
+    params:
+        request=sweep_request,
+        code=code("workflow/scripts/sweep_table.py"),
+    log:
+        "results/logs/sweeps/{sweep}/table.log",
+    script:
+        "../scripts/sweep_table.py"
+
+
+rule picture_of_sweep:
+    input:
+        table=rules.table_of_sweep.output[0],
+    output:
+        **figure_files("results/sweeps/{sweep}/figure"),
+    params:
+        module=SWEEP_PICTURE,
+        settings=lambda wildcards: {"axes": SWEEPS[wildcards.sweep]["axes"]},
+        provenance=sweep_provenance,
+    log:
+        "results/logs/sweeps/{sweep}/figure.log",
+    script:
+        "../scripts/companion.py"
+
+
+rule page_of_sweep:
+    input:
+        table=rules.table_of_sweep.output[0],
+        plan="results/sweeps/{sweep}/plan.json",
+        svg=rules.picture_of_sweep.output.svg,
+    output:
+        "results/sweeps/{sweep}.html",
+    params:
+        request=sweep_request,
+        code=code("workflow/scripts/sweep_page.py"),
+    log:
+        "results/logs/sweeps/{sweep}/page.log",
+    script:
+        "../scripts/sweep_page.py"
+
+
+for name in SWEEPS:
+
+    rule:
+        name:
+            f"sweep_{name}"
+        input:
+            f"results/sweeps/{name}.csv",
+            f"results/sweeps/{name}.html",
+            figure_files(f"results/sweeps/{name}/figure").values(),
