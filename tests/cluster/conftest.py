@@ -1,35 +1,42 @@
-"""Tiles of a small map of regimes on a Slurm that is really there."""
+"""Tiles of a small sweep on a Slurm that is really there."""
 
 import os
 import signal
 import subprocess
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 
+import swept
 from one_machine_slurm import PATIENCE, Slurm, missing, until
-from pipeline_trees import ROOT, Tree, copied
+from pipeline_trees import Tree
 
-SMALL = """
-regimes:
-  observation: {cycles: 20, rounds: 1, window: 8, blocks: 2, block: 5, retest: 50}
-  map: {points: 4, tiles: 4, starts: 2}
-"""
-TILES = [f"{number}-of-4" for number in range(1, 5)]
+SWEEP = "results/sweeps/plane"
+TILES = range(1, 9)
 WATCHED = """
 if "snakemake" in globals():
     import pathlib, time
 
-    tile = snakemake.wildcards.scatteritem
-    with open(f"began-{tile}", "a") as began:
+    watch = pathlib.Path("watch")
+    with open(watch / f"began-{snakemake.wildcards.tile}", "a") as began:
         began.write("once\\n")
-    while pathlib.Path(f"hold-{tile}").exists():
+    while (watch / f"hold-{snakemake.wildcards.tile}").exists():
         time.sleep(0.1)
-    if pathlib.Path(f"broken-{tile}").exists():
+    if (watch / f"broken-{snakemake.wildcards.tile}").exists():
         raise SystemExit("this tile always fails")
 """
 """Put before the code of a tile: it notes that it began, waits where it is told to, fails where it is told to."""
+IMPATIENT = """
+if workflow.is_main_process and not workflow.local_exec:
+    from snakemake_executor_plugin_slurm import Executor
+
+    Executor.next_seconds_between_status_checks = property(lambda self: 1, lambda self, seconds: None)
+"""
+"""Put behind the rules: the plugin takes 10 s more from one question to the next, which no option changes."""
+QUICK = (
+    *("--slurm-init-seconds-before-status-checks", "1", "--max-status-checks-per-second", "1", "--latency-wait", "5"),
+    *("--rerun-triggers", "mtime"),  # the watched code of tiles is no reason to make those that are there anew
+)
 
 
 @pytest.fixture(scope="session")
@@ -51,82 +58,91 @@ def slurm(tmp_path_factory):
 
 
 class Tiles:
-    """A project whose tiles are watched, and builds of it."""
+    """A sweep that was made on this machine, whose tiles are watched, and builds of it on Slurm."""
+
+    all = TILES
+    gathered = f"{SWEEP}.csv"
 
     def __init__(self, tree: Tree, slurm: Slurm):
-        self.tree, self.slurm = tree, slurm
-        self.builds = []
-        (tree / "small.yaml").write_text(SMALL)
-        tree.edit("workflow/scripts/regime_tile.py", "from job import", f"{WATCHED}\nfrom job import")
+        self.tree, self.slurm, self.builds = tree, slurm, []
+        self.here = self.tables()
+        (tree / "watch").mkdir()
+        tree.edit("workflow/scripts/sweep_tile.py", "from job import", f"{WATCHED}\nfrom job import")
+        with open(tree / "workflow/Snakefile", "a", encoding="utf-8") as rules:
+            rules.write(IMPATIENT)
 
-    def start(self, *options, profile="profiles/slurm", also=()) -> subprocess.Popen:
-        """A build in the background; Slurm is asked for news as often as it can be."""
-        polled = ["--slurm-init-seconds-before-status-checks", "1", "--max-status-checks-per-second", "1"]
+    def without(self, *tiles):
+        """Take tiles away, for the next build to make."""
+        for tile in tiles:
+            (self.tree / table(tile)).unlink()
+
+    def start(self, *options, targets=()) -> subprocess.Popen:
+        """A build in the background, of all tiles unless something else is asked for."""
         build = self.tree.start(
-            *("--workflow-profile", profile, "--configfile", "small.yaml", *options),
-            *(polled if profile == "profiles/slurm" else []),
-            *("--", *map(table, TILES), *also),
+            *("--workflow-profile", "profiles/slurm", *QUICK, *options, "--", *(targets or map(table, TILES))),
             PATH=self.slurm.path,
         )
         self.builds.append(build)
         return build
 
-    def end(self, build) -> str:
+    def end(self, build, succeeds=True) -> str:
         """What a build says; it ends within minutes."""
-        return build.communicate(timeout=PATIENCE)[0]
-
-    def build(self, *options, **settings) -> str:
-        """What a build says that succeeds."""
-        build = self.start(*options, **settings)
-        said = self.end(build)
-        assert build.returncode == 0, said
+        said = build.communicate(timeout=PATIENCE)[0]
+        assert (build.returncode == 0) == succeeds, said
         return said
 
-    def hold(self, tile):
-        (self.tree / f"hold-{tile}").touch()
+    def tell(self, what, tile):
+        """A tile to `hold`, or to be `broken`."""
+        (self.tree / f"watch/{what}-{tile}").touch()
 
     def release(self, tile):
-        (self.tree / f"hold-{tile}").unlink()
+        (self.tree / f"watch/hold-{tile}").unlink()
 
-    def begun(self, tile) -> int:
-        """How many times a tile was begun."""
-        noted = self.tree / f"began-{tile}"
-        return len(noted.read_text().splitlines()) if noted.exists() else 0
+    def begun(self, *tiles) -> list[int]:
+        """How many times each of some tiles was begun."""
+        noted = [self.tree / f"watch/began-{tile}" for tile in tiles]
+        return [len(began.read_text().splitlines()) if began.exists() else 0 for began in noted]
+
+    def until(self, true, what, build):
+        """Until something is true of a build that goes on."""
+        until(lambda: build.poll() is not None or true(), what)
+        assert build.poll() is None, build.communicate()[0]
 
     def until_begun(self, tile, build, times=1):
-        until(lambda: self.begun(tile) >= times or build.poll() is not None, f"tile {tile} to begin")
-        assert build.poll() is None, self.end(build)
+        self.until(lambda: self.begun(tile) >= [times], f"tile {tile} to begin", build)
+
+    def until_heard(self, count, build):
+        """Until Snakemake knows that so many tiles are made."""
+        self.until(lambda: self.log().count("(Rule: tile_of_sweep)") >= count, f"{count} tiles", build)
 
     def log(self) -> str:
         """What Snakemake itself has written down."""
         return "".join(path.read_text() for path in self.tree.path.glob(".snakemake/log/*.log"))
 
-    def until_heard(self, build, count):
-        """Until Snakemake knows that so many tiles are made."""
-        text = f"{count} of 4 steps"
-        until(lambda: build.poll() is not None or text in self.log(), text)
-        assert build.poll() is None, self.end(build)
-
-    def tables(self) -> dict[str, bytes]:
+    def tables(self) -> dict[int, bytes]:
         """The content of all tiles that are there."""
         paths = {tile: self.tree / table(tile) for tile in TILES}
         return {tile: path.read_bytes() for tile, path in paths.items() if path.exists()}
 
 
 def table(tile):
-    return f"results/regimes/map/{tile}.csv"
+    return f"{SWEEP}/tiles/{tile}-of-{len(TILES)}.csv"
 
 
 @pytest.fixture
-def tiles(slurm, tmp_path) -> Tiles:
-    """The project before a build, with a map of 4 tiles of 4 cells."""
-    tiles = Tiles(copied(ROOT, tmp_path / "tree"), slurm)
+def tiles(slurm, tmp_path_factory, tmp_path) -> Tiles:
+    """A sweep of 8 tiles, all of them made on this machine."""
+    tree = swept.again(tmp_path_factory, tmp_path / "tree")
+    for log in tree.path.glob(".snakemake/log/*"):
+        log.unlink()
+    tiles = Tiles(tree, slurm)
+    assert len(tiles.here) == len(TILES)
     yield tiles
     for build in tiles.builds:
         if build.poll() is None:
             os.killpg(build.pid, signal.SIGKILL)
             build.communicate()
-    for held in Path(tiles.tree.path).glob("hold-*"):
+    for held in tree.path.glob("watch/hold-*"):
         held.unlink()
     slurm("scancel", "--full", "--signal=KILL", "--user=root")
     until(lambda: not slurm("squeue", "--noheader"), "an empty queue")

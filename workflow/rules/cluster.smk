@@ -3,7 +3,8 @@
 
 SCHEDULED = {
     "regime_tile",
-    "sweep_tile",
+    "probe_of_sweep",
+    "tile_of_sweep",
     "confusion",
     "verdict_grid",
     "coexistence",
