@@ -13,17 +13,17 @@ from pipeline_trees import Tree
 
 SWEEP = "results/sweeps/plane"
 TILES = range(1, 9)
+RUNNING = "with running(snakemake):"
 WATCHED = """
-if "snakemake" in globals():
-    import pathlib, time
+        import pathlib, time
 
-    watch = pathlib.Path("watch")
-    with open(watch / f"began-{snakemake.wildcards.tile}", "a") as began:
-        began.write("once\\n")
-    while (watch / f"hold-{snakemake.wildcards.tile}").exists():
-        time.sleep(0.1)
-    if (watch / f"broken-{snakemake.wildcards.tile}").exists():
-        raise SystemExit("this tile always fails")
+        watch = pathlib.Path("watch")
+        with open(watch / f"began-{snakemake.wildcards.tile}", "a") as began:
+            began.write("once\\n")
+        while (watch / f"hold-{snakemake.wildcards.tile}").exists():
+            time.sleep(0.1)
+        if (watch / f"broken-{snakemake.wildcards.tile}").exists():
+            raise SystemExit("this tile always fails")
 """
 """Put before the code of a tile: it notes that it began, waits where it is told to, fails where it is told to."""
 IMPATIENT = """
@@ -67,7 +67,7 @@ class Tiles:
         self.tree, self.slurm, self.builds = tree, slurm, []
         self.here = self.tables()
         (tree / "watch").mkdir()
-        tree.edit("workflow/scripts/sweep_tile.py", "from job import", f"{WATCHED}\nfrom job import")
+        tree.edit("workflow/scripts/sweep_tile.py", RUNNING, f"{RUNNING}{WATCHED}")
         with open(tree / "workflow/Snakefile", "a", encoding="utf-8") as rules:
             rules.write(IMPATIENT)
 
