@@ -17,4 +17,5 @@ def test_a_partition_that_is_not_there_is_named_in_the_words_of_slurm(tiles):
     elsewhere = ("--set-resources", "tile_of_sweep:slurm_partition=nowhere")
     said = tiles.end(tiles.start("--retries", "0", *elsewhere), succeeds=False)
     assert "invalid partition specified: nowhere" in said
+    assert "account" not in said, "the profile says that there are none"
     assert tiles.begun(2) == [0]

@@ -38,7 +38,7 @@ if not any(Path(folder, "vibroimpact_pipeline").is_dir() for folder in os.getenv
 if os.path.exists(sys.executable):
     # Snakemake puts it into the command of each job as it is, which a space in its path would break.
     sys.executable = shlex.quote(sys.executable)
-from vibroimpact_pipeline import build_directory, left_jobs, slurm_status
+from vibroimpact_pipeline import build_directory, left_jobs, slurm_plugin
 
 if workflow.is_main_process:
     demand(build_directory.check_access)
@@ -52,7 +52,7 @@ def prepare_cluster():
     if workflow.executor_settings.__class__.__module__.startswith("snakemake_executor_plugin_slurm"):
         try:
             left_jobs.end_left_jobs()
-            slurm_status.ask_the_scheduler_alone(workflow.executor_settings)
+            slurm_plugin.heed_options(workflow.executor_settings)
         except (OSError, RuntimeError) as error:
             refuse([str(error)])
     shell(f"{sys.executable} {shlex.quote(str(ROOT / 'workflow/scripts/compile.py'))}")
