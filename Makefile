@@ -1,7 +1,7 @@
 SHELL := /bin/bash
 CORES ?= 2
 RUNS ?= 20000
-PIN = uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
+PIN = .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
@@ -59,7 +59,7 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
 		|| { echo "The same examples again: $$again"; exit 1; }
 
-lock:  ## pin every package anew into environment.lock, what a cluster needs beside them into cluster.lock (needs uv)
+lock: set-up  ## pin every package anew into environment.lock, what a cluster needs beside them into cluster.lock
 	$(PIN) --upgrade --all-extras --excludes <(echo snakemake-executor-plugin-slurm) pyproject.toml -o environment.lock
 	$(PIN) --upgrade --extra cluster --constraint environment.lock \
 		$$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock) pyproject.toml -o cluster.lock

@@ -40,6 +40,11 @@ function Header(header)
   return header
 end
 
+function Span(span)
+  if is_typst() and span.identifier ~= "" then span.identifier = page .. "-" .. span.identifier end
+  return span
+end
+
 -- A figure among the results is one of the report's own.
 local function figure(target)
   return target:match("^%.%./results/%w+/([%w_]+)%.%w+$")
@@ -108,4 +113,4 @@ function Table(tbl)
   return tbl
 end
 
-return { { Meta = Meta }, { Math = Math, Header = Header, Link = Link, Image = Image, Table = Table } }
+return { { Meta = Meta }, { Math = Math, Header = Header, Span = Span, Link = Link, Image = Image, Table = Table } }

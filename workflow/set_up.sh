@@ -48,19 +48,28 @@ if [[ -n "${WHEELS:-}" ]]; then
 fi
 
 install() {
-    .venv/bin/python -m pip install --quiet --no-deps --no-build-isolation "$@"
+    .venv/bin/python "$@" --quiet --no-deps --no-build-isolation
+}
+
+# The part of the lock that names these packages.
+pinned() {
+    local package
+    for package; do
+        sed -n "/^$package==/,/[^\\\\]\$/p" environment.lock
+    done
 }
 
 packages=$(grep -c '^[a-z].*==' environment.lock)
-echo "Setting up .venv with $("$python" --version), once: about 2 minutes."
+echo "Setting up .venv with $("$python" --version), once: about a minute."
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
+export UV_CACHE_DIR="${UV_CACHE_DIR:-$PWD/.cache/uv}"
 echo "1 of 3  installing $packages packages of environment.lock"
 "$python" -m venv --clear .venv
 # What has no wheel is built with the setuptools of the lock, not with whichever is newest on the day.
-install "${source[@]}" --require-hashes --requirement <(sed -n '/^setuptools==/,/[^\\]$/p' environment.lock)
-install "${source[@]}" --require-hashes --requirement environment.lock
+install -m pip install "${source[@]}" --require-hashes --requirement <(pinned setuptools uv)
+install workflow/install.py "${source[@]}" --require-hashes --requirement environment.lock
 echo "2 of 3  installing this project"
-install --editable .
+install workflow/install.py "${source[@]}" --editable .
 # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
 conflicts=$(.venv/bin/python -m pip check) || { echo "$conflicts" >&2; exit 1; }

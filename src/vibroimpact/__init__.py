@@ -18,6 +18,8 @@ _PUBLIC = {
     "OUTCOME": "vibroimpact.exact.engine.ensemble",
     "STATUSES": "vibroimpact.exact.engine.ensemble",
     "Run": "vibroimpact.exact.engine.simulation",
+    "Energy": "vibroimpact.exact.engine.energy",
+    "ENERGY": "vibroimpact.exact.engine.energy",
     "Certificate": "vibroimpact.exact.engine.certificate",
     "EVENT": "vibroimpact.system.state",
     "KINDS": "vibroimpact.system.state",

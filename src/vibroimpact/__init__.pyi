@@ -1,4 +1,6 @@
 from vibroimpact.exact.engine.certificate import Certificate as Certificate
+from vibroimpact.exact.engine.energy import ENERGY as ENERGY
+from vibroimpact.exact.engine.energy import Energy as Energy
 from vibroimpact.exact.engine.ensemble import OUTCOME as OUTCOME
 from vibroimpact.exact.engine.ensemble import STATUSES as STATUSES
 from vibroimpact.exact.engine.ensemble import ensemble as ensemble

@@ -1,4 +1,4 @@
-"""Compile the simulation, what its certificates need and ensembles beforehand: `python -m vibroimpact.compile`.
+"""Compile simulations, all that is asked of runs, and ensembles beforehand: `python -m vibroimpact.compile`.
 
 Numba keeps the code beside the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
 """
@@ -13,7 +13,7 @@ def main() -> None:
     """Compile all that is not compiled yet."""
     system, rest = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
     run = simulate(system, rest, cycles=1)
-    _ = run.certificate, run.jacobian, run.errors([]), ensemble(system, rest, cycles=1)
+    _ = run.certificate, run.jacobian, run.errors([]), run.energy, ensemble(system, rest, cycles=1)
 
 
 if __name__ == "__main__":

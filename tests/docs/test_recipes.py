@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import compiled_code
-from pipeline_trees import ROOT, Tree
+from pipeline_trees import ROOT, Tree, copied
 from vibroimpact_pipeline.data_dictionary import compared, read
 from vibroimpact_pipeline.figure_check.compare import check, tolerances
 
@@ -83,7 +83,7 @@ def run(command: str, project) -> str:
 
 
 def test_every_recipe_is_followed():
-    assert RECIPES == ["howto_claim", "howto_figure", "howto_hazard", "howto_integrator", "howto_sweep"]
+    assert RECIPES == ["howto_claim", "howto_design", "howto_figure", "howto_hazard", "howto_integrator", "howto_sweep"]
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
@@ -139,3 +139,20 @@ def test_parameters_can_be_swept(project):
     for kind in ("png", "pdf", "svg"):
         assert (project / f"results/sweeps/coupling/figure.{kind}").stat().st_size > 1000
     assert "Sweep coupling" in (project / "results/sweeps/coupling.html").read_text(encoding="utf-8")
+
+
+def test_machines_can_be_designed(tmp_path):
+    """Without a build: closed forms are printed as the page says them, motions with nearly the same numbers."""
+    project = copied(ROOT, tmp_path / "project")
+    compiled_code.share(project / "src/vibroimpact", project / COMPILED)
+    (printed,) = follow("howto_design", project)
+    page = (ROOT / "docs/howto_design.md").read_text(encoding="utf-8").split("It prints:")[1].split("**3.")[0]
+    lines, said = (text.strip().splitlines() for text in (printed, page))
+    said = [line.strip() for line in said]
+    assert lines[:5] == said[:5]
+    number = r"\d+(?:\.\d+)?"
+    assert [re.sub(number, "", line) for line in lines] == [re.sub(number, "", line) for line in said]
+    for one, other in zip(lines[5:], said[5:], strict=True):
+        assert [float(n) for n in re.findall(number, one)] == pytest.approx(
+            [float(n) for n in re.findall(number, other)], rel=0.1
+        )

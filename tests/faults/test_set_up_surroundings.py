@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import tarfile
 import time
 import zipfile
@@ -27,7 +28,9 @@ case "$*" in
         cp "$0" .venv/bin/python
         touch started
         while [ -e hold ]; do sleep 0.02; done ;;
-    *--requirement*) echo "$* $(cut -d ' ' -f 1 "${*##* }" | grep -c ==)" >>calls ;;
+    *--requirement*)
+        lock=${*##*--requirement }
+        echo "$* $(cut -d ' ' -f 1 "${lock%% *}" | grep -c ==)" >>calls ;;
     *) echo "$*" >>calls ;;
 esac
 """
@@ -79,14 +82,17 @@ def test_a_killed_set_up_starts_over_and_a_finished_one_does_not(tree, recording
 
 
 def test_what_builds_a_package_is_installed_from_the_lock_before_all_else(tree, recording):
-    """One package first, then all; nothing is built with tools that pip would choose by itself."""
+    """That and what installs first, then all; nothing is built with tools that pip would choose by itself."""
     said(tree, **recording)
-    installs = [call for call in (tree / "calls").read_text().splitlines() if " install " in call]
-    assert [call.split()[-1] for call in installs] == ["1", installs[1].split()[-1], "."]
-    assert int(installs[1].split()[-1]) > 100
+    installs = [call for call in (tree / "calls").read_text().splitlines() if "--no-build-isolation" in call]
+    assert len(installs) == 3
+    packages = [call.split()[-1] for call in installs if "--requirement" in call]
+    assert packages[0] == "2"
+    assert int(packages[1]) > 100
     assert all("--require-hashes" in call for call in installs[:2])
-    assert all("--no-build-isolation" in call for call in installs)
-    assert re.search(r"^setuptools==\S+ \\\n +--hash=sha256:", (ROOT / "environment.lock").read_text(), re.MULTILINE)
+    for package in ("setuptools", "uv"):
+        line = rf"^{package}==\S+ \\\n +--hash=sha256:"
+        assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
 
 
 def test_wheels_come_from_a_folder_alone(tree, recording):
@@ -121,6 +127,49 @@ def test_without_locks_a_set_up_says_so_and_goes_on(tree, recording):
     output = said(tree, PATH=f"{tree / 'bin'}:{os.environ['PATH']}", **recording)
     assert output.startswith("This file system has no locks: start no other set-up of this checkout meanwhile.\n")
     assert (tree / ".venv/.complete").exists()
+
+
+UV = """
+import os, sys
+from pathlib import Path
+words = " ".join([os.environ.get("SSL_CERT_FILE", ""), *sys.argv[1:]])
+Path(os.environ["SAID"]).write_text(words)
+"""
+
+
+def test_what_pip_was_told_is_told_to_what_installs(tmp_path):
+    """What the environment says ranks above the file; where wheels come from a folder alone, nothing is handed on."""
+    (tmp_path / "uv.py").write_text(UV)
+    settings = "index-url = https://a/simple\nextra-index-url =\n  https://b/simple\n  https://c/simple\ncert = own.pem"
+    (tmp_path / "pip.conf").write_text(f"[global]\n{settings}\n")
+    surroundings = {name: value for name, value in os.environ.items() if not name.startswith(("PIP_", "SSL_"))} | {
+        "PYTHONPATH": str(tmp_path),
+        "PIP_CONFIG_FILE": str(tmp_path / "pip.conf"),
+        "PIP_INDEX_URL": "https://d/simple",
+        "SAID": str(tmp_path / "said"),
+    }
+
+    def words(*arguments):
+        command = [sys.executable, str(ROOT / "workflow/install.py"), *arguments]
+        subprocess.run(command, env=surroundings, check=True)
+        return (tmp_path / "said").read_text().split("unsafe-best-match ")
+
+    first, told = words("--requirement", "lock")
+    assert first.startswith("own.pem pip install --python ")
+    sources = "--default-index https://d/simple --index https://b/simple --index https://c/simple"
+    assert told == f"{sources} --requirement lock"
+    assert words("--no-index", "--find-links", "here")[1] == "--no-index --find-links here"
+
+
+def test_where_the_fast_way_fails_pip_installs(tmp_path):
+    (tmp_path / "uv.py").write_text("raise SystemExit(2)")
+    command = [sys.executable, str(ROOT / "workflow/install.py"), "--no-index", "no-such-package"]
+    run = subprocess.run(
+        command, env=os.environ | {"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 1
+    assert run.stderr.startswith("uv could not install this; pip tries it now")
+    assert "No matching distribution found for no-such-package" in run.stderr
 
 
 BACKEND = """
@@ -169,6 +218,15 @@ def test_a_package_without_a_wheel_is_built_without_a_network(tree):
     assert "2 of 3" in output, output
     ask = [tree / ".venv/bin/python", "-c", "import tiny; print(tiny.BUILT_BY)"]
     assert subprocess.run(ask, capture_output=True, text=True, check=True).stdout == "the setuptools of the lock\n"
+
+
+def test_packages_are_checked_by_hash(tree):
+    """A lock with a wrong hash installs nothing and is not taken for done."""
+    (tree / "wheels").mkdir()
+    write_wheel(tree / "wheels", "setuptools", {"setuptools/__init__.py": ""})
+    (tree / "environment.lock").write_text("setuptools==1 \\\n    --hash=sha256:" + 64 * "0" + "\n")
+    assert "THESE PACKAGES DO NOT MATCH THE HASHES" in said(tree, expected=1, WHEELS="wheels")
+    assert not (tree / ".venv/.complete").exists()
 
 
 def test_actions_are_pinned_by_commit_and_leave_no_credentials():

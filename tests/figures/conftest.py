@@ -60,12 +60,12 @@ def system():
     return system_of("equal")
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def points_of():
     return table_of_points
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def run_of():
     return tables_of_run
 

@@ -1,10 +1,12 @@
 """The report as files: links lead somewhere, data are those of the build, the PDF holds the same pages."""
 
 import json
+import re
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 from zipfile import ZipFile
 
+import numpy as np
 import pandas as pd
 import pytest
 import yaml
@@ -131,11 +133,23 @@ def test_numbers_on_a_page_are_those_of_the_results(site):
     assert rows >= len(claims) > 24
 
 
+def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
+    claims = {claim["id"]: claim for claim in json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))}
+    html = (site / "claims.html").read_text(encoding="utf-8")
+    assert all(html.count(f'id="{name}"') == 1 for name in claims)
+    overview = (site / "index.html").read_text(encoding="utf-8")
+    told = re.findall(r'<a\s+href="claims.html#([\w-]+)">([\d.]+)</a>', overview)
+    assert len(told) >= 9
+    for name, number in told:
+        values = [value for entry in claims[name]["numbers"].values() for value in np.ravel(entry)]
+        assert any(f"{value:.3g}" == number for value in values), (name, number)
+
+
 @pytest.mark.parametrize(
     ("page", "folder", "figures", "number"),
     [
         ("figures", "figures", "fig10_", 11),
-        ("companions", "figures", "companion_", 9),
+        ("companions", "figures", "companion_", 10),
         ("accuracy", "accuracy", ("work_precision", "hazards"), 2),
     ],
 )

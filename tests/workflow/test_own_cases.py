@@ -9,7 +9,6 @@ from pipeline_trees import run_module
 
 SIMULATION = {"initial_state": [0.0] * 8, "transient_cycles": 300, "window_cycles": 6, "samples_per_cycle": 64}
 OWN_FIGURES = {
-    "strong_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "strong", "C_max": [2.5, 3.5]},
     "strong_response": {
         "notebook": "theoretical_response",
         "model": "slow_flow",
@@ -21,7 +20,7 @@ OWN_FIGURES = {
     "still_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
     "still_motion": {"notebook": "simulation", "model": "simulation", "case": "still"},
 }
-"""One of each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
+"""Each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
 
 
 def renamed(config, old, new):
@@ -46,6 +45,8 @@ def hurried(config):
     regimes["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
     regimes["basins"]["points"] = 5
     regimes["epsilon"]["values"] = 3
+    problems = config["accuracy"]["problems"]
+    config["accuracy"]["problems"] = {"transient": problems["transient"]}
 
 
 @pytest.fixture

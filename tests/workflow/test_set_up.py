@@ -24,14 +24,6 @@ def test_an_interpreter_that_does_not_fit_is_refused(tree):
     assert not (tree / ".venv").exists()
 
 
-def test_packages_are_checked_by_hash(tree):
-    """A lock without hashes, or with a wrong one, installs nothing and is not taken for done."""
-    (tree / "environment.lock").write_text("numpy==2.4.6 --hash=sha256:" + 64 * "0" + "\n")
-    run = set_up(tree)
-    assert run.returncode != 0
-    assert not (tree / ".venv/.complete").exists()
-
-
 def test_the_locks_are_whole(tree):
     """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
     text = "".join((tree / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))

@@ -25,6 +25,19 @@ def horizon_of(case):
     }
 
 
+def motions_of(case):
+    """Of a simulated case: what the theory says of it, and what happens."""
+    simulation = f"results/simulations/{case}"
+    return {
+        "method": "(10.10) at the fixed point nearest to the simulated motion, and that motion",
+        "system": case,
+        "inputs": {"points": f"results/fixed_points/{case}.csv"}
+        | {table: f"{simulation}/{table}.csv" for table in ("samples", "events")},
+        "before": [step(*STEPS["fixed_points"]), simulation_step(case)],
+        "config": [f"cases.{case}.simulation"],
+    }
+
+
 PRECISE = [case for case in config["cases"] if exact(case)]
 OBSERVED = {"observation": "regimes.observation"}
 COMPANIONS = {
@@ -36,6 +49,11 @@ COMPANIONS = {
         "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
         "settings": {"C_range": "stability.companion_10_05.C_range"},
     },
+    **(
+        {"companion_10_08": motions_of(config["figures"]["fig10_08"]["case"])}
+        if "fig10_08" in config["figures"]
+        else {}
+    ),
     "companion_stability": {
         "method": "verdicts and places as computed, limits in closed form",
         "systems": True,

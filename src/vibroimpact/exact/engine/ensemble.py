@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine.all_cores import on_all_cores
 from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
 from vibroimpact.exact.engine.event_log import pack
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
 from vibroimpact.exact.engine.flow import flow_of
@@ -35,6 +36,8 @@ OUTCOME = np.dtype(
 )
 """What a run amounts to: status, a key of STATUSES; the final state; of each module, while it is observed, the numbers
 of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and that of |Y_i'|."""
+WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
+"""The same and, under one more name, where the energy went."""
 
 PLACES = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
 NO_FORMS = np.empty((0, 0, 0, 0))
@@ -49,6 +52,7 @@ def ensemble(
     tau0: float | Fraction | Instant = 0.0,
     settle: int = 0,
     progress: bool = False,
+    energy: bool = False,
 ) -> np.ndarray:
     """Run many starts, of one system or of many, on all cores, in memory of the order of the starts.
 
@@ -65,12 +69,13 @@ def ensemble(
         cycles, tau0: as for `simulate`.
         settle: cycles before a run is observed, from 0 to cycles; if all, nothing but the final state is told.
         progress: count finished runs on standard error, about once a second.
+        energy: tell also where the energy goes while a run is observed (`Run.energy`), in the field energy (ENERGY).
 
     Returns:
-        A structured array (OUTCOME) in the shape of the combination. A run that could not be finished, or not begun,
-        says why in its status (STATUSES) and leaves the others alone; its numbers are nan and its counts 0. So are the
-        numbers of a run that was not observed. The largest |X_i| is exact but for turns of a box that nearly rests
-        (1e-5 of its path); the means are exact to rounding.
+        A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. A run that could not be finished,
+        or not begun, says why in its status (STATUSES) and leaves the others alone; its numbers are nan and its counts
+        0. So are the numbers of a run that was not observed. The largest |X_i| is exact but for turns of a box that
+        nearly rests (1e-5 of its path); the means are exact to rounding.
 
     Raises:
         ValueError: an argument is malformed, or systems and states cannot be combined.
@@ -79,14 +84,14 @@ def ensemble(
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles)
     begins = [checked_window(system, cycles, tau0)[0] for system in known]
-    outcomes = np.empty(numbers.shape, OUTCOME)
+    outcomes = np.empty(numbers.shape, WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
     order = np.argsort(numbers, axis=None, kind="stable")
     ends = np.cumsum([0, *np.bincount(numbers.ravel(), minlength=len(known))])
     pieces = []
     for system, begin, first, end in zip(known, begins, ends[:-1], ends[1:], strict=True):
         if end - first > MOST_AT_ONCE:
-            flow_of(system), squares_of(system)  # built once, before the threads share them
+            flow_of(system), squares_of(system), energy and powers_of(system)  # once, before the threads share them
         pieces += [
             (system, starts, cycles, begin, settle, filled, order[place : min(place + MOST_AT_ONCE, end)])
             for place in range(first, end, MOST_AT_ONCE)
@@ -115,22 +120,28 @@ def _combined(systems, states):
 def _run(system, starts, cycles, begin, settle, outcomes, places):
     """Run the starts at some places and fill in their outcomes there."""
     starts = np.ascontiguousarray(starts[places])
-    table, seen = np.empty(len(places), OUTCOME), np.zeros((len(places), SEEN))
+    table, seen = np.empty(len(places), outcomes.dtype), np.zeros((len(places), SEEN))
+    spent = np.zeros((len(places) if "energy" in table.dtype.names else 0, 1, ENTRIES))
     observed = cycles - settle
     status, final = np.where(within_walls(starts), FINISHED, INADMISSIBLE), np.full((len(places), 8), np.nan)
     forms = squares_of(system) if observed else NO_FORMS
+    powers = powers_of(system) if observed and len(spent) else NO_FORMS
     phase = phase_at(begin, system.Omega)
-    _loop(flow_of(system), forms, starts, phase, cycles, system.period, settle, status, final, seen)
+    _loop(flow_of(system), forms, powers, starts, phase, cycles, system.period, settle, status, final, seen, spent)
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
     for name, place in PLACES.items():
         table[name] = seen[:, place : place + 2]
+    if len(spent):
+        spent[np.isnan(seen[:, LARGEST])] = np.nan
+        table["energy"] = energies(system, spent[:, 0])
     outcomes[places] = table
 
 
 @compiled
-def _loop(flow, forms, starts, phase, cycles, period, settle, status, final, seen):
+def _loop(flow, forms, powers, starts, phase, cycles, period, settle, status, final, seen, spent):
     """Run the starts (n, 8) of a piece whose status is FINISHED; fill in what they end with and amount to."""
+    opening = np.array([settle * period])
     no_times, no_samples = np.empty(0), np.empty((0, 8))
     for n in range(len(starts)):
         s = starts[n]
@@ -144,3 +155,5 @@ def _loop(flow, forms, starts, phase, cycles, period, settle, status, final, see
         else:
             flights = departures(flow.coefficients, s, events, phase[0], cycles * period)
             observe(flow, forms, flights, events, settle * period, seen[n])
+            if len(powers) > 0:
+                account(flow, powers, flights, events, opening, spent[n])

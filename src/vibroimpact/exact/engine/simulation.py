@@ -11,6 +11,7 @@ from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine.all_cores import on_all_cores
 from vibroimpact.exact.engine.certificate import KNOWN, Certificate
+from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.errors import errors_at
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
@@ -84,6 +85,11 @@ class Run(Glance):
     def certificate(self) -> Certificate:
         """What the run can vouch for."""
         return Certificate.of(self)
+
+    @cached_property
+    def energy(self) -> Energy:
+        """Where the energy goes, over the run and in every cycle."""
+        return Energy.of(self)
 
     def errors(self, times: ArrayLike) -> np.ndarray:
         """Estimated errors of the states at some times, shape (n,): what `certificate.error` is of the final one.

@@ -1,6 +1,6 @@
-"""The integral of the squares of the boxes' positions along a flight, exact to rounding, as the flow itself is.
+"""Integrals of quadratic forms along a flight, as of the squares of the boxes' positions, to rounding, as the flow is.
 
-In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z, so the integral of X_i^2 over a time t is a quadratic form
+In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z, so the integral of z G z over a time t is a quadratic form
 of z at the start. A table has the form at the times of the flow table (`flow`); Gauss's rule on the Taylor polynomial
 there adds the rest.
 """
@@ -22,9 +22,19 @@ SHARES = 5 / 18, 8 / 18, 5 / 18
 """Gauss's rule with three points on [0, 1]: over half a spacing its error is below rounding."""
 
 
+POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
+"""z G z is X_i^2."""
+
+
 @lru_cache(maxsize=64)
 def squares_of(system) -> np.ndarray:
-    """The forms of a system, shape (4, n, 2, 21): contact state, time of the flow table, module, upper triangle.
+    """The forms of X_1^2 and X_2^2 (see `integrals_of`)."""
+    return integrals_of(system, POSITIONS)
+
+
+def integrals_of(system, kernels) -> np.ndarray:
+    """The forms that integrate some others, symmetric matrices G (k, 6, 6), shape (4, n, k, 21): contact state, time of
+    the flow table, which G, upper triangle.
 
     What stands beside the diagonal is doubled, so that a form is one sum over the products of a pair.
     """
@@ -32,26 +42,32 @@ def squares_of(system) -> np.ndarray:
     turned = np.zeros((len(flow.rotations), 2, SIZE))
     (cosine, sine) = flow.rotations.T
     turned[:, 0, 4], turned[:, 0, 5], turned[:, 1, 4], turned[:, 1, 5] = cosine, sine, -sine, cosine
-    forms = np.empty((len(flow.propagators), len(turned), 2, SIZE, SIZE))
+    forms = np.empty((len(flow.propagators), len(turned), len(kernels), SIZE, SIZE))
     for mode, propagators in enumerate(flow.propagators):
-        powers = np.concatenate([propagators, turned], axis=1)
-        over_one = _over_one(rate_matrix(system, (bool(mode & 1), bool(mode & 2))), flow.spacing)
-        for module, form in enumerate(over_one):
-            pieces = powers.transpose(0, 2, 1) @ form @ powers
-            forms[mode, :, module] = np.cumsum(pieces, axis=0) - pieces
+        rate = rate_matrix(system, (bool(mode & 1), bool(mode & 2)))
+        forms[mode] = _summed(_over_one(rate, flow.spacing, kernels), np.concatenate([propagators, turned], axis=1))
     return np.ascontiguousarray(forms[..., ROWS, COLUMNS] * np.where(ROWS == COLUMNS, 1.0, 2.0))
 
 
-def _over_one(rate, spacing):
-    """The forms of one spacing, shape (2, 6, 6)."""
-    forms = np.zeros((2, SIZE, SIZE))
+def _summed(over_one, powers):
+    """The forms of 0, 1, 2, ... spacings, from that of one and the propagators (n, 6, 6) over so many."""
+    forms = np.stack([np.zeros_like(over_one), over_one])
+    while len(forms) < len(powers):  # as many again: what follows a flight is carried back to its start
+        power = powers[len(forms) - 1]
+        forms = np.concatenate([forms, forms[-1] + power.T @ forms[1:] @ power])
+    return forms[: len(powers)]
+
+
+def _over_one(rate, spacing, kernels):
+    """The forms of one spacing, shape (k, 6, 6)."""
+    forms = np.zeros(kernels.shape)
     for x, weight in zip(NODES, WEIGHTS, strict=True):
         scaled, term = rate * spacing * (1 + x) / 2, np.eye(SIZE)
         power = term.copy()
         for k in range(1, TERMS):
             term = term @ scaled / k
             power += term
-        forms += weight * spacing / 2 * power[:2, :, None] * power[:2, None, :]
+        forms += weight * spacing / 2 * (power.T @ kernels @ power)
     return forms
 
 

@@ -12,13 +12,13 @@ from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.penetration import largest_C
 
 BORDER = {"color": BLACK, "linewidth": 1.0, "linestyle": "-"}
-LIMITS = {
-    "fold": ("$C_{\\min}$", BORDER, (0.3, 6, 7)),
-    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$: symmetry breaks", BORDER, (0.62, 0, 6)),
-    "penetration": ("the ball would\nleave the box", UNSTABLE, (0.12, 14, 6)),
-    "printed": ("(10.26)", LEVEL, (0.4, 5, -10)),
+LIMITS = {"fold": BORDER, "symmetry breaking": BORDER, "penetration": UNSTABLE, "printed": LEVEL}
+NAMES = {
+    "fold": ("$C_{\\min}$", 0.3, (6, 7), "left"),
+    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$: symmetry breaks", 0.62, (0, 6), "center"),
+    "printed": ("(10.26)", 0.4, (5, -10), "left"),
 }
-"""Of each limit: its name in the figure, its line, where the name stands (kappa, and points from the line)."""
+"""Of limits: the name in the figure, the kappa where it stands, how far from the line in points, and its side there."""
 END = 1e-9
 """Distance from kappa = 0 and 1, where the impact law ends."""
 
@@ -59,13 +59,17 @@ def draw(table: pd.DataFrame) -> Figure:
     axes = figure.add_subplot()
     outline = select(table, "regions", "stable")
     axes.fill(outline["kappa"], outline["C"], facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
-    for series, (name, style, (kappa, right, up)) in LIMITS.items():
+    for series, style in LIMITS.items():
         line = select(table, "regions", series)
         axes.plot(line["kappa"], line["C"], **style)
-        at = (kappa, np.interp(kappa, line["kappa"], line["C"]))
-        side = "left" if right else "center"
-        axes.annotate(name, at, (right, up), textcoords="offset points", fontsize=10, ha=side, linespacing=1.0)
+        if series in NAMES:
+            name, kappa, offset, side = NAMES[series]
+            at = (kappa, np.interp(kappa, line["kappa"], line["C"]))
+            axes.annotate(name, at, offset, textcoords="offset points", fontsize=10, ha=side, linespacing=1.0)
     axes.text(0.62, 1.3, "stable", ha="center")
+    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 1, "shrinkB": 0}
+    beyond = "the ball would\nleave the box"
+    axes.annotate(beyond, (0.05, 1.9), (0.22, 1.95), fontsize=10, va="center", linespacing=1.0, arrowprops=leader)
     frame = select(table, "regions", "range")
     axes.set(xlim=frame["kappa"], ylim=frame["C"], xlabel=r"$\kappa$", ylabel="$C_i$")
     return figure

@@ -1,0 +1,126 @@
+"""A linear system of boxes with what is attached to them, in the units of (10.2): steady response and free decay."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigvals, expm
+from scipy.optimize import brentq, minimize_scalar
+
+from vibroimpact.system.arguments import real, whole
+
+POINTS = 400
+"""Frequencies looked at in a band, the natural ones besides; every hump among them is searched for its peak."""
+LONGEST = 40
+"""Powers of two: a decay that takes longer than 2**40 units of tau counts as none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """M X'' + C X' + K X = F sin(Omega tau); the first two of the n coordinates are the boxes.
+
+    mass, damping, stiffness: (n, n); force: (n,); all dimensionless.
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+    force: np.ndarray
+
+    def amplitudes(self, Omega) -> np.ndarray:
+        """Largest |X_i| of the steady response, shape (..., 2), at frequencies (...); the rms is that over sqrt(2).
+
+        Raises:
+            numpy.linalg.LinAlgError: it is driven at an undamped resonance.
+        """
+        Omega = np.asarray(Omega, float)[..., None, None]
+        impedance = self.stiffness - Omega**2 * self.mass + 1j * Omega * self.damping
+        force = np.broadcast_to(self.force, impedance.shape[:-1])[..., None]
+        return np.abs(np.linalg.solve(impedance, force)[..., :2, 0])
+
+    def peak(self, band: tuple[float, float]) -> float:
+        """The largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.
+
+        Raises:
+            ValueError: the band is none.
+        """
+        low, high = checked_band(band)
+        resonances = np.abs(self.poles.imag)
+        inside = resonances[(resonances > low) & (resonances < high)]
+        grid = np.unique([*np.linspace(low, high, POINTS), *inside])
+        try:
+            heights = self.amplitudes(grid).max(axis=1)
+            ringed = np.concatenate([[-math.inf], heights, [-math.inf]])
+            humps = np.flatnonzero((heights >= ringed[:-2]) & (heights >= ringed[2:]))
+            return max(self._height(grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]) for k in humps)
+        except np.linalg.LinAlgError:
+            return math.inf
+
+    def _height(self, low, high):
+        """The largest |X_i| between two frequencies with one hump between them."""
+        best = minimize_scalar(
+            lambda Omega: -self.amplitudes(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
+        )
+        return float(max(-best.fun, *self.amplitudes([low, high]).ravel()))
+
+    @property
+    def rate(self) -> np.ndarray:
+        """Rate matrix of [X, X'] without force, shape (2n, 2n)."""
+        n = len(self.force)
+        upper = np.hstack([np.zeros((n, n)), np.eye(n)])
+        return np.vstack([upper, -np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))])
+
+    @property
+    def poles(self) -> np.ndarray:
+        """Eigenvalues of the rate matrix, complex, shape (2n,)."""
+        return eigvals(self.rate)
+
+    def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
+        """Time tau after an impulse on a box, all at rest before, until a fraction of the energy is left; inf: never.
+
+        Without force energy only falls, so it passes the fraction once. It does not depend on the impulse.
+
+        Raises:
+            ValueError: module is not 1 or 2, or the fraction not between 0 and 1.
+        """
+        i, n = whole("module", module, 1, 2) - 1, len(self.force)
+        left = np.linalg.solve(self.mass, np.eye(n)[i])
+        state, target = np.concatenate([np.zeros(n), left]), checked_fraction(fraction) * 0.5 * left[i]
+        rate, elapsed = self.rate, 0.0
+        powers = [expm(rate)]
+        while self._energy(powers[-1] @ state) > target:
+            if len(powers) > LONGEST:
+                return math.inf
+            powers.append(powers[-1] @ powers[-1])
+        for k, power in reversed(list(enumerate(powers[:-1]))):
+            if self._energy(power @ state) > target:
+                state, elapsed = power @ state, elapsed + 2.0**k
+        return elapsed + brentq(lambda t: self._energy(expm(rate * t) @ state) - target, 0.0, 1.0)
+
+    def _energy(self, state):
+        places, speeds = np.split(state, 2)
+        return 0.5 * (speeds @ self.mass @ speeds + places @ self.stiffness @ places)
+
+
+def checked_band(band) -> tuple[float, float]:
+    """Two frequencies, the first above 0 and the second above it.
+
+    Raises:
+        ValueError: they are not.
+    """
+    low, high = (real("band", end) for end in band)
+    if not 0 < low < high:
+        raise ValueError(f"band: ({low}, {high}) is no band of frequencies; needs 0 < low < high")
+    return low, high
+
+
+def checked_fraction(fraction) -> float:
+    """A number between 0 and 1.
+
+    Raises:
+        ValueError: it is none.
+    """
+    fraction = real("fraction", fraction)
+    if not 0 < fraction < 1:
+        raise ValueError(f"fraction: {fraction} is not between 0 and 1 (both excluded)")
+    return fraction

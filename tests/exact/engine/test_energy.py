@@ -1,0 +1,126 @@
+"""The energy of a run: what the forces do is what is dissipated, lost and stored, each found by itself."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from hard_starts import example
+from vibroimpact.system.energy import stored_energy
+from vibroimpact.system.state import IMPACT
+
+PARTS = ("ground", "coupling", "impacts", "stored")
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)
+START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
+
+
+def total(energies, name):
+    """A field of energies (n,), both modules together."""
+    return energies[name].reshape(len(energies), -1).sum(axis=1)
+
+
+def scale(run):
+    """The largest energy that a sum over a run is rounded in: in a stiff coupling, each box alone would stretch it."""
+    system, states = run.system, np.vstack([run.start, *run.events["state"], run.final])
+    places, speeds = np.abs(states[:, [0, 2]]).max(), np.abs(states[:, [4, 6]]).max()
+    spent = np.abs(run.energy.work).sum() + stored_energy(system, states).max()
+    return spent + system.alpha12 * places**2 + system.gamma12 * speeds**2 * run.cycles * system.period
+
+
+def test_the_balance_closes_to_rounding_in_hundreds_of_systems_and_every_cycle():
+    kinds = np.zeros(3, int)
+    for number in range(200):
+        system, start, tau0 = example(number)
+        system = system.with_(epsilon=1e-7) if number % 10 == 0 else system
+        run = vi.simulate(system, start, 3, tau0)
+        energy, rows = run.energy, run.energy.per_cycle
+        kinds += np.bincount(run.events["kind"], minlength=3)
+        assert abs(energy.residual) <= 1e-13 * scale(run), number
+        apart = total(rows, "work") - sum(total(rows, name) for name in PARTS)
+        assert np.abs(apart).max() <= 1e-13 * scale(run), number
+        assert min(*energy.ground, energy.coupling, *energy.impacts) >= 0, number
+    assert (kinds > 500).all()
+
+
+def test_parts_and_cycles_are_those_of_quadrature_in_the_reference():
+    """Gauss's rule on reference samples in every flight, cut where cycles end: chatter, sticking and release."""
+    reference = pytest.importorskip("vibroimpact.accuracy.reference.run", exc_type=ModuleNotFoundError)
+    system = vi.System(
+        epsilon=0.25, kappa=0.3, alpha12_hat=1.0, gamma1_hat=0.5, gamma2_hat=0.25, gamma12_hat=1.0, sigma20_hat=0.5,
+        sigma_e_hat=0.5, f10_hat=1.5, f20_hat=-0.75,
+    )  # fmt: skip
+    cycles, start = 6, [0.5, 0.25, 0.25, 0.0, 0.0, 0.5, 0.0, -0.25]
+    ends = system.period * np.arange(cycles + 1)
+    events = reference.reference_run(system, start, cycles, 40).events
+    assert set(events["kind"]) == set(vi.KINDS)
+    cuts = np.unique([*ends, *events["tau"]])
+    cuts = cuts[np.diff(cuts, append=np.inf) > 1e-13]
+    half = np.diff(cuts)[:, None] / 2
+    times, weights = cuts[:-1, None] + half * (1 + POINTS), half * WEIGHTS
+    asked = np.unique([*times.ravel(), *ends[:-1]])
+    samples = reference.reference_run(system, start, cycles, 40, sample_times=asked).samples
+    speeds = samples[np.searchsorted(asked, times)][..., [4, 6]]
+    cycle = np.searchsorted(ends, cuts[:-1], side="right") - 1
+
+    def over_cycles(values, owner=cycle):
+        return np.bincount(owner, values, minlength=cycles)
+
+    force, damping = np.sin(system.Omega * times), (system.gamma1, system.gamma2)
+    run = vi.simulate(system, start, cycles)
+    rows = run.energy.per_cycle
+    stored = stored_energy(system, np.vstack([samples[np.searchsorted(asked, ends[:-1])], run.final]))
+    expected = {"stored": np.diff(stored)}
+    expected["coupling"] = over_cycles((weights * system.gamma12 * (speeds[..., 0] - speeds[..., 1]) ** 2).sum(axis=1))
+    for i in range(2):
+        hits = events[(events["kind"] == IMPACT) & (events["module"] == i + 1)]
+        rebound = hits["state"][:, 4 + 2 * i] - hits["state"][:, 5 + 2 * i]
+        lost = 0.5 * system.epsilon / (1 + system.epsilon) * (system.kappa**-2 - 1) * rebound**2
+        expected["impacts", i] = over_cycles(lost, np.searchsorted(ends, hits["tau"], side="right") - 1)
+        expected["work", i] = over_cycles((weights * system.forcing[i] * force * speeds[..., i]).sum(axis=1))
+        expected["ground", i] = over_cycles((weights * damping[i] * speeds[..., i] ** 2).sum(axis=1))
+    for key, values in expected.items():
+        name, place = (key, ()) if isinstance(key, str) else (key[0], key[1:])
+        np.testing.assert_allclose(rows[name][:, *place], values, rtol=1e-11, atol=1e-13, err_msg=str(key))
+        np.testing.assert_allclose(np.asarray(getattr(run.energy, name))[place], values.sum(), atol=1e-12)
+
+
+def test_an_ensemble_tells_the_same_of_the_cycles_it_observes(case):
+    outcomes = vi.ensemble(case, [START, np.zeros(8), [9.0, *START[1:]]], 7, tau0=0.3, settle=3, energy=True)
+    plain = vi.ensemble(case, START, 7, tau0=0.3, settle=3)
+    rows = vi.simulate(case, START, 7, tau0=0.3).energy.per_cycle
+    for name in vi.ENERGY.names:
+        np.testing.assert_allclose(outcomes["energy"][name][0], rows[name][3:].sum(axis=0), rtol=1e-12, atol=1e-14)
+        assert np.isnan(outcomes["energy"][name][2]).all()
+    for name in plain.dtype.names:
+        np.testing.assert_array_equal(outcomes[name][0], plain[name])
+
+
+def test_cycles_stay_where_they_are_in_long_runs(chapter):
+    """The last one is that of a run of its own from there."""
+    system, cycles = chapter(1.0, 1.0), 30_000
+    rest = vi.simulate(system, START, cycles)
+    last, own = (
+        vi.simulate(system, START, cycles + 1).energy.per_cycle[-1],
+        vi.simulate(system, rest.final, 1, rest.end),
+    )
+    for name in vi.ENERGY.names:
+        np.testing.assert_allclose(last[name], getattr(own.energy, name), rtol=0, atol=1e-12)
+
+
+def test_what_happens_at_once_counts_without_any_cycle(case):
+    """An impact at the start: what it loses is what the motion then lacks."""
+    energy = vi.simulate(case, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0], 0).energy
+    lost = 0.5 * case.epsilon / (1 + case.epsilon) * (1 - case.kappa**2) * 4.0
+    np.testing.assert_allclose([energy.impacts[0], energy.stored], [lost, -lost], rtol=1e-12)
+    assert energy.per_cycle.shape == (0,)
+    assert not energy.work.any()
+
+
+def test_long_flights_are_followed_beyond_the_tables(chapter):
+    """A ball that meets nothing for many periods; with neither force nor damper nothing is spent."""
+    still = chapter(0.0, 0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
+    energy = vi.simulate(still, [0.2, 0.2, 0.1, 0.1, 0.0, 0.0, 0.1, 0.0], 40).energy
+    assert abs(energy.stored) < 1e-14
+    assert not energy.work.any()
+    damped = vi.simulate(chapter(0.0, 0.0), [0.2, 0.2, 0.1, 0.1, 0.0, 0.0, 0.1, 0.0], 40).energy
+    assert not damped.impacts.any()
+    assert damped.ground.sum() + damped.coupling == pytest.approx(-damped.stored, rel=1e-12)
