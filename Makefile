@@ -1,6 +1,8 @@
 SHELL := /bin/bash
 CORES ?= 2
 RUNS ?= 20000
+PIN = .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
+	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
 export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
@@ -9,7 +11,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test explore lock wheels clean set-up
+.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test explore lock wheels cluster-tools clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -57,14 +59,20 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
 		|| { echo "The same examples again: $$again"; exit 1; }
 
-lock: set-up  ## pin every package anew into environment.lock
-	.venv/bin/uv pip compile --upgrade --universal --generate-hashes --python-version 3.11 --all-extras --no-annotate \
-		--no-header --no-emit-find-links --no-emit-index-url --cache-dir .cache/uv pyproject.toml -o environment.lock
+lock: set-up  ## pin every package anew into environment.lock, what a cluster needs beside them into cluster.lock
+	$(PIN) --upgrade --all-extras --excludes <(echo snakemake-executor-plugin-slurm) pyproject.toml -o environment.lock
+	$(PIN) --upgrade --extra cluster --constraint environment.lock \
+		$$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock) pyproject.toml -o cluster.lock
 
 wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up needs no network
 	@test -n "$$WHEELS" || { echo "Name the folder: make wheels WHEELS=folder" >&2; exit 1; }
 	WHEELS= workflow/set_up.sh
-	.venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" -r environment.lock
+	.venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
+		-r environment.lock -r cluster.lock
+
+cluster-tools: set-up  ## install what Snakemake needs for Slurm, cluster.lock (docs/scale.md; again after each new set-up)
+	.venv/bin/python -m pip install --quiet --no-deps --require-hashes \
+		$(if $(WHEELS),--no-index --find-links "$$WHEELS") --requirement cluster.lock
 
 clean:  ## delete results and caches, keep the environment
 	rm -rf results .snakemake .cache .pytest_cache .ruff_cache .import_linter_cache

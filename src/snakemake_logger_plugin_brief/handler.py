@@ -9,6 +9,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_brief.build import Build
+from snakemake_logger_plugin_brief.jobs import by_the_scheduler
 from snakemake_logger_plugin_brief.results import from_start, open_first
 from snakemake_logger_plugin_brief.screen import Screen
 from snakemake_logger_plugin_brief.words import count
@@ -107,7 +108,7 @@ class LogHandler(LogHandlerBase):
         self._build.grow(record.total)
 
     def _job_error(self, record):
-        self._build.fail(record, self._cause)
+        self._build.fail(record, self._cause or by_the_scheduler(record))
         self._cause = ""
 
     def _error(self, record):

@@ -27,6 +27,8 @@ LONGER = 2
 TAIL = 15
 """Lines of a log that are shown."""
 ENDED = re.compile(r"exit status \d+|(?<=Signals\.)\w+")
+ASIDE = re.compile(r"\s*(sbatch call:|Detailed failure reason|For further error details).*", re.DOTALL)
+"""What the plugin of a cluster adds: the whole command, and where else to look."""
 NOT_TEXT = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f]")
 """Colours and other control characters."""
 
@@ -86,6 +88,11 @@ def tail(log: str) -> list[str]:
     except OSError:
         text = ""
     return [NOT_TEXT.sub("", line) for line in text.rstrip().splitlines()[-TAIL:]] or ["(nothing)"]
+
+
+def by_the_scheduler(record: LogRecord) -> str:
+    """What the scheduler of a cluster says of a failed job, if one does, in a JOB_ERROR event."""
+    return ASIDE.sub("", getattr(record, "rule_msg", None) or "")
 
 
 def failure(name: str, logs: list[str], cause: str) -> list[str]:

@@ -116,7 +116,7 @@ def test_a_folder_is_filled_with_what_the_lock_names(tree, recording):
     assert not (tree / "calls").exists()
     assert subprocess.run(["make", "wheels", "WHEELS=new folder"], **make).returncode == 0
     [call] = [call for call in (tree / "calls").read_text().splitlines() if " download " in call]
-    options = "--require-hashes --no-deps --no-build-isolation --dest new folder -r environment.lock"
+    options = "--require-hashes --no-deps --no-build-isolation --dest new folder -r environment.lock -r cluster.lock"
     assert call == f"-m pip download {options}"
 
 

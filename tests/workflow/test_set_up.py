@@ -24,11 +24,24 @@ def test_an_interpreter_that_does_not_fit_is_refused(tree):
     assert not (tree / ".venv").exists()
 
 
-def test_the_lock_is_whole(tree):
+def test_the_locks_are_whole(tree):
     """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
-    text = (tree / "environment.lock").read_text().replace("\\\n", " ")
+    text = "".join((tree / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
     packages = [line.split() for line in text.splitlines()]
     assert all("==" in package[0] and package[-1].startswith("--hash=sha256:") for package in packages)
+    assert sum(package[0].startswith("snakemake-executor-plugin-slurm==") for package in packages) == 1
     assert "://" not in text
     [heyoka] = [line for line in text.splitlines() if line.startswith("heyoka==")]
     assert "sys_platform == 'linux'" in heyoka
+
+
+def test_what_a_cluster_needs_is_installed_on_request_alone(tree):
+    """By its hashes, after the rest; a default set-up knows nothing of it."""
+    said = subprocess.run(
+        ["make", "--dry-run", "cluster-tools"], cwd=tree.path, capture_output=True, text=True, check=True
+    )
+    set_up, install = said.stdout.replace("\\\n", "").splitlines()
+    assert set_up == "workflow/set_up.sh"
+    assert "--require-hashes" in install
+    assert install.endswith("--requirement cluster.lock")
+    assert "cluster.lock" not in (tree / "workflow/set_up.sh").read_text()

@@ -1,54 +1,29 @@
 """Sweeps from the config to the page: numbers, cuts, what is made again and what is refused."""
 
 import json
-import shutil
 
 import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from pipeline_trees import ROOT, Tree, copied, made_once
+from pipeline_trees import ROOT, Tree
+from swept import POINT_EACH, TARGETS, made
+from swept import again as swept_again
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact_pipeline.data_dictionary import files, read
 
-SWEEPS = """\
-sweeps:
-  plane:
-    case: unequal
-    axes:
-      - {along: [epsilon], range: [0.05, 0.2], values: 3, scale: logarithmic}
-      - {along: [f10_hat, f20_hat], listed: [0.5, 0.8]}
-    observe: [amplitudes, fixed_points]
-    starts: 2
-    seed: 1
-    cycles: 30
-    settle: 20
-  line:
-    case: equal
-    axes: [{along: [kappa], range: [0.5, 0.7], values: 2}]
-    observe: [fixed_points]
-"""
-POINT_EACH = ("--set-resources", "plan_of_sweep:tile_seconds=0")
-TARGETS = ("sweep_plane", "sweep_line")
 MAKING = {"probe_of_sweep", "plan_of_sweep", "table_of_sweep", "picture_of_sweep", "page_of_sweep"}
-
-
-def asking(path):
-    copied(ROOT, path).edit("config/config.yaml", "sweeps:\n", SWEEPS)
 
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory) -> Tree:
-    """Two sweeps, of two axes and of one. Read it, do not change it."""
-    return made_once(tmp_path_factory, "swept", asking, *POINT_EACH, "--", *TARGETS)
+    return made(tmp_path_factory)
 
 
 @pytest.fixture
-def again(swept, tmp_path) -> Tree:
-    """The same, for a test to change."""
-    shutil.copytree(swept.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
-    return Tree(tmp_path / "tree")
+def again(tmp_path_factory, tmp_path) -> Tree:
+    return swept_again(tmp_path_factory, tmp_path / "tree")
 
 
 def planned(tree, *arguments):
@@ -57,9 +32,9 @@ def planned(tree, *arguments):
 
 def test_the_table_is_what_the_library_says_of_each_point(swept):
     table = pd.read_csv(swept / "results/sweeps/plane.csv")
-    assert table["point"].tolist() == list(range(6))
-    assert table["epsilon"].tolist() == pytest.approx([0.05, 0.05, 0.1, 0.1, 0.2, 0.2])
-    assert table["f10_hat"].tolist() == table["f20_hat"].tolist() == [0.5, 0.8] * 3
+    assert table["point"].tolist() == list(range(8))
+    assert table["epsilon"].tolist() == pytest.approx([0.025, 0.025, 0.05, 0.05, 0.1, 0.1, 0.2, 0.2])
+    assert table["f10_hat"].tolist() == table["f20_hat"].tolist() == [0.5, 0.8] * 4
     for row in table.iloc[[0, 3]].to_dict("records"):
         moved = {name: row[name] for name in ("epsilon", "f10_hat", "f20_hat")}
         system = vi.System(**{**PARAMETERS, **moved})
@@ -75,10 +50,10 @@ def test_the_table_is_what_the_library_says_of_each_point(swept):
 
 def test_a_sweep_has_a_plan_pictures_and_a_page(swept):
     plan = json.loads((swept / "results/sweeps/plane/plan.json").read_text())
-    assert (plan["tiles"], plan["points"], plan["runs"]) == (6, 6, 12)
-    assert len(list((swept / "results/sweeps/plane/tiles").iterdir())) == 6
+    assert (plan["tiles"], plan["points"], plan["runs"]) == (8, 8, 16)
+    assert len(list((swept / "results/sweeps/plane/tiles").iterdir())) == 8
     asked = {
-        "plane": "epsilon: 3 values from 0.05 to 0.2, logarithmic",
+        "plane": "epsilon: 4 values from 0.025 to 0.2, logarithmic",
         "line": "kappa: 2 values from 0.5 to 0.7, linear",
     }
     for sweep, words in asked.items():
@@ -110,32 +85,32 @@ def test_what_is_made_stays_whatever_a_tile_should_take(swept):
 
 
 def test_the_resolution_of_an_axis_makes_its_own_sweep_anew_and_no_other(again):
-    again.edit("config/config.yaml", "values: 3", "values: 2")
+    again.edit("config/config.yaml", "values: 4", "values: 2")
     assert planned(again, "sweep_line") == set()
     assert planned(again, "sweep_plane") == MAKING
     again.snakemake(*POINT_EACH, "--", *TARGETS)
     table = pd.read_csv(again / "results/sweeps/plane.csv")
-    assert table["epsilon"].tolist() == pytest.approx([0.05, 0.05, 0.2, 0.2])
+    assert table["epsilon"].tolist() == pytest.approx([0.025, 0.025, 0.2, 0.2])
     assert planned(again, *TARGETS) == set()
 
 
 def test_a_missing_tile_is_made_again_alone(again):
-    (again / "results/sweeps/plane/tiles/2-of-6.csv").unlink()
+    (again / "results/sweeps/plane/tiles/2-of-8.csv").unlink()
     (again / "results/sweeps/plane.csv").unlink()
     printed = again.snakemake("sweep_plane", V="1")
     assert printed.count("rule tile_of_sweep:") == 1
-    assert len(pd.read_csv(again / "results/sweeps/plane.csv")) == 6
+    assert len(pd.read_csv(again / "results/sweeps/plane.csv")) == 8
 
 
 def test_a_tile_of_another_question_ends_in_no_table(again):
     """Even without a record by which it would be found out."""
-    tile, stranger = (again / "results/sweeps" / name for name in ("plane/tiles/2-of-6.csv", "line/tiles/1-of-2.csv"))
+    tile, stranger = (again / "results/sweeps" / name for name in ("plane/tiles/2-of-8.csv", "line/tiles/1-of-2.csv"))
     tile.write_bytes(stranger.read_bytes())
-    (again / "results/checksums/results/sweeps/plane/tiles/2-of-6.csv.sha256").unlink()
+    (again / "results/checksums/results/sweeps/plane/tiles/2-of-8.csv.sha256").unlink()
     (again / "results/sweeps/plane.csv").unlink()
     printed = again.snakemake("sweep_plane", check=False)
     assert again.returncode != 0
-    assert "plane/tiles/2-of-6.csv is of a sweep that asked for something else. Delete it" in printed
+    assert "plane/tiles/2-of-8.csv is of a sweep that asked for something else. Delete it" in printed
     tile.unlink()
     assert again.snakemake("sweep_plane").endswith("Open first: results/sweeps/plane.html\n")
 
@@ -143,10 +118,10 @@ def test_a_tile_of_another_question_ends_in_no_table(again):
 def test_a_sweep_above_its_limit_is_not_begun_and_says_what_lets_it_run(again):
     limit = ("--config", "sweeps={plane: {limit_hours: 1.0e-9}}", "--")
     again.snakemake(*POINT_EACH, *limit, "sweep_plane")  # all of it is there
-    (again / "results/sweeps/plane/tiles/2-of-6.csv").unlink()
+    (again / "results/sweeps/plane/tiles/2-of-8.csv").unlink()
     printed = again.snakemake(*POINT_EACH, "--forcerun", "plan_of_sweep", *limit, "sweep_plane", check=False)
     assert again.returncode != 0
-    assert "sweeps.plane: 6 points with 12 simulated starts would take about" in printed
+    assert "sweeps.plane: 8 points with 16 simulated starts would take about" in printed
     assert "To run it all the same: snakemake --cores 2 --config 'sweeps={plane: {limit_hours: " in printed
-    assert not (again / "results/sweeps/plane/tiles/2-of-6.csv").exists()
-    assert (again / "results/sweeps/plane/tiles/1-of-6.csv").exists()
+    assert not (again / "results/sweeps/plane/tiles/2-of-8.csv").exists()
+    assert (again / "results/sweeps/plane/tiles/1-of-8.csv").exists()

@@ -234,6 +234,20 @@ def test_a_job_that_takes_long_is_named_once_with_the_time_of_the_last_build(han
     assert lines == ["0 of 2  still running: regime tile 2-of-4 (16 s, usually 1 min 32 s)"]
 
 
+def test_the_words_of_a_scheduler_are_told(handler):
+    """Of a job that it did not take, or ended, there is no more to tell; its whole command is in the log."""
+    refused = (
+        "SLURM sbatch failed. The error message was 'invalid partition: x'.\n    sbatch call:\n        sbatch -p x"
+    )
+    about = dict(level=logging.ERROR, jobid=1, rule_name="a", log=[], rule_msg=refused)
+    shown(handler, jobs(a=1), started(1, "a"), record(LogEvent.JOB_ERROR, **about))
+    handler.tick(1)
+    assert Path("screen").read_text().splitlines()[1:] == [
+        "Failed: a",
+        "  SLURM sbatch failed. The error message was 'invalid partition: x'.",
+    ]
+
+
 def test_a_failure_is_told_unless_an_interruption_follows(handler):
     shown(handler, jobs(a=1, b=1, c=1), started(1, "a"), *failed(1, "a"))
     handler.tick(1)

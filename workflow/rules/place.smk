@@ -38,7 +38,7 @@ if not any(Path(folder, "vibroimpact_pipeline").is_dir() for folder in os.getenv
 if os.path.exists(sys.executable):
     # Snakemake puts it into the command of each job as it is, which a space in its path would break.
     sys.executable = shlex.quote(sys.executable)
-from vibroimpact_pipeline import build_directory
+from vibroimpact_pipeline import build_directory, left_jobs, slurm_plugin
 
 if workflow.is_main_process:
     demand(build_directory.check_access)
@@ -47,5 +47,18 @@ if workflow.is_main_process:
         build_directory.sweep(time.time())
 
 
+def prepare_cluster():
+    """What jobs elsewhere rely on: none is left from before, and code is compiled once and not by each of them."""
+    if workflow.executor_settings.__class__.__module__.startswith("snakemake_executor_plugin_slurm"):
+        try:
+            left_jobs.end_left_jobs()
+            slurm_plugin.heed_options(workflow.executor_settings)
+        except (OSError, RuntimeError) as error:
+            refuse([str(error)])
+    shell(f"{sys.executable} {shlex.quote(str(ROOT / 'workflow/scripts/compile.py'))}")
+
+
 onstart:
     demand(build_directory.check_room)
+    if not workflow.local_exec:
+        prepare_cluster()
