@@ -201,6 +201,17 @@ def test_a_periodic_motion_amounts_to_the_same_from_any_cycle_on_and_from_each_o
         )
 
 
+@pytest.mark.parametrize("settle", [1, 2, 7, 30])
+def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, settle):
+    """A flight without an event over the whole run, many times as long as the tables."""
+    quiet = chapter(0.05, 0.0)
+    late, there = vi.ensemble(quiet, np.zeros(8), 40, settle=settle), vi.simulate(quiet, np.zeros(8), settle).final
+    assert not late["impacts"].any()
+    anew = vi.ensemble(quiet, there, 40 - settle)
+    for name in ("largest", "mean_square", "ball_speed"):
+        np.testing.assert_allclose(late[name], anew[name], rtol=1e-10)
+
+
 def test_progress_is_reported(case, capsys):
     vi.ensemble(case, starts(5), 3, progress=True)
     assert capsys.readouterr().err.endswith("5/5 runs\n")
