@@ -183,6 +183,35 @@ def test_nothing_is_observed_when_all_cycles_settle(case):
     assert not outcome["impacts"].any()
 
 
+def test_a_periodic_motion_amounts_to_the_same_from_any_cycle_on_and_from_each_of_its_impacts(chapter):
+    """Where observation begins, an impact is just over, just due, or both, by the rounding of times."""
+    case = chapter(1.0, 0.89)
+    orbit = next(one for one in vi.orbits(case) if one.admissible and max(abs(one.multipliers)) < 1)
+    run = vi.simulate(case, orbit.state, 200)
+    outcomes = np.stack(
+        [
+            [vi.ensemble(case, event["state"], 40, event["tau"], settle) for settle in range(1, 39)]
+            for event in run.events[-4:]
+        ]
+    )
+    assert (outcomes["status"] == 0).all()
+    for name in ("largest", "mean_square", "ball_speed"):
+        np.testing.assert_allclose(
+            outcomes[name], np.broadcast_to(outcomes[name][0, 0], outcomes[name].shape), rtol=1e-9
+        )
+
+
+@pytest.mark.parametrize("settle", [1, 2, 7, 30])
+def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, settle):
+    """A flight without an event over the whole run, many times as long as the tables."""
+    quiet = chapter(0.05, 0.0)
+    late, there = vi.ensemble(quiet, np.zeros(8), 40, settle=settle), vi.simulate(quiet, np.zeros(8), settle).final
+    assert not late["impacts"].any()
+    anew = vi.ensemble(quiet, there, 40 - settle)
+    for name in ("largest", "mean_square", "ball_speed"):
+        np.testing.assert_allclose(late[name], anew[name], rtol=1e-10)
+
+
 def test_progress_is_reported(case, capsys):
     vi.ensemble(case, starts(5), 3, progress=True)
     assert capsys.readouterr().err.endswith("5/5 runs\n")

@@ -42,10 +42,11 @@ def observe(flow, squares, start, events, final, phase, ends, seen):
             late = events[n, SINE], events[n, COSINE]
         motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
         if not opened and left > 0.0 and following.time > opening:
-            opened = True
-            while following.time - left < opening:
-                t = min(opening - (following.time - left), left, flow.longest)
-                motion, left = glide(flow, motion, t), left - t
+            opened, unseen = True, max(opening - leaving.time, 0.0)
+            left -= unseen
+            while unseen > 0.0:
+                t = min(unseen, flow.longest)
+                motion, unseen = glide(flow, motion, t), unseen - t
             one, two = potential(squares, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine)
             seen[SQUARE], seen[SQUARE + 1] = -one, -two
         if opened and left > 0.0:
