@@ -31,6 +31,7 @@ TOGETHER = "coexisting"
 NAMED_FROM = 4
 """A patch of so many cells or more bears its letter."""
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 6.0, "markeredgewidth": 1.4}
+_STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 8.0, "markeredgewidth": 0.8}
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
@@ -115,7 +116,7 @@ def _pieces(corners, crossing):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: a colour and a letter for each regime, hatched where several coexist; borders."""
+    """Draw the table of `compute`: a colour and a letter for each regime, a stroke where several coexist; borders."""
     table = tables["csv"]
     cells, cases = (select(table, "map", name) for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
@@ -126,10 +127,8 @@ def draw(tables: dict) -> Figure:
     axes.pcolormesh(f10, f20, shown, cmap=ListedColormap(COLOURS), vmin=-0.5, vmax=len(REGIMES) - 0.5, rasterized=True)
     if np.isnan(shown).any():
         hatch_gaps(axes)
-    together = np.where(_square(cells, TOGETHER) > 1, 1.0, 0.0)
-    if together.any():
-        hatched = axes.contourf(f10, f20, together, levels=[0.5, 1.5], colors="none", hatches=["////"])
-        hatched.set_label(TOGETHER)
+    together = cells[cells[TOGETHER] > 1]
+    axes.plot(together["f10_hat"], together["f20_hat"], label=TOGETHER, **_STROKES)
     for series, style in BORDERS.items():
         pieces = select(table, "map", series)[["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
         axes.add_collection(LineCollection(pieces, colors=BLACK, **style))
@@ -179,7 +178,7 @@ def _legend():
             Patch(facecolor=COLOURS[number], label=f"{LETTERS[number]}  {name}", **box)
             for number, name in enumerate(REGIMES)
         ),
-        Patch(facecolor="white", hatch="////", label="others coexist", **box),
+        Line2D([], [], label="others coexist", **_STROKES),
     ]
     for series, style in BORDERS.items():
         look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
