@@ -28,7 +28,7 @@ SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-
 FILLED_PAGES = [page for page in SETTINGS["pages"] if page["source"].startswith("report/")]
 SOURCES = ROOT / "report"
 TITLES = {"site": SETTINGS["title"], "footer": f"Built from {plain(HOSTILE)}."}
-OWN_SCRIPTS = {"motion": "animation.js", "fixed_points": "force_sweep.js"}
+OWN_SCRIPTS = {"motion": "animation.js", "fixed_points": "force_sweep.js", "claims": "filter.js"}
 DATA = {"type": "application/json"}
 KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
 KINDS = ("iframe", "object", "embed", "base", "form", "marquee")

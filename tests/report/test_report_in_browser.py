@@ -122,7 +122,7 @@ FIXED_POINTS = """(() => {
   const all = (kind) => [...document.querySelectorAll('[data-force-sweep] ' + kind)];
   return {
     value: all('output')[0].textContent,
-    places: all('circle').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
+    places: all('circle[data-label]').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
     rows: all('tbody tr').map(row => [...row.cells].map(cell => cell.textContent)),
   };
 })()"""
@@ -167,6 +167,37 @@ def test_the_points_stay_on_the_manifold(browser, site):
         for C, B in [(float(row[i]), float(row[i + 1])) for row in rows for i in (1, 3)]:
             on_manifold = 1 - 2 * C + (1 + rho**2) * C**2
             assert pytest.approx(on_manifold, abs=4e-3) == B**2
+
+
+def test_a_disc_says_what_the_theory_says_and_its_ring_what_is_true(browser, site):
+    """Both as in the table of the fixed points, whose letters are the chapter's."""
+    browser.open(address(site, "fixed_points"))
+    table = pd.read_csv(site.parent / "fixed_points.csv").query("case == 'equal'").sort_values("label")
+    rows = browser.run(FIXED_POINTS)["rows"]
+    assert [row[0] for row in rows] == table["label"].tolist() == ["a", "b", "c"]
+    assert [row[7] for row in rows] == table["slow_flow"].tolist()
+    assert [row[9] for row in rows] == table["floquet"].tolist()
+    plane = "document.querySelector('[data-force-sweep] svg')"
+    discs = browser.run(
+        f"[...{plane}.querySelectorAll('[data-label]')].map(c => [c.dataset.label, c.getAttribute('fill')])"
+    )
+    filled = [label for label, fill in discs if fill != "#fff"]
+    assert filled == [row[0] for row in rows if row[8] == "stable"] == ["c"]
+    assert browser.run(f"[...{plane}.querySelectorAll('[data-exact]')].map(c => c.dataset.exact)") == ["unstable"] * 3
+
+
+@pytest.mark.parametrize(("value", "said"), [(0.81, "Below 0.817"), (0.82, "Above 0.817"), (0.92, "From 0.913")])
+def test_the_sentence_of_the_force_is_said(browser, site, value, said):
+    """One at a time, and on paper all."""
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("ArrowLeft", times=round(100 * (1 - value)))
+    spoken = "[...document.querySelectorAll('.stations li')].filter(li => li.checkVisibility()).map(li => li.innerText)"
+    (sentence,) = browser.run(spoken)
+    assert sentence.startswith(said)
+    browser.page.emulate_media(media="print")
+    assert len(browser.run(spoken)) == 4
+    browser.page.emulate_media(media="screen")
 
 
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
@@ -245,6 +276,35 @@ def test_a_page_can_be_read_by_everybody(browser, site, page):
     assert browser.run("document.activeElement.className") == "skip"
     browser.press("Enter")
     assert browser.run("location.hash") == "#content"
+
+
+STATEMENTS = """[...document.querySelectorAll('#statements tbody tr')].filter(row => row.checkVisibility()).map(
+  row => row.querySelector('.of').dataset.verdict + ' ' + row.querySelector('.of').dataset.section
+)"""
+
+
+def test_statements_are_filtered_by_verdict_and_section_by_keyboard(browser, site):
+    browser.open(address(site, "claims"))
+    every = browser.run(STATEMENTS)
+    assert len(every) > 40
+    for kind, value in (("verdict", "refuted"), ("section", "10-4")):
+        browser.run(f"document.querySelector('button[data-kind={kind}][data-value=\"{value}\"]').focus()")
+        browser.press("Enter")
+    left = browser.run(STATEMENTS)
+    assert left == ["refuted 10-4"] * every.count("refuted 10-4")
+    assert 0 < len(left) < len(every)
+    assert browser.run("document.querySelector('[data-filter] output').textContent") == (
+        f"{len(left)} of {len(every)} statements"
+    )
+    browser.run("location.hash = '#small-balls'")  # of section 10.2
+    browser.run(SOME_FRAMES)
+    assert browser.run(STATEMENTS) == every
+
+
+def test_a_statement_is_a_card_on_a_phone(browser, site):
+    browser.open(address(site, "claims"), width=390)
+    edges = browser.run("[...document.querySelectorAll('#statements .of')].map(e => e.getBoundingClientRect().right)")
+    assert 0 < max(edges) <= 390
 
 
 def luminance(colour):

@@ -72,7 +72,13 @@ def config() -> dict:
 def results(folder: Path) -> Path:
     """Results in which every text is hostile."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
-    point = {"track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE}}
+    point = {
+        "label": HOSTILE,
+        "track": 1,
+        "C": [1.0, 1.1],
+        "B": [0.1, 0.2],
+        "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE},
+    }
     sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
     moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
@@ -102,6 +108,14 @@ def results(folder: Path) -> Path:
             run | {"outcome": HOSTILE, "reason": HOSTILE},
         ],
         "accuracy/hazards.csv": [{"method": HOSTILE, "verdict": HOSTILE}],
+        "force_sweep/force_sweep.csv": [
+            {"value": 0.4, "fast_and_slow": HOSTILE},
+            {"value": 0.5, "fast_and_slow": "stable"},
+        ],
+        "regimes/special_points.csv": [
+            {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
+        ],
+        "regimes/torus_onsets.csv": [{"path": "f20_hat", "onset": 0.4}],
         "accuracy/scene_models.csv": [{HOSTILE: HOSTILE, "note": HOSTILE}],
     }
     for name, text in texts.items():

@@ -13,6 +13,7 @@ import pypandoc
 
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline.report.figure_texts import figure_texts
+from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
 NOTICE = (
@@ -113,12 +114,23 @@ def said(numbers) -> str:
     if numbers is None or isinstance(numbers, bool):
         return {True: "yes", False: "no", None: "open"}[numbers]
     if isinstance(numbers, dict):
-        return "; ".join(f"{plain(name.replace('_', ' '))}: {said(value)}" for name, value in numbers.items())
+        return "; ".join(f"{named(name)}: {said(value)}" for name, value in numbers.items())
     if isinstance(numbers, list):
         return ", ".join(said(value) for value in numbers)
     if not isinstance(numbers, int | float):
         return plain(numbers)
     return digits(numbers, 4)
+
+
+def section_of(place: str) -> str:
+    """The section of the chapter that a claim's place is in: the one it names, or that of its equation or figure."""
+    if found := re.search(r"section (10\.\d)", place):
+        return found[1]
+    found = re.search(r"(?P<figure>Fig\w*\. )?\(?10\.(?P<number>\d+)", place)
+    if not found:
+        return "elsewhere"
+    first_of = {"10.4": 6, "10.3": 4} if found["figure"] else {"10.3": 7}
+    return next((section for section, first in first_of.items() if int(found["number"]) >= first), "10.2")
 
 
 def markdown_table(heads: list[str], rows) -> str:
@@ -155,6 +167,7 @@ FILTERS = {
     "digits": digits,
     "plain": plain,
     "said": said,
+    "section": section_of,
     "setting": setting,
     "url": quote,
 }

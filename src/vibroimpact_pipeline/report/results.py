@@ -2,9 +2,12 @@
 
 import json
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pandas as pd
+
+from vibroimpact.system.verdict import STABLE
 
 KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
 FOLDERS = ("figures", "accuracy", "force_sweep", "animations")
@@ -94,3 +97,23 @@ class Results:
         table = self.table("accuracy/hazards.csv")
         order = list(dict.fromkeys(table["method"]))
         return pd.crosstab(table["method"], table["verdict"]).reindex(order)
+
+    def stations(self) -> list[dict]:
+        """Where along the second force stability changes, ascending: value, kind, and how many points it leaves stable.
+
+        Of the fixed points (`stable`: by both time scales, above the value) the special point that lies between the two
+        values of the sweep; of the exact system the onset of the torus, which has no `stable`.
+        """
+        sweep, special = self.table("force_sweep/force_sweep.csv"), self.table("regimes/special_points.csv")
+        stable = sweep["fast_and_slow"].eq(STABLE).groupby(sweep["value"]).sum()
+        special = special[(special["path"] == "f20_hat") & (special["family"] == "fixed point") & special["admissible"]]
+        found = []
+        for low, high in pairwise(stable.index):
+            if stable[low] != stable[high]:
+                between = special[special["p"].between(low, high)]
+                found += [
+                    {"value": row.p, "kind": row.kind, "stable": int(stable[high])} for row in between.itertuples()
+                ]
+        onsets = self.table("regimes/torus_onsets.csv").query("path == 'f20_hat'")["onset"]
+        found += [{"value": onset, "kind": "torus", "stable": None} for onset in onsets]
+        return sorted(found, key=lambda station: station["value"])
