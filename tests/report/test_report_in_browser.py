@@ -53,6 +53,29 @@ def test_a_notebook_reads_offline(browser, site, figure):
     assert browser.run("[...document.images].every(image => image.complete && image.naturalWidth > 100)")
 
 
+def test_navigation_is_one_line_that_opens_by_keyboard(browser, site):
+    browser.open(address(site, "stability"), width=390)
+    tops = browser.run("[...document.querySelectorAll('header summary')].map(s => s.getBoundingClientRect().top)")
+    assert len(tops) == 3
+    assert len(set(tops)) == 1
+    leading = "[...document.querySelectorAll('header li a')].filter(a => a.checkVisibility()).map(a => a.textContent)"
+    assert browser.run(leading) == []
+    browser.press("Tab", times=4)  # past the link to the content, the title and the first group
+    browser.press("Enter")
+    assert "Stability" in browser.run(leading)
+    assert browser.run("document.querySelectorAll('header li a').length") == len(PAGES) + 2
+
+
+def test_a_notebook_folds_its_code_and_leads_back(browser, site):
+    browser.open((site / "notebooks/fig10_08.html").as_uri(), width=NARROW)
+    assert browser.run("document.title").startswith("Figure 10.8")
+    assert browser.run("[...document.querySelectorAll('.input_area')].some(area => area.checkVisibility())") is False
+    browser.run("document.querySelector('summary').click()")
+    wide = "[...document.querySelectorAll('.input_area')].filter(a => a.scrollWidth > a.clientWidth).length"
+    assert browser.run(wide) == 0
+    assert browser.run("document.querySelector('.of a').getAttribute('href')") == "../figures.html#fig10_08"
+
+
 def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
     """The checks above can fail: a page with everything wrong on it."""
     page = tmp_path / "wrong.html"
