@@ -5,14 +5,6 @@ const WIDTH = 360, HEIGHT = 270, LEFT = 44, BOTTOM = 38, TOP = 10, RIGHT = 10;
 const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
 const RINGS = { stable: "none", unstable: "3 3", undecided: "1 4" };
 
-function shape(parent, kind, attributes, text = "") {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", kind);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.textContent = text;
-  parent.append(made);
-  return made;
-}
-
 class Plane {
   constructor(svg, module, manifold) {
     this.svg = svg;

@@ -133,6 +133,16 @@ def test_numbers_on_a_page_are_those_of_the_results(site):
     assert rows >= len(claims) > 24
 
 
+def test_models_are_told_in_words(site):
+    """No entry of the table that is behind it, as a program writes it, is left on the page."""
+    html = (site / "accuracy.html").read_text(encoding="utf-8")
+    table = html[html.index('id="scene_models"') :]
+    assert [raw for raw in ("True", "False", "nan", "inf<", "closed_form") if raw in table] == []
+    assert re.findall(r"\d\.\d{5}", table) == []
+    for told in ("cannot show it", "✓ yes", "✗ no", "<strong>proven simulation</strong>"):
+        assert told in table
+
+
 def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
     claims = {claim["id"]: claim for claim in json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))}
     html = (site / "claims.html").read_text(encoding="utf-8")

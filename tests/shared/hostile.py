@@ -65,6 +65,8 @@ def config() -> dict:
         "mine": {"notebook": "theoretical_response", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
     }
     made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
+    for part in ("branches", "coexistence"):
+        made["regimes"][part]["case"] = "equal"
     made["system"][HOSTILE] = HOSTILE
     return made
 
@@ -85,6 +87,7 @@ def results(folder: Path) -> Path:
     run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}
     run |= {"problem": HOSTILE, "method": HOSTILE, "setting": HOSTILE}
     claim = {"id": HOSTILE, "verdict": HOSTILE, "place": "(10.1)", "statement": STATEMENT, "parts": {HOSTILE: True}}
+    claim |= {"refuted_by": STATEMENT}
     record = dict.fromkeys(("commit", "tree", "lock"), HOSTILE) | {"config": {HOSTILE: HOSTILE}}
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
@@ -116,7 +119,10 @@ def results(folder: Path) -> Path:
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],
         "regimes/torus_onsets.csv": [{"path": "f20_hat", "onset": 0.4}],
-        "accuracy/scene_models.csv": [{HOSTILE: HOSTILE, "note": HOSTILE}],
+        "accuracy/scene_models.csv": [
+            {"figure": "mine", "rung": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
+            | {"meets": True, "cost_s": 0.1, "in_use": True}
+        ],
     }
     for name, text in texts.items():
         _made(folder / name).write_text(text, encoding="utf-8")

@@ -1,10 +1,12 @@
 """The pages of the report as Markdown: templates and documents, filled with what the results say."""
 
 import json
+import math
 import re
 from collections import Counter
 from functools import lru_cache
 from html import escape
+from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
@@ -16,6 +18,13 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
+SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?:percent \| )?(?P<place>.+?) -->")
+"""A number of a document, and in a comment behind it the file that it comes from and the place there."""
+SOURCE = (
+    '`<button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
+    '<span popover class="source" id="source-{id}"><b>{value}</b> in <code>results/{file}</code>: {place}. '
+    "Made by <code>snakemake --cores 2 results/{file}</code></span>`{{=html}}"
+)
 NOTICE = (
     "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, "
     "and what documents, findings and errata say is about the chapter's parameters. What differs:"
@@ -58,6 +67,7 @@ class Pages:
             "about": self.about,
             "caption": lru_cache(self.caption),
             "count": Counter,
+            "infinity": math.inf,
             "table": markdown_table,
         }
 
@@ -67,7 +77,27 @@ class Pages:
             text = self.environment.get_template(page["source"]).render(target=target)
         else:
             text = (self.root / page["source"]).read_text(encoding="utf-8")
+            if target == "html" and self.results.judged:
+                numbers = count(1)
+                text = SOURCED.sub(lambda found: self._with_source(found, next(numbers)), text)
         return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
+
+    def _with_source(self, found, number):
+        """A number of a document as a button that shows where it comes from: value, place and the command that makes it.
+
+        Raises:
+            KeyError, ValueError: the results have no such value.
+        """
+        place = found["place"].split(" | ")
+        value = digits(self.results.value(*place), 6).strip("$")
+        told = {
+            "number": found["number"],
+            "value": value,
+            "file": place[0],
+            "place": ", ".join(place[1:]),
+            "id": number,
+        }
+        return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):
         """What a page begins with where the config has other parameters than the chapter."""

@@ -98,6 +98,32 @@ class Results:
         order = list(dict.fromkeys(table["method"]))
         return pd.crosstab(table["method"], table["verdict"]).reindex(order)
 
+    def value(self, file: str, *path: str):
+        """A number in a table (file, query, column) or in JSON (file, key, key ...; an id picks an entry of a list).
+
+        Raises:
+            ValueError: the query finds several values, or none.
+        """
+        if file.endswith(".csv"):
+            query, column = path
+            (found,) = self.table(file).query(query)[column].unique()
+            return found
+        found = json.loads(self.text(file))
+        for key in path:
+            if isinstance(found, list):
+                found = found[int(key)] if key.isdigit() else next(entry for entry in found if entry["id"] == key)
+            else:
+                found = found[key]
+        return found
+
+    def layers(self, figure: str) -> dict[str, list]:
+        """Points (phase, W2) of each motion of companion_10_08: by the theory, as simulated, and its mirror image."""
+        table = self.table(f"figures/{figure}.csv").query("series != 'impact'")
+        motion = table["panel"].where(table["series"] == "W_2", table["series"])
+        return {
+            name: rows[["phase", "W2"]].round(4).to_numpy().tolist() for name, rows in table.groupby(motion, sort=False)
+        }
+
     def stations(self) -> list[dict]:
         """Where along the second force stability changes, ascending: value, kind, and how many points it leaves stable.
 
