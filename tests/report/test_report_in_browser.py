@@ -2,12 +2,14 @@
 
 from itertools import pairwise
 
+import numpy as np
 import pandas as pd
 import pytest
 import yaml
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import read
+from vibroimpact_pipeline.report.results import Results
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
@@ -299,6 +301,38 @@ def test_a_page_can_be_read_by_everybody(browser, site, page):
     assert browser.run("document.activeElement.className") == "skip"
     browser.press("Enter")
     assert browser.run("location.hash") == "#content"
+
+
+def test_motions_lie_over_each_other_and_each_can_be_taken_away(browser, site):
+    browser.open(address(site, "index"))
+    shown = "[...document.querySelectorAll('[data-layers] polyline')].filter(l => l.getAttribute('visibility') == 'visible')"
+    names = f"{shown}.map(line => line.dataset.name)"
+    assert browser.run(names) == ["theory", "simulation"]
+    browser.run("document.querySelector('button[data-name=\"mirror image\"]').focus()")
+    browser.press("Enter")
+    browser.run("document.querySelector('[data-layers] button').click()")
+    assert browser.run(names) == ["simulation", "mirror image"]
+    lines = browser.run(f"{shown}.map(line => [...line.points].map(p => [p.x, p.y]))")
+    table = pd.read_csv(site.parent / "figures/companion_10_08.csv").query("panel == 'simulation'")
+    for line, series in zip(lines, ("W_2", "mirror image"), strict=True):
+        rows = table[table["series"] == series]
+        across, down = np.transpose(line)
+        assert np.corrcoef(across, rows["phase"])[0, 1] == pytest.approx(1, abs=1e-6)
+        assert np.corrcoef(down, -rows["W2"])[0, 1] == pytest.approx(1, abs=1e-6)
+
+
+def test_a_number_of_the_findings_tells_its_source_by_keyboard(browser, site):
+    browser.open(address(site, "findings"))
+    assert browser.run("document.querySelectorAll('.sourced').length") > 25
+    browser.run("document.querySelector('.sourced').focus()")
+    open_ones = "[...document.querySelectorAll('.source:popover-open')].map(source => source.textContent)"
+    browser.press("Enter")
+    (told,) = browser.run(open_ones)
+    value = Results(site.parent).value("claims.json", "periodic-solutions", "numbers", "largest distance in C")
+    assert told.startswith(f"{value:.6g} in results/claims.json: periodic-solutions")
+    assert told.endswith("snakemake --cores 2 results/claims.json")
+    browser.press("Escape")
+    assert browser.run(open_ones) == []
 
 
 STATEMENTS = """[...document.querySelectorAll('#statements tbody tr')].filter(row => row.checkVisibility()).map(

@@ -83,20 +83,16 @@ class Pages:
         return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
 
     def _with_source(self, found, number):
-        """A number of a document as a button that shows where it comes from: value, place and the command that makes it.
+        """A number of a document as a button that shows its value, where that stands, and the command that makes it.
 
-        Raises:
-            KeyError, ValueError: the results have no such value.
+        In a build with other settings there may be no such value: then the number stays as it is.
         """
-        place = found["place"].split(" | ")
-        value = digits(self.results.value(*place), 6).strip("$")
-        told = {
-            "number": found["number"],
-            "value": value,
-            "file": place[0],
-            "place": ", ".join(place[1:]),
-            "id": number,
-        }
+        file, *place = found["place"].split(" | ")
+        try:
+            value = f"{self.results.value(file, *place):.6g}"
+        except (LookupError, ValueError, StopIteration, OSError):
+            return found["number"]
+        told = {"number": found["number"], "value": value, "file": file, "place": ", ".join(place), "id": number}
         return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):
