@@ -305,16 +305,17 @@ def test_a_page_can_be_read_by_everybody(browser, site, page):
 
 def test_motions_lie_over_each_other_and_each_can_be_taken_away(browser, site):
     browser.open(address(site, "index"))
-    shown = "[...document.querySelectorAll('[data-layers] polyline')].filter(l => l.getAttribute('visibility') == 'visible')"
+    lines = "[...document.querySelectorAll('[data-layers] polyline')]"
+    shown = f"{lines}.filter(line => line.getAttribute('visibility') == 'visible')"
     names = f"{shown}.map(line => line.dataset.name)"
     assert browser.run(names) == ["theory", "simulation"]
     browser.run("document.querySelector('button[data-name=\"mirror image\"]').focus()")
     browser.press("Enter")
     browser.run("document.querySelector('[data-layers] button').click()")
     assert browser.run(names) == ["simulation", "mirror image"]
-    lines = browser.run(f"{shown}.map(line => [...line.points].map(p => [p.x, p.y]))")
+    drawn = browser.run(f"{shown}.map(line => [...line.points].map(p => [p.x, p.y]))")
     table = pd.read_csv(site.parent / "figures/companion_10_08.csv").query("panel == 'simulation'")
-    for line, series in zip(lines, ("W_2", "mirror image"), strict=True):
+    for line, series in zip(drawn, ("W_2", "mirror image"), strict=True):
         rows = table[table["series"] == series]
         across, down = np.transpose(line)
         assert np.corrcoef(across, rows["phase"])[0, 1] == pytest.approx(1, abs=1e-6)

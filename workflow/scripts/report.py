@@ -57,9 +57,11 @@ def copy(path, folder: Path) -> None:
 
 
 def version(root) -> str:
-    """The commit of the checkout, as far as git tells."""
+    """The commit of the checkout and its date, as far as git tells."""
     described = git("describe", "--always", "--dirty=, with changes", root=root)
-    return "a copy without its history" if described is None else f"commit {described}"
+    if described is None:
+        return "a copy without its history"
+    return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 
 if "snakemake" in globals():

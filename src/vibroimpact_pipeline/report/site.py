@@ -63,6 +63,8 @@ def write_document(folder: Path, sources: Path, pages, settings: dict, titles: d
         for page in settings["pages"]
     ]
     document = (sources / "document.typ").read_text(encoding="utf-8")
+    abstract = settings["done"] if pages.departures else f"{settings['done']} {settings['found']}"
+    titles = titles | {"abstract": abstract}
     titles = {name: pypandoc.convert_text(text, "typst", FILLED).strip() for name, text in titles.items()}
     for name, text in {**titles, "body": "\n\n".join(chapters)}.items():
         document = document.replace(f"${name}$", text)
