@@ -8,6 +8,7 @@ from zipfile import ZipFile
 
 import numpy as np
 import pandas as pd
+import pypdfium2 as pdfium
 import pytest
 import yaml
 
@@ -183,6 +184,43 @@ def test_the_pdf_is_whole_and_the_report_is_light(site):
     assert 0.3 * MEGABYTE < len(pdf) < 10 * MEGABYTE
     assert (site / "motion.html").stat().st_size < 1.5 * MEGABYTE
     assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE
+
+
+@pytest.fixture(scope="module")
+def paper(site):
+    return pdfium.PdfDocument(site / "report.pdf")
+
+
+def test_the_pdf_begins_with_an_abstract_and_the_date_of_the_commit(site, paper):
+    first = " ".join(paper[0].get_textpage().get_text_bounded().split())
+    assert "Abstract" in first
+    footer = re.search(r"<footer><p>(.*?)</p>", (site / "index.html").read_text(encoding="utf-8"))[1]
+    assert footer in first
+    assert re.search(r" of \d{4}-\d\d-\d\d\.$", footer) or "without its history" in footer
+
+
+def test_on_paper_there_is_nothing_to_move(paper):
+    words = "".join(page.get_textpage().get_text_bounded() for page in paper)
+    assert "Over the second force" in words
+    assert [told for told in ("Move the force", "arrow keys", "holds in part section") if told in words] == []
+
+
+def test_no_page_of_the_pdf_is_nearly_empty(paper):
+    """But for the last one: ink reaches down to a fourth of the page."""
+    for page in list(paper)[:-1]:
+        dark = page.render(scale=0.25).to_numpy().min(axis=(1, 2))[: int(0.93 * page.get_height() * 0.25)] < 200
+        assert np.flatnonzero(dark).max() > 0.25 * len(dark)
+
+
+def test_nothing_is_printed_over_anything_else(paper):
+    for number, page in enumerate(paper, start=1):
+        text = page.get_textpage()
+        boxes = np.array([text.get_rect(k) for k in range(text.count_rects())])
+        left, bottom, right, top = boxes.T[:, :, None]
+        across = np.minimum(right, right.T) - np.maximum(left, left.T)
+        down = np.minimum(top, top.T) - np.maximum(bottom, bottom.T)
+        over = np.triu((across > 4) & (down > 3.5), k=1)
+        assert not over.any(), (number, [text.get_text_bounded(*boxes[k]) for k in np.argwhere(over)[0]])
 
 
 def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):
