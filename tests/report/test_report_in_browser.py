@@ -396,7 +396,7 @@ def test_text_stands_out_from_its_background(browser, site, page):
 def test_print_shows_stills_in_place_of_controls(browser, site):
     browser.open(address(site, "motion"))
     state = "['.still', '.live', 'header nav'].map(name => getComputedStyle(document.querySelector(name)).display)"
-    assert browser.run(state) == ["none", "block", "block"]
+    assert browser.run(state) == ["none", "block", "flex"]
     browser.page.emulate_media(media="print")
     assert browser.run(state) == ["block", "none", "none"]
     browser.page.emulate_media(media="screen")
