@@ -99,5 +99,5 @@ def test_the_picture_of_the_travel_says_where_letters_change(swept):
     figure = force_sweep.draw(swept, "x")
     points = swept["points"]
     letters = [row["label"].ne(row["label"].shift()).sum() for _, row in points.groupby("track")]
-    shown = [text.get_text() for text in figure.axes[0].texts if text.get_text() in ("a", "b", "c")]
+    shown = [text.get_text() for text in figure.axes[1].texts if text.get_text() in ("a", "b", "c")]
     assert len(shown) == sum(letters) > 3

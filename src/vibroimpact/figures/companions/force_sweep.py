@@ -73,9 +73,11 @@ def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
         for track, rows in points.groupby("track"):
             colour, line, marker = LOOKS[(track - 1) % len(LOOKS)]
             axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line)
-            for row in rows[rows["label"] != rows["label"].shift()].to_dict("records"):
-                place = row["value"], row[f"C{module}"]
-                axes.annotate(row["label"], place, (3, 4), textcoords="offset points", color=colour, fontsize=8)
+            renamed = (
+                rows[rows["label"] != rows["label"].shift()] if module == 2 else rows[:0]
+            )  # there the lines keep apart
+            for value, C, label in renamed[["value", "C2", "label"]].itertuples(index=False):
+                axes.annotate(label, (value, C), (3, 4), textcoords="offset points", color=colour, fontsize=8)
             marked = rows.iloc[::EVERY]
             theory, exact = (marked[name] == STABLE for name in ("fast_and_slow", "floquet"))
             for shown, face, size in ((theory, colour, 3.6), (~theory, "white", 3.6), (exact, "none", 6.6)):
