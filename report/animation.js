@@ -5,13 +5,6 @@ const SECONDS_PER_CYCLE = 2.5;
 const FLASH = 0.12; // of a cycle
 const BALL = 0.28, WALL = 0.12, SIDE = 1 + BALL + WALL, HALF = 0.62, EDGE = 6.2;
 
-function shape(parent, kind, attributes) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", kind);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  parent.append(made);
-  return made;
-}
-
 function spring(left, right) {
   const turns = 14, lead = 0.15 * (right - left), step = (right - left - 2 * lead) / turns;
   const inner = Array.from({ length: turns + 1 }, (_, n) => [left + lead + n * step, [0, 0.13, 0, -0.13][n % 4]]);

@@ -3,14 +3,7 @@
 
 const WIDTH = 360, HEIGHT = 270, LEFT = 44, BOTTOM = 38, TOP = 10, RIGHT = 10;
 const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
-
-function shape(parent, kind, attributes, text = "") {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", kind);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.textContent = text;
-  parent.append(made);
-  return made;
-}
+const RINGS = { stable: "none", unstable: "3 3", undecided: "1 4" };
 
 class Plane {
   constructor(svg, module, manifold) {
@@ -37,13 +30,20 @@ class Plane {
     this.layer = shape(svg, "g", {});
   }
 
+  // Letters stand below the curve, outside the bend; where two would meet, the second stands above it.
   show(points, module) {
     this.layer.replaceChildren();
-    for (const { track, C, B, verdicts } of points) {
+    let last = -Infinity;
+    for (const { label, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
       const colour = COLOURS[(track - 1) % COLOURS.length], [x, y] = [this.x(C[module]), this.y(B[module])];
-      const fill = verdicts.slow_flow === "stable" ? colour : "#fff";
-      shape(this.layer, "circle", { cx: x, cy: y, r: 6, fill, stroke: colour, "stroke-width": 2, "data-track": track });
-      shape(this.layer, "text", { x: x + 9, y: y - 7, fill: colour, "font-weight": 600 }, track);
+      const fill = verdicts.fast_and_slow === "stable" ? colour : "#fff", side = C[module] < 1 ? -1 : 1;
+      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: colour, "stroke-width": 2, "data-label": label });
+      if (verdicts.floquet in RINGS) {
+        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: colour, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.floquet], "data-exact": verdicts.floquet });
+      }
+      const below = x - last > 20;
+      last = x;
+      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: colour, "font-weight": 600 }, label);
     }
   }
 }
@@ -55,6 +55,7 @@ class ForceSweep {
     this.output = root.querySelector("output");
     this.rows = root.querySelector("tbody");
     this.planes = [...root.querySelectorAll("svg")].map((svg, module) => new Plane(svg, module, this.data.manifold));
+    this.stations = [...document.querySelectorAll(".station")];
     this.slider.max = this.data.values.length - 1;
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
     for (const button of root.querySelectorAll("button")) {
@@ -74,12 +75,15 @@ class ForceSweep {
     this.slider.setAttribute("aria-valuetext", `${value}, ${points.length} fixed points`);
     this.output.textContent = value;
     this.planes.forEach((plane, module) => plane.show(points, module));
-    this.rows.replaceChildren(...points.map(({ track, C, B, verdicts }) => {
+    this.rows.replaceChildren(...points.map(({ label, C, B, verdicts }) => {
       const row = document.createElement("tr");
       const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));
-      for (const text of [track, ...places, ...Object.values(verdicts)]) row.insertCell().textContent = text;
+      for (const text of [label, ...places, ...Object.values(verdicts)]) row.insertCell().textContent = text;
       return row;
     }));
+    // Of the sentences, in the order of their values, the last whose value is passed.
+    const passed = this.stations.filter(({ dataset }) => !(this.data.values[index] < Number(dataset.above ?? -Infinity)));
+    for (const station of this.stations) station.closest("li").hidden = station !== passed.at(-1);
   }
 }
 

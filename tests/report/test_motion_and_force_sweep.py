@@ -95,6 +95,9 @@ def test_a_point_that_is_new_starts_a_track_of_its_own():
     assert (names, count) == ([2, 3, 1], 3)
 
 
-def test_the_picture_of_the_travel_names_every_track(swept):
+def test_the_picture_of_the_travel_says_where_letters_change(swept):
     figure = force_sweep.draw(swept, "x")
-    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["point 1", "point 2", "point 3"]
+    points = swept["points"]
+    letters = [row["label"].ne(row["label"].shift()).sum() for _, row in points.groupby("track")]
+    shown = [text.get_text() for text in figure.axes[1].texts if text.get_text() in ("a", "b", "c")]
+    assert len(shown) == sum(letters) > 3

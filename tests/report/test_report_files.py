@@ -8,6 +8,7 @@ from zipfile import ZipFile
 
 import numpy as np
 import pandas as pd
+import pypdfium2 as pdfium
 import pytest
 import yaml
 
@@ -133,6 +134,16 @@ def test_numbers_on_a_page_are_those_of_the_results(site):
     assert rows >= len(claims) > 24
 
 
+def test_models_are_told_in_words(site):
+    """No entry of the table that is behind it, as a program writes it, is left on the page."""
+    html = (site / "accuracy.html").read_text(encoding="utf-8")
+    table = html[html.index('id="scene_models"') :]
+    assert [raw for raw in ("True", "False", "nan", "inf<", "closed_form") if raw in table] == []
+    assert re.findall(r"\d\.\d{5}", table) == []
+    for told in ("cannot show it", "✓ yes", "✗ no", "<strong>proven simulation</strong>"):
+        assert told in table
+
+
 def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
     claims = {claim["id"]: claim for claim in json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))}
     html = (site / "claims.html").read_text(encoding="utf-8")
@@ -173,6 +184,43 @@ def test_the_pdf_is_whole_and_the_report_is_light(site):
     assert 0.3 * MEGABYTE < len(pdf) < 10 * MEGABYTE
     assert (site / "motion.html").stat().st_size < 1.5 * MEGABYTE
     assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE
+
+
+@pytest.fixture(scope="module")
+def paper(site):
+    return pdfium.PdfDocument(site / "report.pdf")
+
+
+def test_the_pdf_begins_with_an_abstract_and_the_date_of_the_commit(site, paper):
+    first = " ".join(paper[0].get_textpage().get_text_bounded().split())
+    assert "Abstract" in first
+    footer = re.search(r"<footer><p>(.*?)</p>", (site / "index.html").read_text(encoding="utf-8"))[1]
+    assert footer in first
+    assert re.search(r" of \d{4}-\d\d-\d\d\.$", footer) or "without its history" in footer
+
+
+def test_on_paper_there_is_nothing_to_move(paper):
+    words = "".join(page.get_textpage().get_text_bounded() for page in paper)
+    assert "Over the second force" in words
+    assert [told for told in ("Move the force", "arrow keys") if told in words] == []
+
+
+def test_no_page_of_the_pdf_is_nearly_empty(paper):
+    """But for the last one: ink reaches down to a fourth of the page."""
+    for page in list(paper)[:-1]:
+        dark = page.render(scale=0.25).to_numpy().min(axis=(1, 2))[: int(0.93 * page.get_height() * 0.25)] < 200
+        assert np.flatnonzero(dark).max() > 0.25 * len(dark)
+
+
+def test_nothing_is_printed_over_anything_else(paper):
+    for number, page in enumerate(paper, start=1):
+        text = page.get_textpage()
+        boxes = np.array([text.get_rect(k) for k in range(text.count_rects())])
+        left, bottom, right, top = boxes.T[:, :, None]
+        across = np.minimum(right, right.T) - np.maximum(left, left.T)
+        down = np.minimum(top, top.T) - np.maximum(bottom, bottom.T)
+        over = np.triu((across > 4) & (down > 3.5), k=1)
+        assert not over.any(), (number, [text.get_text_bounded(*boxes[k]) for k in np.argwhere(over)[0]])
 
 
 def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):

@@ -2,12 +2,14 @@
 
 from itertools import pairwise
 
+import numpy as np
 import pandas as pd
 import pytest
 import yaml
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import read
+from vibroimpact_pipeline.report.results import Results
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
@@ -51,6 +53,29 @@ def test_a_notebook_reads_offline(browser, site, figure):
     assert heights
     assert min(heights) > 5
     assert browser.run("[...document.images].every(image => image.complete && image.naturalWidth > 100)")
+
+
+def test_navigation_is_one_line_that_opens_by_keyboard(browser, site):
+    browser.open(address(site, "stability"), width=390)
+    tops = browser.run("[...document.querySelectorAll('header summary')].map(s => s.getBoundingClientRect().top)")
+    assert len(tops) == 3
+    assert len(set(tops)) == 1
+    leading = "[...document.querySelectorAll('header li a')].filter(a => a.checkVisibility()).map(a => a.textContent)"
+    assert browser.run(leading) == []
+    browser.press("Tab", times=4)  # past the link to the content, the title and the first group
+    browser.press("Enter")
+    assert "Stability" in browser.run(leading)
+    assert browser.run("document.querySelectorAll('header li a').length") == len(PAGES) + 2
+
+
+def test_a_notebook_folds_its_code_and_leads_back(browser, site):
+    browser.open((site / "notebooks/fig10_08.html").as_uri(), width=NARROW)
+    assert browser.run("document.title").startswith("Figure 10.8")
+    assert browser.run("[...document.querySelectorAll('.input_area')].some(area => area.checkVisibility())") is False
+    browser.run("document.querySelector('summary').click()")
+    wide = "[...document.querySelectorAll('.input_area')].filter(a => a.scrollWidth > a.clientWidth).length"
+    assert browser.run(wide) == 0
+    assert browser.run("document.querySelector('.of a').getAttribute('href')") == "../figures.html#fig10_08"
 
 
 def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
@@ -122,7 +147,7 @@ FIXED_POINTS = """(() => {
   const all = (kind) => [...document.querySelectorAll('[data-force-sweep] ' + kind)];
   return {
     value: all('output')[0].textContent,
-    places: all('circle').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
+    places: all('circle[data-label]').map(circle => ['cx', 'cy'].map(name => Number(circle.getAttribute(name)))),
     rows: all('tbody tr').map(row => [...row.cells].map(cell => cell.textContent)),
   };
 })()"""
@@ -167,6 +192,37 @@ def test_the_points_stay_on_the_manifold(browser, site):
         for C, B in [(float(row[i]), float(row[i + 1])) for row in rows for i in (1, 3)]:
             on_manifold = 1 - 2 * C + (1 + rho**2) * C**2
             assert pytest.approx(on_manifold, abs=4e-3) == B**2
+
+
+def test_a_disc_says_what_the_theory_says_and_its_ring_what_is_true(browser, site):
+    """Both as in the table of the fixed points, whose letters are the chapter's."""
+    browser.open(address(site, "fixed_points"))
+    table = pd.read_csv(site.parent / "fixed_points.csv").query("case == 'equal'").sort_values("label")
+    rows = browser.run(FIXED_POINTS)["rows"]
+    assert [row[0] for row in rows] == table["label"].tolist() == ["a", "b", "c"]
+    assert [row[7] for row in rows] == table["slow_flow"].tolist()
+    assert [row[9] for row in rows] == table["floquet"].tolist()
+    plane = "document.querySelector('[data-force-sweep] svg')"
+    discs = browser.run(
+        f"[...{plane}.querySelectorAll('[data-label]')].map(c => [c.dataset.label, c.getAttribute('fill')])"
+    )
+    filled = [label for label, fill in discs if fill != "#fff"]
+    assert filled == [row[0] for row in rows if row[8] == "stable"] == ["c"]
+    assert browser.run(f"[...{plane}.querySelectorAll('[data-exact]')].map(c => c.dataset.exact)") == ["unstable"] * 3
+
+
+@pytest.mark.parametrize(("value", "said"), [(0.81, "Below 0.817"), (0.82, "Above 0.817"), (0.92, "From 0.913")])
+def test_the_sentence_of_the_force_is_said(browser, site, value, said):
+    """One at a time, and on paper all."""
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("ArrowLeft", times=round(100 * (1 - value)))
+    spoken = "[...document.querySelectorAll('.stations li')].filter(li => li.checkVisibility()).map(li => li.innerText)"
+    (sentence,) = browser.run(spoken)
+    assert sentence.startswith(said)
+    browser.page.emulate_media(media="print")
+    assert len(browser.run(spoken)) == 4
+    browser.page.emulate_media(media="screen")
 
 
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
@@ -247,6 +303,68 @@ def test_a_page_can_be_read_by_everybody(browser, site, page):
     assert browser.run("location.hash") == "#content"
 
 
+def test_motions_lie_over_each_other_and_each_can_be_taken_away(browser, site):
+    browser.open(address(site, "index"))
+    lines = "[...document.querySelectorAll('[data-layers] polyline')]"
+    shown = f"{lines}.filter(line => line.getAttribute('visibility') == 'visible')"
+    names = f"{shown}.map(line => line.dataset.name)"
+    assert browser.run(names) == ["theory", "simulation"]
+    browser.run("document.querySelector('button[data-name=\"mirror image\"]').focus()")
+    browser.press("Enter")
+    browser.run("document.querySelector('[data-layers] button').click()")
+    assert browser.run(names) == ["simulation", "mirror image"]
+    drawn = browser.run(f"{shown}.map(line => [...line.points].map(p => [p.x, p.y]))")
+    table = pd.read_csv(site.parent / "figures/companion_10_08.csv").query("panel == 'simulation'")
+    for line, series in zip(drawn, ("W_2", "mirror image"), strict=True):
+        rows = table[table["series"] == series]
+        across, down = np.transpose(line)
+        assert np.corrcoef(across, rows["phase"])[0, 1] == pytest.approx(1, abs=1e-6)
+        assert np.corrcoef(down, -rows["W2"])[0, 1] == pytest.approx(1, abs=1e-6)
+
+
+def test_a_number_of_the_findings_tells_its_source_by_keyboard(browser, site):
+    browser.open(address(site, "findings"))
+    assert browser.run("document.querySelectorAll('.sourced').length") > 25
+    browser.run("document.querySelector('.sourced').focus()")
+    open_ones = "[...document.querySelectorAll('.source:popover-open')].map(source => source.textContent)"
+    browser.press("Enter")
+    (told,) = browser.run(open_ones)
+    value = Results(site.parent).value("claims.json", "periodic-solutions", "numbers", "largest distance in C")
+    assert told.startswith(f"{value:.6g} in results/claims.json: periodic-solutions")
+    assert told.endswith("snakemake --cores 2 results/claims.json")
+    browser.press("Escape")
+    assert browser.run(open_ones) == []
+
+
+STATEMENTS = """[...document.querySelectorAll('#statements tbody tr')].filter(row => row.checkVisibility()).map(
+  row => row.querySelector('.of').dataset.verdict + ' ' + row.querySelector('.of').dataset.section
+)"""
+
+
+def test_statements_are_filtered_by_verdict_and_section_by_keyboard(browser, site):
+    browser.open(address(site, "claims"))
+    every = browser.run(STATEMENTS)
+    assert len(every) > 40
+    for kind, value in (("verdict", "refuted"), ("section", "10-4")):
+        browser.run(f"document.querySelector('button[data-kind={kind}][data-value=\"{value}\"]').focus()")
+        browser.press("Enter")
+    left = browser.run(STATEMENTS)
+    assert left == ["refuted 10-4"] * every.count("refuted 10-4")
+    assert 0 < len(left) < len(every)
+    assert browser.run("document.querySelector('[data-filter] output').textContent") == (
+        f"{len(left)} of {len(every)} statements"
+    )
+    browser.run("location.hash = '#small-balls'")  # of section 10.2
+    browser.run(SOME_FRAMES)
+    assert browser.run(STATEMENTS) == every
+
+
+def test_a_statement_is_a_card_on_a_phone(browser, site):
+    browser.open(address(site, "claims"), width=390)
+    edges = browser.run("[...document.querySelectorAll('#statements .of')].map(e => e.getBoundingClientRect().right)")
+    assert 0 < max(edges) <= 390
+
+
 def luminance(colour):
     parts = [value / 255 for value in colour]
     linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in parts]
@@ -278,7 +396,7 @@ def test_text_stands_out_from_its_background(browser, site, page):
 def test_print_shows_stills_in_place_of_controls(browser, site):
     browser.open(address(site, "motion"))
     state = "['.still', '.live', 'header nav'].map(name => getComputedStyle(document.querySelector(name)).display)"
-    assert browser.run(state) == ["none", "block", "block"]
+    assert browser.run(state) == ["none", "block", "flex"]
     browser.page.emulate_media(media="print")
     assert browser.run(state) == ["block", "none", "none"]
     browser.page.emulate_media(media="screen")

@@ -10,7 +10,8 @@ from math_core import LatexError
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.report.figure_texts import figure_texts
-from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, setting
+from vibroimpact_pipeline.report.notation import named
+from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, section_of, setting
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import convert
 
@@ -44,7 +45,7 @@ def test_settings_of_methods_are_numbers_or_words():
 
 def test_numbers_behind_a_claim_are_one_line():
     numbers = {"fixed_points": 3, "C": [0.957251, 1e-9], "holds": True, "left": None, "where": "a | b"}
-    expected = r"fixed points: 3; C: 0.9573, $10^{-9}$; holds: yes; left: open; where: a \| b"
+    expected = r"fixed points: 3; $C$: 0.9573, $10^{-9}$; holds: yes; left: open; where: a \| b"
     assert said(numbers) == expected
 
 
@@ -147,6 +148,31 @@ def claims(tmp_path, *places):
 def test_claims_are_found_by_the_figure_they_name(tmp_path, figure, found):
     results = claims(tmp_path, "Fig. 10.6", "figures 10.6 and 10.9", "Figs. 10.10 and 10.11", "figure 10.11", "(10.6)")
     assert [claim["id"] for claim in results.claims_about(figure)] == found
+
+
+def test_the_section_of_a_statement_is_the_one_it_is_listed_under():
+    text = (ROOT / "docs/claims.yaml").read_text(encoding="utf-8")
+    listed = re.findall(r"^# Section (\S+)|^  place: (.+)$", text, flags=re.MULTILINE)
+    section, places = None, 0
+    for heading, place in listed:
+        section = heading or section
+        if place:
+            assert section_of(place) == section, place
+            places += 1
+    assert places > 40
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("f20 of P1 = S1", r"$\hat f_{20}$ of $P_{1}$ \= $S_{1}$"),
+        ("residual of B_min at C_min", r"residual of $B_{\min}$ at $C_{\min}$"),
+        ("all C >= 0", r"all $C$ $\ge$ 0"),
+        ("no formula: $x$", r"no formula\: \$x\$"),
+    ],
+)
+def test_letters_of_the_chapter_are_set_in_names_of_numbers(name, said):
+    assert named(name) == said
 
 
 def test_a_figure_without_files_is_refused(tmp_path):

@@ -65,6 +65,8 @@ def config() -> dict:
         "mine": {"notebook": "theoretical_response", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
     }
     made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
+    for part in ("branches", "coexistence"):
+        made["regimes"][part]["case"] = "equal"
     made["system"][HOSTILE] = HOSTILE
     return made
 
@@ -72,13 +74,20 @@ def config() -> dict:
 def results(folder: Path) -> Path:
     """Results in which every text is hostile."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
-    point = {"track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE}}
+    point = {
+        "label": HOSTILE,
+        "track": 1,
+        "C": [1.0, 1.1],
+        "B": [0.1, 0.2],
+        "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE},
+    }
     sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
     moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
     run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}
     run |= {"problem": HOSTILE, "method": HOSTILE, "setting": HOSTILE}
     claim = {"id": HOSTILE, "verdict": HOSTILE, "place": "(10.1)", "statement": STATEMENT, "parts": {HOSTILE: True}}
+    claim |= {"refuted_by": STATEMENT}
     record = dict.fromkeys(("commit", "tree", "lock"), HOSTILE) | {"config": {HOSTILE: HOSTILE}}
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
@@ -102,7 +111,18 @@ def results(folder: Path) -> Path:
             run | {"outcome": HOSTILE, "reason": HOSTILE},
         ],
         "accuracy/hazards.csv": [{"method": HOSTILE, "verdict": HOSTILE}],
-        "accuracy/scene_models.csv": [{HOSTILE: HOSTILE, "note": HOSTILE}],
+        "force_sweep/force_sweep.csv": [
+            {"value": 0.4, "fast_and_slow": HOSTILE},
+            {"value": 0.5, "fast_and_slow": "stable"},
+        ],
+        "regimes/special_points.csv": [
+            {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
+        ],
+        "regimes/torus_onsets.csv": [{"path": "f20_hat", "onset": 0.4}],
+        "accuracy/scene_models.csv": [
+            {"figure": "mine", "rung": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
+            | {"meets": True, "cost_s": 0.1, "in_use": True}
+        ],
     }
     for name, text in texts.items():
         _made(folder / name).write_text(text, encoding="utf-8")

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from pipeline_trees import ROOT
+from vibroimpact_pipeline.report.results import Results
 
 EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
@@ -57,10 +58,11 @@ def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
     decimals = len(quoted.partition(".")[2])
     scale = 100 if source.startswith("percent | ") else 1
     place = source.removeprefix("percent | ").split(" | ")
-    found = value(built / "results", *place)
+    results = Results(built / "results")
+    found = results.value(*place)
     spread = 0.0
     if place[0].startswith(CHAOTIC):
-        spread = 5 * value(built / "results", *place[:-1], "uncertainty")
+        spread = 5 * results.value(*place[:-1], "uncertainty")
         spread = 0.15 * abs(found) if pd.isna(spread) else spread
     assert abs(scale * found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + scale * spread
 
@@ -75,18 +77,3 @@ def test_the_findings_quote_numbers_and_show_figures_that_exist(built):
     figures = re.findall(r"\]\(\.\./([^)]+)\)", FINDINGS)
     assert figures
     assert not [figure for figure in figures if not (built / figure).exists()]
-
-
-def value(results, file, *path):
-    """A number in a table (file | query | column) or in JSON (file | key | key ...; an id picks an entry of a list)."""
-    if file.endswith(".csv"):
-        query, column = path
-        (found,) = pd.read_csv(results / file).query(query)[column].unique()
-        return found
-    found = json.loads((results / file).read_text())
-    for key in path:
-        if isinstance(found, list):
-            found = found[int(key)] if key.isdigit() else next(entry for entry in found if entry["id"] == key)
-        else:
-            found = found[key]
-    return found

@@ -20,7 +20,7 @@ from notebook import main as notebook
 from vibroimpact.exact.engine.simulation import simulate as integrate
 from vibroimpact.figures.companions import companion_stability
 from vibroimpact.system import System
-from vibroimpact_pipeline.report.offline import markdown_to_html
+from vibroimpact_pipeline.report.offline import linked, markdown_to_html
 
 SYSTEM = {
     **PARAMETERS,
@@ -106,22 +106,25 @@ def parameters(**settings):
 def test_a_notebook_with_other_parameters_is_refused(tmp_path, names):
     source = write(tmp_path / "source.ipynb", names)
     with pytest.raises(ValueError, match="parameters"):
-        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters())
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(), "Title")
     assert not (tmp_path / "page.html").exists()
 
 
 def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print(figure, settings['kappa'] + 1)")
-    notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(kappa=0.5))
+    notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(kappa=0.5), "Figure 1")
     html = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "fig10_03 1.5" in html
+    assert "<title>Figure 1</title>" in html
+    assert [html.count(f"<summary>{name}</summary>") for name in ("Parameters", "Code")] == [1, 1]
+    assert '<a href="../figures.html#one">Notebook of Figure 1</a>' in linked(html, "../figures.html#one")
     assert "<math>" in html
 
 
 def test_a_failed_notebook_can_be_read(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print('before')", "1 / 0", "print('after')")
     with pytest.raises(PapermillExecutionError, match="ZeroDivisionError"):
-        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters())
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(), "Title")
     assert not (tmp_path / "page.html").exists()
     outputs = str([cell.get("outputs") for cell in nbformat.read(tmp_path / "executed.ipynb", 4).cells])
     assert "before" in outputs

@@ -96,6 +96,7 @@ for figure, scene in config["figures"].items():
         params:
             notebook=f"notebooks/{scene['notebook']}.ipynb",
             alt=config["figure_texts"][figure]["alt"],
+            title=config["figure_texts"][figure]["title"],
             settings=figure_settings(scene),
             provenance=figure_provenance(figure, scene),
         log:

@@ -92,11 +92,12 @@ rule report:
         [own(page["source"]) for page in REPORT_SETTINGS["pages"]],
         sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),
         tables=REPORT_TABLES,
+        onsets=rules.coexistence.output.onsets,
     output:
         directory("results/report"),
     params:
         shown=REPORT_SHOWS,
-        config={name: config[name] for name in ("system", "cases", "figures", "report")},
+        config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes")},
         departures=DEPARTURES,
         judged=not UNLIKE,
         code=code("workflow/scripts/report.py"),

@@ -5,12 +5,11 @@ import json
 import numpy as np
 
 from job import running
-from vibroimpact.figures.companions.force_sweep import compute, draw
+from vibroimpact.figures.companions.force_sweep import VERDICTS, compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
 from vibroimpact.system import System
-from vibroimpact.theory.criteria import CRITERIA
 
 
 def main(parameters: dict, settings: dict, outputs: dict) -> None:
@@ -30,9 +29,10 @@ def for_page(found: dict, values: list) -> dict:
         series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in found["manifold"].groupby("series")
     }
     points = {value: [] for value in values}
-    for row in found["points"].round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4)).to_dict("records"):
-        said = {name: row[name] for name in CRITERIA}
-        place = {"track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
+    rows = found["points"].sort_values(["value", "label"]).round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4))
+    for row in rows.to_dict("records"):
+        said = {name: row[name] for name in VERDICTS}
+        place = {"label": row["label"], "track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
         points[row["value"]].append(place | {"verdicts": said})
     return {"manifold": manifold, "values": values, "points": list(points.values())}
 

@@ -21,8 +21,8 @@ from vibroimpact_pipeline.report.offline import page
 PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
 
 
-def main(notebook, executed, html, parameters: dict) -> None:
-    """Execute and export a notebook.
+def main(notebook, executed, html, parameters: dict, title: str) -> None:
+    """Execute and export a notebook; the title is that of its figure.
 
     Raises:
         ValueError: the parameters cell of the notebook does not name exactly those of PARAMETERS.
@@ -34,7 +34,7 @@ def main(notebook, executed, html, parameters: dict) -> None:
     Path(executed).parent.mkdir(parents=True, exist_ok=True)
     print(f"{notebook} as it was executed: {executed}")
     with replacing(html) as partial:
-        partial.write_text(page(execute(notebook, executed, parameters), title=parameters["figure"]), encoding="utf-8")
+        partial.write_text(page(execute(notebook, executed, parameters), title), encoding="utf-8")
 
 
 def execute(notebook, executed, parameters: dict):
@@ -68,4 +68,5 @@ if "snakemake" in globals():
             "provenance": provenance,
         }
         executed = Path(snakemake.log[0]).with_suffix(".ipynb")
-        main(root_of(snakemake) / snakemake.params.notebook, executed, html, parameters)
+        notebook = root_of(snakemake) / snakemake.params.notebook
+        main(notebook, executed, html, parameters, snakemake.params.title)

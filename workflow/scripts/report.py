@@ -9,7 +9,8 @@ from job import running
 from vibroimpact.figures.kit.markdown import plain
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.report.pages import Pages
+from vibroimpact_pipeline.report.offline import linked
+from vibroimpact_pipeline.report.pages import Pages, anchor
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import write
 
@@ -45,7 +46,9 @@ def collect(results, figure: str, folder: Path) -> None:
     for path in results.files(figure).values():
         copy(path, folder / "figures")
     if notebook := results.notebook(figure):
-        copy(notebook, folder / "notebooks")
+        text = linked(notebook.read_text(encoding="utf-8"), f"../figures.html#{anchor(figure)}")
+        (folder / "notebooks").mkdir(exist_ok=True)
+        (folder / "notebooks" / notebook.name).write_text(text, encoding="utf-8")
 
 
 def copy(path, folder: Path) -> None:
@@ -54,9 +57,11 @@ def copy(path, folder: Path) -> None:
 
 
 def version(root) -> str:
-    """The commit of the checkout, as far as git tells."""
+    """The commit of the checkout and its date, as far as git tells."""
     described = git("describe", "--always", "--dirty=, with changes", root=root)
-    return "a copy without its history" if described is None else f"commit {described}"
+    if described is None:
+        return "a copy without its history"
+    return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 
 if "snakemake" in globals():

@@ -26,7 +26,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
         listed = fixed_points(here)
         says = [criteria.of_fixed_point(here, point) for point in listed]
         for value in epsilon if listed else ():
-            exact = _exact(here.with_(epsilon=value), [point.C for point in listed])
+            exact = exact_verdicts(here.with_(epsilon=value), [point.C for point in listed])
             place = {"epsilon": value, "f10_hat": f10, "f20_hat": f20}
             rows += [
                 {**place, "C1": point.C[0], "C2": point.C[1], **said, **found}
@@ -36,8 +36,8 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
 
-def _exact(system, points):
-    """What is true of the orbit of each fixed point."""
+def exact_verdicts(system, points):
+    """What is true of the orbit of each fixed point, by their C (n, 2): "admissible" and "floquet", as in `compute`."""
     roots = symmetric_solutions(system)
     for partner in partners(points, roots[:, 2:]):
         orbit = None if partner is None else symmetric_orbit(system, roots[partner])

@@ -1,5 +1,8 @@
 """Executed notebooks as HTML pages that read offline: formulas become MathML, nothing is fetched from anywhere."""
 
+import re
+from html import escape
+
 from math_core import LatexToMathML
 from nbconvert import HTMLExporter
 from nbconvert.filters import markdown_mistune
@@ -24,6 +27,9 @@ h1, h2, h3 { line-height: 1.2; }
 pre, code { font: 0.85rem/1.4 monospace; }
 .input_area, .output_area { overflow-x: auto; }
 .input_area { background: #f6f6f6; padding: 0.1rem 0.8rem; }
+.input_area pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+summary { cursor: pointer; font: 0.9rem system-ui, sans-serif; padding: 0.3rem 0; }
+.of { font: 0.9rem system-ui, sans-serif; border-bottom: 1px solid #ccc; padding-bottom: 0.6rem; }
 p:has(> math[display="block"]) { overflow-x: auto; }
 math[display="block"] { margin: 0.6rem 0; }
 /* Beside a numbered formula the margins share the room that is left, and the number keeps its line. */
@@ -32,10 +38,26 @@ img, svg { max-width: 100%; height: auto; }
 table { border-collapse: collapse; font-size: 0.9rem; }
 th, td { padding: 0.15rem 0.6rem; border-bottom: 1px solid #ccc; text-align: right; }
 a.anchor-link { display: none; }
+@media print {
+  body { max-width: none; margin: 0; font-size: 10pt; }
+  .input_area, .output_area, p:has(> math[display="block"]) { overflow: visible; }
+  .output_area pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+  .output_area table { font-size: 7pt; }
+  .output_area th, .output_area td { padding: 0.1rem 0.25rem; overflow-wrap: anywhere; }
+  details::details-content { content-visibility: visible; block-size: auto; }
+  img, tr { break-inside: avoid; }
+  h1, h2, h3, summary { break-after: avoid; }
+}
 </style>
 </head>
 <body>
+<p class="of">Notebook of {{ resources.metadata.name | escape_html }}</p>
 {%- endblock header -%}
+{%- block input_group -%}
+<details><summary>{{ "Parameters" if "injected-parameters" in cell.metadata.tags else "Code" }}</summary>
+{{ super() }}
+</details>
+{%- endblock input_group -%}
 {%- block footer %}
 </body>
 </html>
@@ -84,7 +106,12 @@ def markdown_to_html(source: str) -> str:
     return markdown_mistune.MarkdownWithMath(renderer=renderer).render(source)
 
 
+def linked(page: str, address: str) -> str:
+    """The page of a notebook with a link from its first line to where its figure is shown."""
+    return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
+
+
 def page(notebook, title: str) -> str:
-    """The HTML page of an executed notebook."""
+    """The HTML page of an executed notebook; the title is that of its figure."""
     html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}})
     return guarded(html)

@@ -1,10 +1,12 @@
 """The pages of the report as Markdown: templates and documents, filled with what the results say."""
 
 import json
+import math
 import re
 from collections import Counter
 from functools import lru_cache
 from html import escape
+from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
@@ -13,8 +15,16 @@ import pypandoc
 
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline.report.figure_texts import figure_texts
+from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
+SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?:percent \| )?(?P<place>.+?) -->")
+"""A number of a document, and in a comment behind it the file that it comes from and the place there."""
+SOURCE = (
+    '`<button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
+    '<span popover class="source" id="source-{id}"><b>{value}</b> in <code>results/{file}</code>: {place}. '
+    "Made by <code>snakemake --cores 2 results/{file}</code></span>`{{=html}}"
+)
 NOTICE = (
     "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, "
     "and what documents, findings and errata say is about the chapter's parameters. What differs:"
@@ -57,6 +67,7 @@ class Pages:
             "about": self.about,
             "caption": lru_cache(self.caption),
             "count": Counter,
+            "infinity": math.inf,
             "table": markdown_table,
         }
 
@@ -66,7 +77,23 @@ class Pages:
             text = self.environment.get_template(page["source"]).render(target=target)
         else:
             text = (self.root / page["source"]).read_text(encoding="utf-8")
+            if target == "html" and self.results.judged:
+                numbers = count(1)
+                text = SOURCED.sub(lambda found: self._with_source(found, next(numbers)), text)
         return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
+
+    def _with_source(self, found, number):
+        """A number of a document as a button that shows its value, where that stands, and the command that makes it.
+
+        In a build with other settings there may be no such value: then the number stays as it is.
+        """
+        file, *place = found["place"].split(" | ")
+        try:
+            value = f"{self.results.value(file, *place):.6g}"
+        except (LookupError, ValueError, StopIteration, OSError):
+            return found["number"]
+        told = {"number": found["number"], "value": value, "file": file, "place": ", ".join(place), "id": number}
+        return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):
         """What a page begins with where the config has other parameters than the chapter."""
@@ -113,12 +140,23 @@ def said(numbers) -> str:
     if numbers is None or isinstance(numbers, bool):
         return {True: "yes", False: "no", None: "open"}[numbers]
     if isinstance(numbers, dict):
-        return "; ".join(f"{plain(name.replace('_', ' '))}: {said(value)}" for name, value in numbers.items())
+        return "; ".join(f"{named(name)}: {said(value)}" for name, value in numbers.items())
     if isinstance(numbers, list):
         return ", ".join(said(value) for value in numbers)
     if not isinstance(numbers, int | float):
         return plain(numbers)
     return digits(numbers, 4)
+
+
+def section_of(place: str) -> str:
+    """The section of the chapter that a claim's place is in: the one it names, or that of its equation or figure."""
+    if found := re.search(r"section (10\.\d)", place):
+        return found[1]
+    found = re.search(r"(?P<figure>Fig\w*\. )?\(?10\.(?P<number>\d+)", place)
+    if not found:
+        return "elsewhere"
+    first_of = {"10.4": 6, "10.3": 4} if found["figure"] else {"10.3": 7}
+    return next((section for section, first in first_of.items() if int(found["number"]) >= first), "10.2")
 
 
 def markdown_table(heads: list[str], rows) -> str:
@@ -155,6 +193,7 @@ FILTERS = {
     "digits": digits,
     "plain": plain,
     "said": said,
+    "section": section_of,
     "setting": setting,
     "url": quote,
 }

@@ -2,9 +2,12 @@
 
 import json
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pandas as pd
+
+from vibroimpact.system.verdict import STABLE
 
 KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
 FOLDERS = ("figures", "accuracy", "force_sweep", "animations")
@@ -94,3 +97,49 @@ class Results:
         table = self.table("accuracy/hazards.csv")
         order = list(dict.fromkeys(table["method"]))
         return pd.crosstab(table["method"], table["verdict"]).reindex(order)
+
+    def value(self, file: str, *path: str):
+        """A number in a table (file, query, column) or in JSON (file, key, key ...; an id picks an entry of a list).
+
+        Raises:
+            ValueError: the query finds several values, or none.
+        """
+        if file.endswith(".csv"):
+            query, column = path
+            (found,) = self.table(file).query(query)[column].unique()
+            return found
+        found = json.loads(self.text(file))
+        for key in path:
+            if isinstance(found, list):
+                found = found[int(key)] if key.isdigit() else next(entry for entry in found if entry["id"] == key)
+            else:
+                found = found[key]
+        return found
+
+    def layers(self, figure: str) -> dict[str, list]:
+        """Points (phase, W2) of each motion of companion_10_08: by the theory, as simulated, and its mirror image."""
+        table = self.table(f"figures/{figure}.csv").query("series != 'impact'")
+        motion = table["panel"].where(table["series"] == "W_2", table["series"])
+        return {
+            name: rows[["phase", "W2"]].round(4).to_numpy().tolist() for name, rows in table.groupby(motion, sort=False)
+        }
+
+    def stations(self) -> list[dict]:
+        """Where along the second force stability changes, ascending: value, kind, and how many points it leaves stable.
+
+        Of the fixed points (`stable`: by both time scales, above the value) the special point that lies between the two
+        values of the sweep; of the exact system the onset of the torus, which has no `stable`.
+        """
+        sweep, special = self.table("force_sweep/force_sweep.csv"), self.table("regimes/special_points.csv")
+        stable = sweep["fast_and_slow"].eq(STABLE).groupby(sweep["value"]).sum()
+        special = special[(special["path"] == "f20_hat") & (special["family"] == "fixed point") & special["admissible"]]
+        found = []
+        for low, high in pairwise(stable.index):
+            if stable[low] != stable[high]:
+                between = special[special["p"].between(low, high)]
+                found += [
+                    {"value": row.p, "kind": row.kind, "stable": int(stable[high])} for row in between.itertuples()
+                ]
+        onsets = self.table("regimes/torus_onsets.csv").query("path == 'f20_hat'")["onset"]
+        found += [{"value": onset, "kind": "torus", "stable": None} for onset in onsets]
+        return sorted(found, key=lambda station: station["value"])

@@ -38,10 +38,22 @@ def write(folder, root, pages, settings: dict, footer: str) -> None:
 
 def site_page(page: dict, sources: Path, pages, settings: dict, titles: dict) -> str:
     """One page of the site."""
-    nav = [{**other, "current": other is page} for other in settings["pages"]]
-    known = {"page": page["name"], "pagetitle": page["title"], "nav": nav, "pdf": PDF, **titles}
+    known = {"page": page["name"], "pagetitle": page["title"], "nav": navigation(page, settings), **titles}
     text = convert(pages.markdown(page, "html"), "html", sources, known, "page.html", reader_of(page))
     return guarded(text, lambda name: (sources / name).read_text(encoding="utf-8"))
+
+
+def navigation(page: dict, settings: dict) -> list[dict]:
+    """The pages in their groups, and what belongs to the last of these without being a page."""
+    groups = {}
+    for other in settings["pages"]:
+        entry = {"address": f"{other['name']}.html", "title": other["title"], "current": other is page}
+        groups.setdefault(other["group"], []).append(entry)
+    groups["rerun"] += [{"address": "api/vibroimpact.html", "title": "The library"}, {"address": PDF, "title": "PDF"}]
+    return [
+        {"group": group.capitalize(), "current": group == page["group"], "pages": pages}
+        for group, pages in groups.items()
+    ]
 
 
 def write_document(folder: Path, sources: Path, pages, settings: dict, titles: dict) -> None:
@@ -51,6 +63,8 @@ def write_document(folder: Path, sources: Path, pages, settings: dict, titles: d
         for page in settings["pages"]
     ]
     document = (sources / "document.typ").read_text(encoding="utf-8")
+    abstract = settings["done"] if pages.departures else f"{settings['done']} {settings['found']}"
+    titles = titles | {"abstract": abstract}
     titles = {name: pypandoc.convert_text(text, "typst", FILLED).strip() for name, text in titles.items()}
     for name, text in {**titles, "body": "\n\n".join(chapters)}.items():
         document = document.replace(f"${name}$", text)

@@ -209,6 +209,15 @@ def test_lines_say_why_and_the_data_are_plain_json(reference, tmp_path):
     assert json.loads(json.dumps(verdicts, allow_nan=False)) == verdicts
 
 
+@pytest.mark.parametrize(("distance", "commands"), [(0.0, 0), (0.5, 1)])
+def test_a_figure_that_has_drifted_can_be_accepted_from_its_place(reference, distance, commands):
+    verdict = figure_check.check("fig10_04", reference, reference, LIMITS)
+    drifted = verdict | {"artists": {"distance": distance, "limit": 1.0}}
+    assert drifted["status"] == "passed"
+    html = page([drifted], reference, reference, LIMITS)
+    assert html.count("make accept REASON=&#34;why&#34; FIGURES=&#34;fig10_04&#34;") == commands
+
+
 def test_the_page_shows_all_and_fetches_nothing(reference, tmp_path):
     shutil.copytree(reference, tmp_path / "new")
     shutil.copy(reference / "fig10_04.png", tmp_path / "new/fig10_05.png")

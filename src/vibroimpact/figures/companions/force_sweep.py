@@ -5,17 +5,20 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import linear_sum_assignment
 
+from vibroimpact.claims.verdict_grid import exact_verdicts
 from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import join
 from vibroimpact.system.verdict import STABLE
-from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
+from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
+from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GREY, (0, (4.5, 1.5)), "D")]
 """Colour, line and marker of each track."""
 EVERY = 6
-"""Markers stand at every so many values: filled where the slow flow is stable, hollow where it is not."""
+"""Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
+VERDICTS = (*CRITERIA, "fast_and_slow", "floquet")
 
 
 def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
@@ -26,7 +29,9 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         C_max: the manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
 
     Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
-    C2, B2, and the verdicts of the theory's criteria; "manifold": columns series, C, B as in figure 10.4.
+    C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
+    both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "manifold":
+    columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names = []
@@ -35,10 +40,13 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         now = np.array([point.C for point in points]).reshape(-1, 2)
         names, tracks = _continued(names, last, now, tracks)
         last = now
-        for track, point in zip(names, points, strict=True):
+        exact = exact_verdicts(system, now) if points else ()
+        for track, point, label, true in zip(names, points, labels(system, points), exact, strict=True):
+            says = of_fixed_point(system, point)
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
-            rows.append({**row, "B2": point.B[1], **of_fixed_point(system, point)})
-    points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", *CRITERIA])
+            row |= {"B2": point.B[1], "label": label, **says, "fast_and_slow": fast_and_slow(says)}
+            rows.append(row | {"floquet": true["floquet"]})
+    points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
     end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
     kappa = next(iter(systems.values())).kappa
     return {"points": points, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
@@ -57,23 +65,26 @@ def _continued(names, last, now, tracks):
 def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
     """C_1 and C_2 of each track over the parameter, which `name` names as mathematics.
 
-    Filled markers: stable by the slow flow; hollow: not.
+    Filled markers: stable by both time scales; in a ring: its exact orbit is stable. Letters: where the label changes.
     """
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     points = tables["points"]
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
         for track, rows in points.groupby("track"):
             colour, line, marker = LOOKS[(track - 1) % len(LOOKS)]
-            axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line, label=f"point {track}")
-            for stable, face in ((True, colour), (False, "white")):
-                shown = rows.iloc[::EVERY]
-                shown = shown[(shown["slow_flow"] == STABLE) == stable]
-                style = {"color": colour, "markerfacecolor": face, "markersize": 3.6, "linestyle": "none"}
-                axes.plot(shown["value"], shown[f"C{module}"], marker=marker, **style)
+            axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line)
+            renamed = (
+                rows[rows["label"] != rows["label"].shift()] if module == 2 else rows[:0]
+            )  # there the lines keep apart
+            for value, C, label in renamed[["value", "C2", "label"]].itertuples(index=False):
+                axes.annotate(label, (value, C), (3, 4), textcoords="offset points", color=colour, fontsize=8)
+            marked = rows.iloc[::EVERY]
+            theory, exact = (marked[name] == STABLE for name in ("fast_and_slow", "floquet"))
+            for shown, face, size in ((theory, colour, 3.6), (~theory, "white", 3.6), (exact, "none", 6.6)):
+                style = {"color": colour, "markerfacecolor": face, "markersize": size, "linestyle": "none"}
+                axes.plot(marked["value"][shown], marked[f"C{module}"][shown], marker=marker, **style)
         axes.set(xlabel=f"${name}$", ylabel=f"$C_{module}$")
         if len(points):
             axes.set_xlim(points["value"].min(), points["value"].max())
         letter_panel(axes, letter)
-        if module == 1 and len(points):
-            axes.legend(fontsize=8)
     return figure

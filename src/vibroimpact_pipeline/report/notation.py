@@ -1,0 +1,54 @@
+"""Names of numbers and parts behind claims, as the results have them -> Markdown, with formulas set."""
+
+import re
+
+from vibroimpact.figures.kit.markdown import plain
+
+GREEK = {"kappa": r"\kappa", "epsilon": r"\varepsilon", "Omega": r"\Omega"}
+WHOLE = {
+    "printed_10_26": "by (10.26)",
+    "masri_derived": "by Masri's analysis",
+    "slow_flow": "by the slow flow",
+    "floquet": "in truth",
+    "M / m": "$M/m$",
+    "m / M": "$m/M$",
+    "k12 / k": "$k_{12}/k$",
+    "c12 / c": "$c_{12}/c$",
+    "-(1 + kappa) W' in W": r"$-(1 + \kappa) W'$ in $W$",
+    "8 C / (pi n)^2 for odd n, 0 for even n": r"$8C/(\pi n)^2$ for odd $n$, 0 for even $n$",
+    "S1 by sin^2 + cos^2 = 1": r"$S_1$ by $\sin^2 + \cos^2 = 1$",
+}
+SYMBOL = re.compile(
+    r"\b(?:(?P<greek>kappa|epsilon|Omega)|(?P<least>[BC])_min|(?P<letter>[BCPSUWck])(?P<index>\d+)"
+    r"|f(?P<force>[12]0)|(?P<alone>[BCSWY]))\b|(?P<sign>>=)"
+)
+
+
+def named(text) -> str:
+    """The Markdown of a name: letters of the chapter in it are formulas, the rest stays as it is."""
+    text = str(text)
+    if text in WHOLE:
+        return WHOLE[text]
+    parts, end = [], 0
+    for symbol in SYMBOL.finditer(text):
+        parts += [_plain(text[end : symbol.start()]), f"${_formula(symbol)}$"]
+        end = symbol.end()
+    return "".join([*parts, _plain(text[end:])])
+
+
+def _plain(text):
+    """As `plain`, with the blanks at both ends."""
+    return " " * text.startswith(" ") + plain(text.replace("_", " ")) + " " * (text.endswith(" ") and text != " ")
+
+
+def _formula(symbol):
+    found = symbol.groupdict()
+    if found["greek"]:
+        return GREEK[found["greek"]]
+    if found["least"]:
+        return rf"{found['least']}_{{\min}}"
+    if found["letter"]:
+        return f"{found['letter']}_{{{found['index']}}}"
+    if found["force"]:
+        return rf"\hat f_{{{found['force']}}}"
+    return found["alone"] or r"\ge"
