@@ -40,7 +40,7 @@ class HarmonicResponse:
             raise ValueError(f"system: undamped boxes in resonance with a harmonic of Omega = {system.Omega}; add damping")
         self._receptance = 4 / system.period * np.linalg.inv(stiffness)
         summed = 4 / system.period * np.sum(self.frequencies**-2.0)
-        self._own = np.eye(2) * (summed - system.period / 8 if free_mass else 0.0)
+        self._own = summed - system.period / 8 if free_mass else 0.0
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
         """As ImpulseResponse.between: displacement, velocity and acceleration, each (*times.shape, n)."""
@@ -49,6 +49,5 @@ class HarmonicResponse:
         series = self._receptance[:, boxes[:, None], boxes] * turns
         rate = 1j * self.frequencies[:, None, None]
         x, v, a = (np.sum(rate**k * series, axis=-3).real for k in range(3))
-        same = boxes[:, None] == boxes
-        own = np.eye(len(boxes), dtype=bool) & same
-        return x + self._own[boxes[:, None], boxes] * own, v - 0.5 * own, a
+        own = np.eye(len(boxes))
+        return x + self._own * own, v - 0.5 * own, a

@@ -1,0 +1,96 @@
+"""The rungs from leading order to the exact orbit: what each says of the symmetric motions, and what it costs.
+
+Rungs, in order: leading order; two terms; N harmonics of the boxes' centre coordinate U_i at finite epsilon
+(`exact.orbits.harmonics`); exact. The cost is counted, not timed: how many terms of the boxes' response are summed until
+all motions at one pair of forces are found. Leading order knows one, the resonant one; the exact response is a Taylor
+series of six. Two terms ask the exact conditions at three small epsilon, once for every epsilon.
+"""
+
+from contextlib import suppress
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.exact.orbits.harmonics import HarmonicResponse
+from vibroimpact.exact.orbits.impulse_response import impulse_response
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.regimes import two_terms
+from vibroimpact.regimes.epsilon_limit import NoOrbit
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory import criteria
+from vibroimpact.theory.fixed_points.search import fixed_points
+
+LEADING, TWO_TERMS, EXACT = "leading order", "two terms", "exact"
+_TAYLOR_TERMS = 6
+
+
+class Rung(NamedTuple):
+    """What a rung says of a system: C (n, 2) of its motions, the verdict on each, and the terms summed."""
+
+    C: np.ndarray
+    verdicts: list[str]
+    cost: int
+
+
+class _Counted:
+    """A response of the boxes that counts how often it is asked."""
+
+    def __init__(self, response):
+        self._response, self.asked = response, 0
+
+    def between(self, times, boxes):
+        self.asked += len(times)
+        return self._response.between(times, boxes)
+
+
+def harmonics_name(highest: int, free_mass: bool = True) -> str:
+    """Name of the rung of N harmonics of U_i, or of the boxes X_i."""
+    return f"N = {highest}" if free_mass else f"N = {highest}, of X"
+
+
+def rungs(system, harmonics) -> dict[str, Rung]:
+    """Every rung for one system, by name, from the lowest to the exact one.
+
+    Args:
+        harmonics: the numbers N, odd, ascending.
+
+    Those of harmonics are judged by the Floquet multipliers of (10.2), linearised about the motion that they say.
+    """
+    points = fixed_points(system)
+    leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
+    found = {LEADING: Rung(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
+    for free_mass in (False, True):
+        for highest in harmonics:
+            response = HarmonicResponse(system, highest, free_mass)
+            found[harmonics_name(highest, free_mass)] = _solved(system, response, response.terms)
+    return found | {EXACT: _solved(system, impulse_response(system, -1), _TAYLOR_TERMS)}
+
+
+def error(C: np.ndarray, exact: np.ndarray) -> float:
+    """How wrong C (n, 2) of a rung's motions is against (m, 2): the largest relative error of all; inf if n is not m."""
+    if len(C) != len(exact):
+        return np.inf
+    off = np.abs(C[:, None] - exact[None]).max(axis=2) / np.abs(exact).max(axis=1, initial=0.0)
+    return float(max(off.min(axis=axis).max(initial=0.0) for axis in (0, 1))) if len(C) else 0.0
+
+
+def _two_terms(system, points):
+    C, verdicts = [], []
+    for point in points:
+        with suppress(NoOrbit):
+            C.append(two_terms.amplitudes(system, point))
+            verdicts.append(two_terms.verdict(system, point, C[-1]))
+    return Rung(_stack(C), verdicts, 0)
+
+
+def _solved(system, response, terms):
+    counted = _Counted(response)
+    roots = [root for root in symmetric_solutions(system, counted) if root[2:].min() > 0]
+    moduli = [abs(symmetric_orbit(system, root).multipliers[0]) for root in roots]
+    verdicts = [STABLE if modulus < 1 else UNSTABLE for modulus in moduli]
+    return Rung(_stack([root[2:] for root in roots]), verdicts, terms * counted.asked)
+
+
+def _stack(C):
+    return np.reshape(C, (-1, 2))
