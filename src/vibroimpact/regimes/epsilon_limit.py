@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from vibroimpact.exact.orbits.impulse_response import impulse_response
 from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions
@@ -69,17 +70,20 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
     )
 
 
-def first_order(system, point, step: float) -> np.ndarray:
+def first_order(system, point, step: float, response=impulse_response) -> np.ndarray:
     """What the second term of (10.7) adds to a fixed point, per epsilon: C and impact phases [rad], (4,).
 
     The derivative of the exact orbit by epsilon at 0: the conditions of the orbit are solved from the fixed point.
+
+    Args:
+        response: gives the boxes' response, as `impulse_response`.
 
     Raises:
         NoOrbit: no orbit is reached.
     """
 
     def slope(epsilon):
-        return _reached(system.with_(epsilon=epsilon), point) / epsilon
+        return _reached(system.with_(epsilon=epsilon), point, response) / epsilon
 
     return at_zero(slope, step)
 
@@ -118,10 +122,10 @@ def _nearest(system, point):
     return roots[nearest], offsets[nearest]
 
 
-def _reached(system, point):
+def _reached(system, point, response):
     """Offset of the orbit that Newton's method reaches from a fixed point."""
     start = np.concatenate([impact_times(system, point), point.C])
-    roots = newton(SymmetricConditions(system), start[None])
+    roots = newton(SymmetricConditions(system, response(system, -1)), start[None])
     if not len(roots):
         raise NoOrbit("system: no symmetric 1:1 orbit is reached from the fixed point")
     return _offsets(system, point, roots)[0]

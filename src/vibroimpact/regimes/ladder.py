@@ -44,9 +44,9 @@ class _Counted:
         return self._response.between(times, boxes)
 
 
-def harmonics_name(highest: int, free_mass: bool = True) -> str:
-    """Name of the rung of N harmonics of U_i, or of the boxes X_i."""
-    return f"N = {highest}" if free_mass else f"N = {highest}, of X"
+def harmonics_name(highest: int) -> str:
+    """Name of the rung of N harmonics."""
+    return f"N = {highest}"
 
 
 def rungs(system, harmonics) -> dict[str, Rung]:
@@ -55,41 +55,58 @@ def rungs(system, harmonics) -> dict[str, Rung]:
     Args:
         harmonics: the numbers N, odd, ascending.
 
-    Those of harmonics are judged by the Floquet multipliers of (10.2), linearised about the motion that they say.
+    The motions of N harmonics are judged by Floquet multipliers: of (10.2), linearised about what they say.
     """
     points = fixed_points(system)
     leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
     found = {LEADING: Rung(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
-    for free_mass in (False, True):
-        for highest in harmonics:
-            response = HarmonicResponse(system, highest, free_mass)
-            found[harmonics_name(highest, free_mass)] = _solved(system, response, response.terms)
-    return found | {EXACT: _solved(system, impulse_response(system, -1), _TAYLOR_TERMS)}
+    responses = {harmonics_name(N): HarmonicResponse(system, N, free_mass=True) for N in harmonics}
+    found |= {name: _judged(system, response, response.terms) for name, response in responses.items()}
+    return found | {EXACT: _judged(system, impulse_response(system, -1), _TAYLOR_TERMS)}
+
+
+def force_harmonics(system, highest: int) -> Rung:
+    """The rung of N harmonics of the force, where the free mass has N harmonics too; without verdicts."""
+    response = HarmonicResponse(system, highest)
+    roots, asked = _solved(system, response)
+    return Rung(roots[:, 2:], [], response.terms * asked)
 
 
 def error(C: np.ndarray, exact: np.ndarray) -> float:
-    """How wrong C (n, 2) of a rung's motions is against (m, 2): the largest relative error of all; inf if n is not m."""
+    """How wrong C (n, 2) of a rung's motions is against (m, 2): the largest relative error; nan if n is not m."""
     if len(C) != len(exact):
-        return np.inf
-    off = np.abs(C[:, None] - exact[None]).max(axis=2) / np.abs(exact).max(axis=1, initial=0.0)
-    return float(max(off.min(axis=axis).max(initial=0.0) for axis in (0, 1))) if len(C) else 0.0
+        return np.nan
+    if not len(C):
+        return 0.0
+    off = np.abs(C[:, None] - exact[None]).max(axis=2) / np.abs(exact).max(axis=1)
+    return float(max(off.min(axis=0).max(), off.min(axis=1).max()))
 
 
 def _two_terms(system, points):
-    C, verdicts = [], []
+    asked, C, verdicts = [], [], []
+
+    def counted(system, sign):
+        asked.append(_Counted(impulse_response(system, sign)))
+        return asked[-1]
+
     for point in points:
         with suppress(NoOrbit):
-            C.append(two_terms.amplitudes(system, point))
+            C.append(two_terms.amplitudes(system, point, counted))
             verdicts.append(two_terms.verdict(system, point, C[-1]))
-    return Rung(_stack(C), verdicts, 0)
+    return Rung(_stack(C), verdicts, _TAYLOR_TERMS * sum(one.asked for one in asked))
 
 
-def _solved(system, response, terms):
+def _solved(system, response):
+    """The roots (n, 4) that are motions, C > 0, and how often the response was asked."""
     counted = _Counted(response)
-    roots = [root for root in symmetric_solutions(system, counted) if root[2:].min() > 0]
+    roots = symmetric_solutions(system, counted)
+    return roots[(roots[:, 2:] > 0).all(axis=1)], counted.asked
+
+
+def _judged(system, response, terms):
+    roots, asked = _solved(system, response)
     moduli = [abs(symmetric_orbit(system, root).multipliers[0]) for root in roots]
-    verdicts = [STABLE if modulus < 1 else UNSTABLE for modulus in moduli]
-    return Rung(_stack([root[2:] for root in roots]), verdicts, terms * counted.asked)
+    return Rung(roots[:, 2:], [STABLE if modulus < 1 else UNSTABLE for modulus in moduli], terms * asked)
 
 
 def _stack(C):

@@ -7,6 +7,7 @@ which multiple scales give.
 import numpy as np
 from scipy.optimize import bisect
 
+from vibroimpact.exact.orbits.impulse_response import impulse_response
 from vibroimpact.regimes.epsilon_limit import at_zero, first_order
 from vibroimpact.regimes.families import FixedPoints, SymmetricOrbits
 from vibroimpact.system.verdict import STABLE, UNSTABLE
@@ -18,13 +19,13 @@ STEP = 2e-4
 _FOLD_STEP, _FOLD_ERROR = 2e-3, 1e-9
 
 
-def amplitudes(system, point) -> np.ndarray:
-    """C_1, C_2 to the next order, shape (2,).
+def amplitudes(system, point, response=impulse_response) -> np.ndarray:
+    """C_1, C_2 to the next order, shape (2,); `response` as for `first_order`.
 
     Raises:
         NoOrbit: no orbit is reached from the fixed point at small epsilon.
     """
-    return point.C + system.epsilon * first_order(system, point, STEP)[:2]
+    return point.C + system.epsilon * first_order(system, point, STEP, response)[:2]
 
 
 def symmetry_breaking(epsilon: float) -> float:
@@ -49,7 +50,7 @@ def fold(system, name: str, interval) -> dict[str, float]:
     Args:
         name: of the parameter. interval: a range of it in which the number of responses changes once.
 
-    Returns "leading order", "slope", "two terms", "exact", all in the parameter.
+    Returns "leading order", "slope", "two terms", "exact", all in the parameter; nan where the number does not change.
     """
 
     def of(family, at):
@@ -58,6 +59,8 @@ def fold(system, name: str, interval) -> dict[str, float]:
 
         low, high = interval
         many = responses(high)
+        if responses(low) == many:
+            return np.nan
         return bisect(lambda p: 1 if responses(p) == many else -1, low, high, xtol=_FOLD_ERROR)
 
     leading = of(FixedPoints, system)
