@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.harmonics import HarmonicResponse
 from vibroimpact.exact.orbits.impulse_response import impulse_response
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.epsilon_limit import NoOrbit
-from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.search import fixed_points
 
@@ -26,7 +26,7 @@ _TAYLOR_TERMS = 6
 
 
 class Rung(NamedTuple):
-    """What a rung says of a system: C (n, 2) of its motions, the verdict on each, and the terms summed."""
+    """What a rung says of a system: C (n, 2) of its motions, the verdict on each (none by harmonics), the terms summed."""
 
     C: np.ndarray
     verdicts: list[str]
@@ -54,20 +54,19 @@ def rungs(system, harmonics) -> dict[str, Rung]:
 
     Args:
         harmonics: the numbers N, odd, ascending.
-
-    The motions of N harmonics are judged by Floquet multipliers: of (10.2), linearised about what they say.
     """
     points = fixed_points(system)
     leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
     found = {LEADING: Rung(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
-    responses = {harmonics_name(N): HarmonicResponse(system, N, free_mass=True) for N in harmonics}
-    found |= {name: _judged(system, response, response.terms) for name, response in responses.items()}
-    return found | {EXACT: _judged(system, impulse_response(system, -1), _TAYLOR_TERMS)}
+    found |= {harmonics_name(N): of_harmonics(system, N, free_mass=True) for N in harmonics}
+    roots, asked = _solved(system, impulse_response(system, -1))
+    verdicts = [floquet(symmetric_orbit(system, root)) for root in roots]
+    return found | {EXACT: Rung(roots[:, 2:], verdicts, _TAYLOR_TERMS * asked)}
 
 
-def force_harmonics(system, highest: int) -> Rung:
-    """The rung of N harmonics of the force, where the free mass has N harmonics too; without verdicts."""
-    response = HarmonicResponse(system, highest)
+def of_harmonics(system, highest: int, free_mass: bool) -> Rung:
+    """The rung of N harmonics, of U_i or (free_mass False) of the balls' force on the boxes."""
+    response = HarmonicResponse(system, highest, free_mass)
     roots, asked = _solved(system, response)
     return Rung(roots[:, 2:], [], response.terms * asked)
 
@@ -101,12 +100,6 @@ def _solved(system, response):
     counted = _Counted(response)
     roots = symmetric_solutions(system, counted)
     return roots[(roots[:, 2:] > 0).all(axis=1)], counted.asked
-
-
-def _judged(system, response, terms):
-    roots, asked = _solved(system, response)
-    moduli = [abs(symmetric_orbit(system, root).multipliers[0]) for root in roots]
-    return Rung(roots[:, 2:], [STABLE if modulus < 1 else UNSTABLE for modulus in moduli], terms * asked)
 
 
 def _stack(C):

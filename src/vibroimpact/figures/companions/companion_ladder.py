@@ -1,7 +1,6 @@
 """Companion: from leading order to the exact orbit, rung by rung: error, cost, and the cheapest rung that is right."""
 
 from collections import Counter
-from itertools import cycle
 
 import numpy as np
 import pandas as pd
@@ -14,7 +13,7 @@ from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_pan
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.cells import plane_of_forces
-from vibroimpact.regimes.ladder import EXACT, LEADING, TWO_TERMS, error, force_harmonics, harmonics_name, rungs
+from vibroimpact.regimes.ladder import EXACT, LEADING, TWO_TERMS, error, harmonics_name, of_harmonics, rungs
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
 CASES, PLANE, THEORY, OF_U, OF_FORCE = "cases", "plane", "theory", "harmonics of U", "harmonics of the force"
@@ -55,7 +54,7 @@ def _of_case(case, system, harmonics):
     found = rungs(system, harmonics)
     exact = found[EXACT].C
     series = {name: THEORY if name in (LEADING, TWO_TERMS) else OF_U for name in found if name != EXACT}
-    plain = {harmonics_name(N): force_harmonics(system, N) for N in harmonics}
+    plain = {harmonics_name(N): of_harmonics(system, N, free_mass=False) for N in harmonics}
     every = [(series[name], name, found[name]) for name in series] + [(OF_FORCE, *item) for item in plain.items()]
     for kind, name, rung in every:
         yield curve(CASES, kind, label=f"{name}, {case}", cost=rung.cost, error=error(rung.C, exact))
@@ -72,7 +71,8 @@ def _verdicts(plane):
     counts = Counter()
     for found in plane:
         exact = found[EXACT]
-        for name, rung in found.items():
+        for name in (LEADING, TWO_TERMS):
+            rung = found[name]
             true = [NO_ORBIT if k is None else exact.verdicts[k] for k in partners(rung.C, exact.C)]
             counts.update(zip([name] * len(true), rung.verdicts, true, strict=True))
     rows = [(*key, number) for key, number in counts.items()]
@@ -96,9 +96,11 @@ def draw(tables: dict) -> Figure:
     figure = new_figure(DOUBLE_COLUMN, 82.0)
     left, *maps = figure.subplots(1, 1 + len(LIMITS), width_ratios=[1.25, 1, 1])
     letter_panel(left, "a")
-    _draw_errors(left, table[table["panel"] == CASES])
+    cases = table[table["panel"] == CASES]
+    _draw_errors(left, cases)
     plane = table[table["panel"] == PLANE]
-    order = [name for name in dict.fromkeys(tables["verdicts"]["rung"]) if (plane["label"] == name).any()]
+    rungs_of = cases[cases["series"].isin([THEORY, OF_U])]["label"].str.rsplit(", ", n=1).str[0]
+    order = [name for name in [*dict.fromkeys(rungs_of), EXACT] if (plane["label"] == name).any()]
     for axes, name, letter in zip(maps, LIMITS, "bc", strict=True):
         letter_panel(axes, letter)
         axes.set_title(f"right to {name}", loc="right", pad=3)
@@ -117,14 +119,14 @@ def _draw_errors(axes, rows):
     for series, style in STYLES.items():
         line = worst[worst["series"] == series]
         axes.plot(line["cost"], line["error"], **({"color": BLACK} | style), label=series)
-    shifts = cycle([(6, 2)])
     for row in worst[worst["series"].isin([THEORY, OF_U])].itertuples():
-        axes.annotate(row.rung, (row.cost, row.error), next(shifts), textcoords="offset points", fontsize=7.5)
+        aside = {"xytext": (-6, -8), "ha": "right"} if row.series == THEORY and row.cost > 1 else {"xytext": (6, -2)}
+        axes.annotate(row.rung, (row.cost, row.error), **aside, textcoords="offset points", fontsize=7.5)
     cost = worst.loc[worst["series"] == EXACT, "cost"].max()
     axes.axvline(cost, color=BLACK, linewidth=0.8, linestyle=":")
     axes.annotate("exact", (cost, 0.02), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right")
     axes.set(xscale="log", yscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
-    axes.margins(x=0.18)
+    axes.margins(x=0.22, y=0.08)
 
 
 def _draw_map(axes, rows, order):
