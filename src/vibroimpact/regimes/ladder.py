@@ -1,9 +1,9 @@
 """The rungs from leading order to the exact orbit: what each says of the symmetric motions, and what it costs.
 
 Rungs, in order: leading order; two terms; N harmonics of the boxes' centre coordinate U_i at finite epsilon
-(`exact.orbits.harmonics`); exact. The cost is counted, not timed: how many terms of the boxes' response are summed until
-all motions at one pair of forces are found. Leading order knows one, the resonant one; the exact response is a Taylor
-series of six. Two terms ask the exact conditions at three small epsilon, once for every epsilon.
+(`exact.orbits.harmonics`); exact. The cost is counted, not timed: how many terms of the boxes' response are summed
+until all motions at one pair of forces are found. Leading order knows one, the resonant one; the exact response is a
+Taylor series of six. Two terms ask the exact conditions at three small epsilon, once for every epsilon.
 """
 
 from contextlib import suppress
@@ -26,7 +26,10 @@ _TAYLOR_TERMS = 6
 
 
 class Rung(NamedTuple):
-    """What a rung says of a system: C (n, 2) of its motions, the verdict on each (none by harmonics), the terms summed."""
+    """What a rung says of a system.
+
+    C: (n, 2) of its motions; verdicts: on each, none by harmonics; cost: terms summed.
+    """
 
     C: np.ndarray
     verdicts: list[str]

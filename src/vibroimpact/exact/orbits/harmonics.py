@@ -31,13 +31,17 @@ class HarmonicResponse:
 
     def __init__(self, system, highest: int, free_mass: bool = False):
         if highest < 1 or highest % 2 == 0:
-            raise ValueError(f"highest: {highest} is no odd number from 1 on; symmetric motions have odd harmonics only")
+            raise ValueError(
+                f"highest: {highest} is no odd number from 1 on; symmetric motions have odd harmonics only"
+            )
         self.terms = (highest + 1) // 2
         self.frequencies = system.Omega * np.arange(1, highest + 1, 2)
         w = self.frequencies[:, None, None]
         stiffness = stiffness_matrix(system) - w**2 * np.eye(2) + 1j * w * damping_matrix(system)
         if np.linalg.cond(stiffness).max() > 1e12:
-            raise ValueError(f"system: undamped boxes in resonance with a harmonic of Omega = {system.Omega}; add damping")
+            raise ValueError(
+                f"system: undamped boxes in resonance with a harmonic of Omega = {system.Omega}; add damping"
+            )
         self._receptance = 4 / system.period * np.linalg.inv(stiffness)
         summed = 4 / system.period * np.sum(self.frequencies**-2.0)
         self._own = summed - system.period / 8 if free_mass else 0.0

@@ -124,7 +124,9 @@ def _draw_errors(axes, rows):
         axes.annotate(row.rung, (row.cost, row.error), **aside, textcoords="offset points", fontsize=7.5)
     cost = worst.loc[worst["series"] == EXACT, "cost"].max()
     axes.axvline(cost, color=BLACK, linewidth=0.8, linestyle=":")
-    axes.annotate("exact", (cost, 0.02), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right")
+    axes.annotate(
+        "exact", (cost, 0.02), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right"
+    )
     axes.set(xscale="log", yscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
     axes.margins(x=0.22, y=0.08)
 
