@@ -1,4 +1,4 @@
-"""The boxes' response to the kicks as a sum of harmonics: the rungs between the describing function and the exact orbit.
+"""The boxes' response to the kicks in harmonics: the rungs between the describing function and the exact orbit.
 
 A train of alternating unit impulses, one every T/2, is (4/T) sum cos(n Omega s) over odd n. Through the receptances
 H(n Omega) = dynamic stiffness^-1 of the boxes, which are exact at any epsilon, it moves them by
@@ -6,9 +6,9 @@ H(n Omega) = dynamic stiffness^-1 of the boxes, which are exact at any epsilon, 
     x(s) = (4/T) Re sum_{n = 1, 3, ..., N} H(n Omega) exp(i n Omega s).
 
 N = 1 is the describing function of the balls, harmonic balance with one harmonic; with N -> infinity the symmetric
-conditions are those of the exact orbit (Masri and Caughey 1966 for one module). Two facts about the impact itself, s = 0,
-need no series. There the velocity of the kicked box jumps by 1 and the sum gives the mean of both sides: just before, it
-is lower by 1/2. And the part -1/(n Omega)^2 of H, that of a free mass, sums to -T/8. Without it, x(0) converges like
+conditions are those of the exact orbit (Masri and Caughey 1966 for one module). Two facts about the impact itself need
+no series. There, s = 0, the velocity of the kicked box jumps by 1 and the sum gives the mean of both sides: just before,
+it is lower by 1/2. And the part -1/(n Omega)^2 of H, that of a free mass, sums to -T/8. Without it, x(0) converges like
 1/N: its error is 1/(pi Omega N) to leading order; with it, like 1/N^3. The mean velocity converges like gamma/N.
 """
 

@@ -35,10 +35,10 @@ def compute(systems: dict, harmonics, f10_range, f20_range, points: int, fold_ra
         harmonics: of the rungs, odd, ascending; the first three also over the plane.
         fold_range: of f20_hat, with one fold.
 
-    Returns "csv": columns panel ("cases" or "plane"), series ("theory", "harmonics of U", "harmonics of the force"; in
-    "plane" how far off the rung may be), label (of "cases" rung and case, of "plane" the cheapest such rung), cost, error
-    (blank where the number of motions is wrong), f10_hat, f20_hat; "verdicts": rung, said, true, motions, over the plane;
-    "limits": limit, leading, slope, two_terms, exact.
+    Returns "csv": columns panel ("cases" or "plane"), series ("theory", "harmonics of U", "harmonics of the force",
+    "exact"; in "plane" how far off the rung may be), label (rung and case; in "plane" the lowest such rung), cost, error
+    (blank where the number of motions is wrong), f10_hat, f20_hat; "verdicts": rung, said, true, motions, over the
+    plane; "limits": limit, leading, slope, two_terms, exact.
     """
     system = next(iter(systems.values()))
     plane = {
@@ -120,14 +120,20 @@ def _draw_errors(axes, rows):
         line = worst[worst["series"] == series]
         axes.plot(line["cost"], line["error"], **({"color": BLACK} | style), label=series)
     for row in worst[worst["series"].isin([THEORY, OF_U])].itertuples():
-        aside = {"xytext": (-6, -8), "ha": "right"} if row.series == THEORY and row.cost > 1 else {"xytext": (6, -2)}
+        aside = (
+            {"xytext": (6, -2)}
+            if row.rung == LEADING
+            else {"xytext": (-5, 4 if row.rung == TWO_TERMS else -9), "ha": "right"}
+        )
         axes.annotate(row.rung, (row.cost, row.error), **aside, textcoords="offset points", fontsize=7.5)
     cost = worst.loc[worst["series"] == EXACT, "cost"].max()
     axes.axvline(cost, color=BLACK, linewidth=0.8, linestyle=":")
     axes.annotate(
         "exact", (cost, 0.02), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right"
     )
-    axes.set(xscale="log", yscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
+    axes.set(xscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
+    if worst["error"].gt(0).any():
+        axes.set_yscale("log")
     axes.margins(x=0.22, y=0.08)
 
 
