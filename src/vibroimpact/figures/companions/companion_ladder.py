@@ -37,8 +37,8 @@ def compute(systems: dict, harmonics, f10_range, f20_range, points: int, fold_ra
 
     Returns "csv": columns panel ("cases" or "plane"), series ("theory", "harmonics of U", "harmonics of the force",
     "exact"; in "plane" how far off the rung may be), label (rung and case; in "plane" the lowest such rung), cost,
-    error (blank where the number of motions is wrong), f10_hat, f20_hat; "verdicts": rung, said, true, motions, over the
-    plane; "limits": limit, leading, slope, two_terms, exact.
+    error (blank where the number of motions is wrong), f10_hat, f20_hat; "verdicts": rung, said, true, motions, over
+    the plane; "limits": limit, leading, slope, two_terms, exact.
     """
     system = next(iter(systems.values()))
     plane = {
