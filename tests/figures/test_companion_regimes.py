@@ -10,7 +10,7 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
-from vibroimpact.figures.companions import companion_asymmetric
+from vibroimpact.figures.companions import companion_asymmetric, companion_ladder
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -31,6 +31,7 @@ MODULES = {
     "basins": basins,
     "epsilon": epsilon_limit,
     "asymmetric": companion_asymmetric,
+    "ladder": companion_ladder,
 }
 
 
@@ -63,6 +64,7 @@ def tables():
         "asymmetric": companion_asymmetric.compute(
             EQUAL, verdicts_of(EQUAL)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
         ),
+        "ladder": companion_ladder.compute(EQUAL, [1, 3, 5], [0.0, 1.6], [0.0, 1.6], 2, [0.6, 0.89]),
         "epsilon": epsilon_limit.compute(
             SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}
         ),

@@ -12,6 +12,7 @@ from vibroimpact.figures.companions import (
     companion_basins,
     companion_branches,
     companion_epsilon,
+    companion_ladder,
     companion_modulation,
     force_sweep,
 )
@@ -59,6 +60,13 @@ def test_theory_and_orbit_without_either_are_not_compared():
     assert tables["csv"].empty
     assert tables["orders"].empty
     companion_epsilon.draw(tables)
+
+
+def test_a_case_without_motions_has_no_errors():
+    tables = companion_ladder.compute({"still": STILL}, [1, 3, 5], [0.0, 0.02], [0.0, 0.02], 2, [0.001, 0.01])
+    assert not tables["csv"]["error"].any()
+    assert tables["verdicts"].empty
+    companion_ladder.draw(tables)
 
 
 def test_without_asymmetric_orbits_the_manifold_is_shown():

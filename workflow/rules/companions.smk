@@ -102,6 +102,15 @@ COMPANIONS = {
         "settings": keys_of("regimes.epsilon"),
         "tables": {"orders": "results/regimes/epsilon_orders.csv"},
     },
+    "companion_ladder": {
+        "method": "fixed points to leading and next order, N harmonics with exact receptances, exact symmetric responses",
+        "systems": True,
+        "settings": keys_of("regimes.ladder"),
+        "tables": {
+            "verdicts": "results/regimes/ladder_verdicts.csv",
+            "limits": "results/regimes/ladder_limits.csv",
+        },
+    },
     "companion_asymmetric": {
         "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
         "systems": True,

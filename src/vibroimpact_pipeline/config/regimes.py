@@ -268,6 +268,30 @@ class EpsilonLimit(EpsilonRange):
     mixed: Mixed = None
 
 
+class Ladder(Section):
+    """The rungs between leading order and the exact orbit."""
+
+    harmonics: Annotated[list[Annotated[int, Field(ge=1, le=999)]], Field(min_length=3, max_length=20)] = Field(
+        description="Highest harmonics of the rungs: odd, ascending"
+    )
+    f10_range: ForceRange
+    f20_range: ForceRange
+    points: Points
+    fold_range: ForceRange = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
+
+    def conditions(self):
+        for name in ("f10_range", "f20_range", "fold_range"):
+            yield from not_ascending(name, getattr(self, name))
+        for place, value in enumerate(self.harmonics):
+            if value % 2 == 0:
+                yield Problem(("harmonics", place), f"{value} is even; symmetric motions have odd harmonics only")
+        if self.harmonics != sorted(set(self.harmonics)):
+            yield Problem(("harmonics",), f"{self.harmonics} do not ascend")
+
+    def changes(self):
+        return [*over_forces(self), Change(("fold_range",), None, ["f20_hat"], self.fold_range)]
+
+
 class Regimes(Section):
     """What the exact system does beside its 1:1 responses."""
 
@@ -279,6 +303,7 @@ class Regimes(Section):
     basins: Basins
     epsilon: EpsilonLimit
     asymmetric: EpsilonRange
+    ladder: Ladder
 
     def conditions(self):
         once, longest = self.observation.cycles, self.observation.longest()

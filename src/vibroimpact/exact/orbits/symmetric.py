@@ -34,15 +34,18 @@ _BOXES = np.array([0, 1])
 class SymmetricConditions:
     """The equations above for one system.
 
+    Args:
+        response: of the boxes to the kicks; the exact one, or another with its `between` (see `harmonics`).
+
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
 
-    def __init__(self, system):
+    def __init__(self, system, response=None):
         self.period = system.period
         self.omega = system.Omega
         self.amplitude = forced_amplitude(system)
-        self._response = impulse_response(system, sign=-1)
+        self._response = response or impulse_response(system, sign=-1)
         self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
         speed = path_of(system.epsilon, 1.0) / (system.period / 2)
         self._kick = 2 * system.epsilon * speed
@@ -78,15 +81,18 @@ class SymmetricConditions:
         return np.concatenate([columns.real, columns.imag], axis=1), np.array([0.0, 0.0, -1.0, -1.0])
 
 
-def symmetric_solutions(system) -> np.ndarray:
+def symmetric_solutions(system, response=None) -> np.ndarray:
     """Every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
+
+    Args:
+        response: as SymmetricConditions.
 
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
     if system.has_undriven_module:
         return np.empty((0, 4))
-    conditions = SymmetricConditions(system)
+    conditions = SymmetricConditions(system, response)
     uncoupled = system.alpha12 == 0 and system.gamma12 == 0
     starts = _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions)
     roots = newton(conditions, starts)
