@@ -3,7 +3,7 @@
 
 import json
 
-from vibroimpact_pipeline.config.sweeps import LIMIT_HOURS
+from vibroimpact_pipeline.config.sweeps import DRAWN, LIMIT_HOURS
 from vibroimpact_pipeline.sweeps.places import table_path, tile_path
 from vibroimpact_pipeline.sweeps.words import announced
 

@@ -90,7 +90,7 @@ def _amplitudes(system, states, asked):
 
 
 def _envelopes(system, states, asked):
-    """What the amplitude of a box, cycle by cycle, exceeds in all but LOW of the cycles of all starts; the same of HIGH."""
+    """Parts LOW and HIGH of the cycles of all starts have an amplitude of X_i, cycle by cycle, below these."""
     cycles = asked.cycles - asked.settle
     runs = [sampled(system, state, cycles).samples for state in finals(system, states, asked.settle)]
     found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]

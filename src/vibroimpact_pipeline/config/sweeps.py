@@ -175,7 +175,9 @@ SPREAD_EVENLY = "regime_map"
 
 Sweeps = Annotated[
     dict[Name, Sweep],
-    Field(max_length=100, description=f"Sweeps by name; a build makes {', '.join(DRAWN)}, which companion figures draw"),
+    Field(
+        max_length=100, description=f"Sweeps by name; a build makes {', '.join(DRAWN)}, which companion figures draw"
+    ),
 ]
 
 
@@ -186,7 +188,9 @@ def not_drawn(sweeps: Sweeps) -> Iterator[Problem]:
         other = f"as {figure} draws it; another question takes another name"
         if not _along(sweeps[name].axes, along, even=name == SPREAD_EVENLY):
             words = " and ".join(", ".join(names) for names in along)
-            yield Problem((name, "axes"), f"are not {words}{', evenly over a range each' * (name == SPREAD_EVENLY)}, {other}")
+            yield Problem(
+                (name, "axes"), f"are not {words}{', evenly over a range each' * (name == SPREAD_EVENLY)}, {other}"
+            )
         if missing := [wanted for wanted in observe if wanted not in sweeps[name].observe]:
             yield Problem((name, "observe"), f"{' and '.join(missing)} missing, {other}")
 

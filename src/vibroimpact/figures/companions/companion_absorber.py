@@ -8,6 +8,7 @@ from collections import Counter
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from vibroimpact.absorbers.tuning import compared
 from vibroimpact.figures.companions.sweep import SYMBOLS, edges
@@ -37,11 +38,21 @@ _DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, 
 REPEATING, MODULATED = "balls, largest, repeating", "balls, largest, modulated"
 DOTS = {REPEATING: _DOTS, MODULATED: {**_DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
-_BEST = {"linestyle": "none", "marker": "*", "markersize": 9, "markeredgewidth": 0.8, "color": "white"}
-_MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt"}
+_BEST = {
+    "linestyle": "none",
+    "marker": "*",
+    "markersize": 9,
+    "markeredgewidth": 0.8,
+    "color": "white",
+    "label": "lowest peak",
+}
+_MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": "its margin"}
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
 LINE_POINTS = 451
+LEAST, MOST = 0.2, 1.3
+"""Ends of the axes of displacements, of the lowest and the highest peak of a linear system."""
+OF_RESPONSE = ("label", "f10_hat", "sigma_e_hat", "clearance", "kappa", "ratio", "low", "high")
 
 
 def compute(system, response, clearance, design, band: dict, observation: dict, number: int, seed: int) -> dict:
@@ -54,9 +65,9 @@ def compute(system, response, clearance, design, band: dict, observation: dict, 
         band: arguments of `sweeps.grid.axis`, along sigma_e_hat.
         observation, number, seed: how long, and from how many starts, the regime at an optimum is looked for.
 
-    Returns "csv": columns panel ("response", f10_hat in label; "clearance"; "design"), series, label, sigma_e_hat,
-    clearance, kappa, ratio (X / f), low and high (its envelope), regime. "summary": columns quantity, who, value, ...
-    (see docs/data.md).
+    Returns "csv": columns panel ("response", "clearance" or "design"), series, label (of a response with balls the
+    regime of most starts), f10_hat, sigma_e_hat, clearance, kappa, ratio (X / f), low and high (its envelope). "summary":
+    columns quantity, who, value, ... (docs/data.md).
     """
     detunings = np.array(axis(**band).values)
     frequencies = 1.0 + system.epsilon * detunings[[0, -1]]
@@ -89,7 +100,7 @@ def _per_force(system, table):
     low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
     largest = table[["largest_X1", "largest_X2"]].max(axis=1)
     return found.assign(
-        ratio=largest / force, low=low / force, high=high / force, regime=table[list(REGIMES)].idxmax(axis=1)
+        ratio=largest / force, low=low / force, high=high / force, label=table[list(REGIMES)].idxmax(axis=1)
     )
 
 
@@ -98,11 +109,9 @@ def _responses(system, linear, response):
     for force, rows in response.groupby("f10_hat"):
         detunings = rows["sigma_e_hat"]
         fine = np.linspace(detunings.min(), detunings.max(), LINE_POINTS)
-        named = {"label": f"{force:g}"}
         for name, one in linear.items():
-            yield curve("response", name, **named, sigma_e_hat=fine, ratio=_ratios(system, one, fine))
-        shown = {name: rows[name] for name in ("sigma_e_hat", "clearance", "kappa", "ratio", "low", "high", "regime")}
-        yield curve("response", "balls", **named, **shown)
+            yield curve("response", name, f10_hat=force, sigma_e_hat=fine, ratio=_ratios(system, one, fine))
+        yield curve("response", "balls", **{name: rows[name] for name in OF_RESPONSE})
 
 
 def _ratios(system, linear, detunings):
@@ -133,7 +142,7 @@ def _optimum(system, who, table, observation, states):
 
 
 def _held_against(system, linear, response):
-    """At each force, against each reference: at how many frequencies the balls keep the boxes quieter, and by how much."""
+    """At each force, against each reference: at how many frequencies the boxes move less with balls, and by how much."""
     for force, rows in response.groupby("f10_hat"):
         for name, one in linear.items():
             times = rows["ratio"] / _ratios(system, one, rows["sigma_e_hat"])
@@ -145,21 +154,23 @@ def _held_against(system, linear, response):
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: a panel per force, the performance curve, the map of kappa and clearance."""
     table, summary = tables["csv"], tables["summary"].set_index("who")
-    forces = select(table, "response", "balls")["label"].unique()
+    forces = select(table, "response", "balls")["f10_hat"].unique()
     columns, rows = side_by_side(len(forces) + 2, most=2)
     figure = new_figure(DOUBLE_COLUMN, 68.0 * rows + 12.0)
     places = [*figure.subplots(rows, columns, squeeze=False).flat]
+    peaks = summary.loc[list(LINES)].query("quantity == 'peak'")["value"]
     for force, axes in zip(forces, places, strict=False):
-        _draw_response(axes, table[(table["panel"] == "response") & (table["label"] == force)])
-        axes.set_title(rf"$\hat f_{{10}} = \hat f_{{20}} = {force}$", loc="right", pad=3)
+        _draw_response(axes, table[(table["panel"] == "response") & (table["f10_hat"] == force)])
+        _logarithmic(axes, "y", LEAST * peaks.min(), MOST * peaks.max())
+        axes.set_title(rf"$\hat f_{{10}} = \hat f_{{20}} = {force:g}$", loc="right", pad=3)
     last = places[len(forces) :]
-    _draw_clearance(last[0], table, summary.loc["balls"])
-    _draw_design(last[1], select(table, "design", "balls"), summary.loc["balls, best kappa"])
+    _draw_clearance(last[0], table[table["panel"] == "clearance"], summary.loc["balls"])
+    _logarithmic(last[0], "y", LEAST * peaks.min(), MOST * peaks.max())
+    _draw_design(last[1], select(table, "design", "balls"), summary.loc["balls, best kappa"], peaks["without balls"])
     for axes in last[2:]:
         axes.set_axis_off()
-    for axes, letter in zip(figure.axes, "abcdefghijklmnop", strict=False):
-        if axes.get_label() != "<colorbar>":
-            letter_panel(axes, letter)
+    for axes, letter in zip(places, "abcdefghijklmnop"[: len(forces) + 2], strict=False):
+        letter_panel(axes, letter)
     handles, names = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=4, fontsize=8)
     return figure
@@ -169,10 +180,10 @@ def _draw_response(axes, rows):
     balls = select(rows, "response", "balls")
     axes.fill_between(balls["sigma_e_hat"], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
     _draw_lines(axes, rows, "sigma_e_hat")
-    repeating = balls["regime"].isin([*PERIODIC, IDLE, NO_IMPACTS])
+    repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
     for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
         axes.plot(balls["sigma_e_hat"][shown], balls["ratio"][shown], label=name, **look)
-    axes.set(yscale="log", xlabel=SYMBOLS["sigma_e_hat"], ylabel="largest $|X_i|\\,/\\,f$")
+    axes.set(xlabel=SYMBOLS["sigma_e_hat"], ylabel="largest $|X_i|\\,/\\,f$")
 
 
 def _draw_lines(axes, rows, x):
@@ -181,23 +192,35 @@ def _draw_lines(axes, rows, x):
         axes.plot(line[x], line["ratio"], label=name, **look)
 
 
-def _draw_clearance(axes, table, best):
-    rows = table[table["panel"] == "clearance"]
+def _draw_clearance(axes, rows, best):
     balls = select(rows, "clearance", "balls")
     _draw_lines(axes, rows, "clearance")
     axes.plot(balls["clearance"], balls["ratio"], label="balls", **{**_DOTS, "linestyle": "-", "linewidth": 0.6})
     _mark(axes, best, best["value"])
-    axes.set(xscale="log", yscale="log", xlabel="clearance $1/f$", ylabel="peak $|X_i|\\,/\\,f$ of the band")
+    _logarithmic(axes, "x")
+    axes.set(xlabel="clearance $1/f$", ylabel="peak $|X_i|\\,/\\,f$ of the band")
 
 
-def _draw_design(axes, cells, best):
+def _draw_design(axes, cells, best, darkest):
     square = cells.pivot(index="kappa", columns="clearance", values="ratio")
     hatch_gaps(axes)
     sides = edges(square.columns, {"scale": LOGARITHMIC}), edges(square.index, {})
-    mesh = axes.pcolormesh(*sides, square, cmap="Greys", vmin=0.0, rasterized=True)
+    mesh = axes.pcolormesh(*sides, square, cmap="Greys", vmin=0.0, vmax=darkest, rasterized=True)
     axes.figure.colorbar(mesh, ax=axes, label="peak $|X_i|\\,/\\,f$ of the band")
     _mark(axes, best, best["kappa"])
-    axes.set(xscale="log", xlabel="clearance $1/f$", ylabel=SYMBOLS["kappa"])
+    _logarithmic(axes, "x")
+    axes.set(xlabel="clearance $1/f$", ylabel=SYMBOLS["kappa"])
+
+
+def _logarithmic(axes, side, *ends):
+    """A logarithmic axis whose ends, if given, do not depend on what was simulated."""
+    axes.set(**{f"{side}scale": "log"})
+    axis = getattr(axes, f"{side}axis")
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+    if ends:
+        axes.set(**{f"{side}lim": ends})
 
 
 def _mark(axes, best, height):
