@@ -90,7 +90,7 @@ def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
 def test_balls_without_mass_are_no_balls():
     """Machines do not feel what a billionth of their mass does, whether it is fixed, tuned or hits walls."""
     plant = vi.PhysicalSystem(
-        M=3.0, m=3e-9, k1=48.0, k2=50.0, k12=4.0, c1=1.2, c2=1.3, c12=0.1, F10=1.5, F20=-0.9, omega1=4.1, omega2=4.1,
+        M=3.0, m=3e-9, k1=48.0, k2=50.0, k12=4.0, c1=1.2, c2=1.3, c12=0.1, F10=15.0, F20=-9.0, omega1=4.1, omega2=4.1,
         L=0.25, kappa=0.65,
     )  # fmt: skip
     system = plant.dimensionless()

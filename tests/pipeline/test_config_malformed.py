@@ -144,7 +144,7 @@ UNNAMED = " & figures.fig10_07 = ... & figures.fig10_10 = ... & regimes.epsilon.
 """No fixed point is asked for by its label."""
 UNUSUAL = [
     "system.epsilon = 0.000001",
-    "system.epsilon = 3",
+    "system.epsilon = 3 & sweeps.frequency_response = ... & sweeps.clearance = ... & sweeps.design = ...",
     "system.kappa = 0.001" + UNNAMED,
     "system.kappa = 0.999",
     "system.alpha12_hat = 0 & system.gamma12_hat = 0" + UNNAMED,

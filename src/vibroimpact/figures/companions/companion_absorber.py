@@ -66,8 +66,8 @@ def compute(system, response, clearance, design, band: dict, observation: dict, 
         observation, number, seed: how long, and from how many starts, the regime at an optimum is looked for.
 
     Returns "csv": columns panel ("response", "clearance" or "design"), series, label (of a response with balls the
-    regime of most starts), f10_hat, sigma_e_hat, clearance, kappa, ratio (X / f), low and high (its envelope). "summary":
-    columns quantity, who, value, ... (docs/data.md).
+    regime of most starts), f10_hat, sigma_e_hat, clearance, kappa, ratio (X / f), low and high (its envelope).
+    "summary": columns quantity, who, value, ... (docs/data.md).
     """
     detunings = np.array(axis(**band).values)
     frequencies = 1.0 + system.epsilon * detunings[[0, -1]]
@@ -142,7 +142,7 @@ def _optimum(system, who, table, observation, states):
 
 
 def _held_against(system, linear, response):
-    """At each force, against each reference: at how many frequencies the boxes move less with balls, and by how much."""
+    """At each force, of each reference: at how many frequencies boxes move less with balls, and times how much."""
     for force, rows in response.groupby("f10_hat"):
         for name, one in linear.items():
             times = rows["ratio"] / _ratios(system, one, rows["sigma_e_hat"])
