@@ -91,10 +91,10 @@ def _curves(place, names, part, axes):
 def _map(place, names, part, axes):
     x, y = (axis["along"][0] for axis in axes)
     square = part.pivot(index=y, columns=x, values="value")
-    edges = [edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
+    borders = [edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
     most = 1.0 if names[1] in REGIMES else max(part["value"].max(), 1e-12)
     hatch_gaps(place)
-    mesh = place.pcolormesh(*edges, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
+    mesh = place.pcolormesh(*borders, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
     bar = place.figure.colorbar(mesh, ax=place)
     bar.locator = MaxNLocator(4)
     bar.ax.tick_params(labelsize=7.5)
