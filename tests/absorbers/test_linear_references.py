@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.absorbers.references import Tuning, fixed_balls, tuned, without_balls
-from vibroimpact.absorbers.tuning import best, den_hartog
+from vibroimpact.absorbers.tuning import best, compared, den_hartog
 
 DAMPED = vi.System(**{**PARAMETERS, "gamma1_hat": 2.5, "gamma2_hat": 3.5}, f10_hat=1.0, f20_hat=-0.6)
 TUNING = Tuning((0.95, 1.1), (0.2, 0.3))
@@ -85,6 +85,29 @@ def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
     least = math.sqrt(least / (3 * (32 + 27 * mu))) / (3 * mu) * system.forcing[0]
     assert least < tuned(system, best(system, band)).peak(band) < least * (1 + 1e-4)
     assert tuned(system, den_hartog(system)).peak(band) > 1.01 * least
+
+
+def test_balls_without_mass_are_no_balls():
+    """Machines do not feel what a billionth of their mass does, whether it is fixed, tuned or hits walls."""
+    plant = vi.PhysicalSystem(
+        M=3.0, m=3e-9, k1=48.0, k2=50.0, k12=4.0, c1=1.2, c2=1.3, c12=0.1, F10=15.0, F20=-9.0, omega1=4.1, omega2=4.1,
+        L=0.25, kappa=0.65,
+    )  # fmt: skip
+    system = plant.dimensionless()
+    alone = without_balls(system).amplitudes(system.Omega)
+    references = {"fixed": fixed_balls(system), "tuned": tuned(system, Tuning((1.0, 1.1), (0.2, 0.3)))}
+    for linear in references.values():
+        np.testing.assert_allclose(linear.amplitudes(system.Omega), alone, rtol=1e-6)
+    outcome = vi.ensemble(system, np.zeros(8), 60, settle=50)
+    np.testing.assert_allclose(outcome["largest"], alone, rtol=1e-5)
+    assert outcome["impacts"].sum() > 0
+
+
+def test_all_that_balls_are_held_against(chapter):
+    peaks = {name: linear.peak((0.8, 1.25)) for name, linear in compared(chapter, (0.8, 1.25)).items()}
+    assert sorted(peaks, key=peaks.get) == [
+        *("best absorbers", "absorbers of the textbook", "without balls", "balls fixed")
+    ]
 
 
 def test_no_tuning_nearby_is_better_than_the_best(chapter):

@@ -10,7 +10,8 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
-from vibroimpact.figures.companions import companion_asymmetric, companion_ladder
+from vibroimpact.absorbers.references import fixed_balls, without_balls
+from vibroimpact.figures.companions import companion_absorber, companion_asymmetric, companion_ladder
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -32,6 +33,7 @@ MODULES = {
     "epsilon": epsilon_limit,
     "asymmetric": companion_asymmetric,
     "ladder": companion_ladder,
+    "absorber": companion_absorber,
 }
 
 
@@ -44,8 +46,32 @@ def swept():
     return table
 
 
+def absorber_tables():
+    """Small sweeps of the balls, as companion_absorber takes them."""
+    detunings, forces = axis(["sigma_e_hat"], (-1.0, 1.0), 5), ["f10_hat", "f20_hat"]
+    band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}
+    runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": OBSERVATION}
+    peaks = Asked(("peaks",), band=band, **runs)
+    asked = {
+        "response": (
+            [detunings, axis(forces, listed=[0.4, 1.0])],
+            Asked(("amplitudes", "envelopes", "regimes"), **runs),
+        ),
+        "clearance": ([axis(forces, (0.2, 5.0), 4, "logarithmic")], peaks),
+        "design": ([axis(["kappa"], listed=[0.2, 0.4, 0.65]), axis(forces, (0.2, 3.0), 4, "logarithmic")], peaks),
+    }
+    grids = {name: (Grid(SYSTEMS["equal"], axes), what) for name, (axes, what) in asked.items()}
+    tables = {name: pd.DataFrame(rows_of(grid, what, range(len(grid)))) for name, (grid, what) in grids.items()}
+    return tables | {"band": band, "observation": OBSERVATION, "number": 2, "seed": 1}
+
+
 @pytest.fixture(scope="module")
-def tables():
+def balls():
+    return absorber_tables()
+
+
+@pytest.fixture(scope="module")
+def tables(balls):
     return {
         "branches": branches.compute(
             SYSTEMS["unequal"],
@@ -57,6 +83,7 @@ def tables():
             lifetimes=LIFETIMES,
         ),
         "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
+        "absorber": companion_absorber.compute(SYSTEMS["equal"], **balls),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
@@ -235,3 +262,45 @@ def test_orders_are_one_or_two_with_two_terms_and_the_mixed_point_is_left_out(ta
     assert not ((orders["case"] == "unequal") & (orders["label"] == "b")).any()
     mixed = tables["epsilon"]["csv"].query("panel == 'mixed'")
     assert set(mixed["label"]) == {"unequal, b"}
+
+
+def test_the_optimum_of_the_balls_is_the_lowest_peak_and_its_margin_where_it_is_nearly_as_low(balls, tables):
+    summary = tables["absorber"]["summary"].query("quantity == 'peak'").set_index("who")
+    for who, name in (("balls", "clearance"), ("balls, best kappa", "design")):
+        swept = balls[name].assign(ratio=lambda rows: rows["peak"] / (0.1 * rows["f10_hat"]))
+        best = summary.loc[who]
+        assert best["value"] == pytest.approx(swept["ratio"].min(), rel=1e-12)
+        there = np.isclose(1 / (0.1 * swept["f10_hat"]), best["clearance"])
+        there &= swept.get("kappa", 0.65) == best["kappa"]
+        assert swept["ratio"][there].item() == swept["ratio"].min()
+        column = swept[swept.get("kappa", pd.Series(0.65, swept.index)) == best["kappa"]]
+        clearances = 1 / (0.1 * column["f10_hat"])
+        within = clearances.between(best["narrowest"] * 0.999, best["widest"] * 1.001)
+        assert (column["ratio"][within] <= 1.25 * best["value"]).all()
+        for beside in (
+            clearances[clearances < best["narrowest"] * 0.999].max(),
+            clearances[clearances > best["widest"] * 1.001].min(),
+        ):
+            assert not (column["ratio"][clearances == beside] <= 1.25 * best["value"]).any()
+
+
+def test_balls_are_held_against_each_linear_system_where_both_were_looked_at(balls, tables):
+    summary = tables["absorber"]["summary"]
+    for force, rows in balls["response"].groupby("f10_hat"):
+        for who, build in (("without balls", without_balls), ("balls fixed", fixed_balls)):
+            times = []
+            for row in rows.itertuples():
+                system = SYSTEMS["equal"].with_(f10_hat=force, f20_hat=force, sigma_e_hat=row.sigma_e_hat)
+                times.append(max(row.largest_X1, row.largest_X2) / build(system).amplitudes(system.Omega).max())
+            said = summary[(summary["who"] == who) & (summary["f10_hat"] == force)].set_index("quantity")["value"]
+            assert said["frequencies won"] == np.mean(np.array(times) < 1)
+            assert (said["least"], said["greatest"]) == pytest.approx((min(times), max(times)), rel=1e-9)
+
+
+def test_a_dot_is_filled_where_most_starts_repeat(tables, figures):
+    table, axes = tables["absorber"]["csv"], figures["absorber"].axes[0]
+    balls = table[(table["series"] == "balls") & (table["f10_hat"] == 0.4)].dropna(subset="sigma_e_hat")
+    shown = {line.get_label(): line.get_xydata() for line in axes.lines}
+    repeats = balls["label"].isin(["symmetric", "asymmetric", "other periodic", "one ball idle", "no impacts"])
+    for name, part in ((companion_absorber.REPEATING, balls[repeats]), (companion_absorber.MODULATED, balls[~repeats])):
+        np.testing.assert_array_equal(shown[name], part[["sigma_e_hat", "ratio"]])

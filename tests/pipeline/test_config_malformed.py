@@ -144,7 +144,7 @@ UNNAMED = " & figures.fig10_07 = ... & figures.fig10_10 = ... & regimes.epsilon.
 """No fixed point is asked for by its label."""
 UNUSUAL = [
     "system.epsilon = 0.000001",
-    "system.epsilon = 3",
+    "system.epsilon = 3 & sweeps.frequency_response = ... & sweeps.clearance = ... & sweeps.design = ...",
     "system.kappa = 0.001" + UNNAMED,
     "system.kappa = 0.999",
     "system.alpha12_hat = 0 & system.gamma12_hat = 0" + UNNAMED,
@@ -169,6 +169,7 @@ UNUSUAL = [
     "regimes.coexistence.lifetimes.values = [0.9]",
     "regimes.confusion.f10_range = [-1.6, 1.6]",
     "sweeps.regime_map = ...",
+    "sweeps.design = ... & sweeps.frequency_response.axes[1].listed = [0.5, 1.0, 2.0]",
     "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
     "{along: [f20_hat], range: [0, 1], cells: 2}]",
     "regimes.modulation.windows = [1]",

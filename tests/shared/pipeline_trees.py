@@ -11,6 +11,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from vibroimpact_pipeline.config.sweeps import DRAWN
+
 ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
@@ -18,7 +20,7 @@ NOT_COPIED = shutil.ignore_patterns(
 NOT_BY_DEFAULT = shutil.ignore_patterns(
     "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "figure.*"
 )
-SWEPT_BY_DEFAULT = {"regime_map", "regime_map.csv"}
+SWEPT_BY_DEFAULT = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv")}
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")

@@ -7,16 +7,18 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.classification import starts as spread_starts
+from vibroimpact.regimes.modulation import PER_CYCLE
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps import observations
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import AMPLITUDES, COLUMNS, OBSERVATIONS, Asked, observed
+from vibroimpact.sweeps.observations import AMPLITUDES, COLUMNS, OBSERVATIONS, PEAKS, Asked, observed
 from vibroimpact.sweeps.rows import columns, rows
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 GRID = Grid(BASE, [axis(["f20_hat"], listed=[0.89, 1.0])])
 OBSERVED = {"cycles": 100, "rounds": 2, "window": 12, "nearness": 0.02, "blocks": 2, "block": 10, "retest": 50}
-ASKED = Asked(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, observation=OBSERVED)
+BAND = {"along": ["sigma_e_hat"], "range": [-0.5, 1.0], "values": 4}
+ASKED = Asked(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +43,26 @@ def test_amplitudes_are_those_of_runs_that_were_sampled(found):
         assert found[0][f"rms_X{i}"] == pytest.approx(np.sqrt(np.mean(X**2)), rel=1e-3)
         speed = np.mean([np.abs(samples[:, 2 * i + 3]) for samples in runs])
         assert found[0][f"ball_speed_{i}"] == pytest.approx(speed, rel=1e-2)
+
+
+def test_a_peak_is_the_largest_of_the_amplitudes_along_its_band(found):
+    asked = Asked((AMPLITUDES,), starts=3, seed=1, cycles=30, settle=20)
+    along = {value: observed(BASE.with_(sigma_e_hat=value), asked) for value in (-0.5, 0.0, 0.5, 1.0)}
+    largest = {value: max(row["largest_X1"], row["largest_X2"]) for value, row in along.items()}
+    assert found[1]["peak"] == max(largest.values()) == largest[found[1]["peak_at"]]
+    assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along.values() for i in (1, 2))  # of a start, not all
+    assert found[1]["peak_unfinished"] == 0
+    assert ASKED.runs == 3 * (3 + 4)
+
+
+def test_an_envelope_leaves_out_a_twentieth_of_the_cycles_on_either_side(found):
+    times = (20 + np.arange(10 * PER_CYCLE) / PER_CYCLE) * BASE.period
+    runs = [vi.simulate(BASE, start, 30, sample_times=times).samples for start in spread_starts(3, 1)]
+    for i in (1, 2):
+        cycles = np.sort([np.ptp(s[:, 2 * i - 2].reshape(10, -1), axis=1) / 2 for s in runs], axis=None)
+        places = np.array([0.05, 0.95]) * 29
+        expected = np.interp(places, np.arange(30), cycles)
+        np.testing.assert_allclose([found[1][f"low_X{i}"], found[1][f"high_X{i}"]], expected, rtol=1e-8)
 
 
 def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(found):
@@ -84,6 +106,10 @@ def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
     row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, ASKED), strict=True))
     assert row["unfinished"] == 1
     assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
+    monkeypatch.setattr(observations, "ensemble", lambda *given, **more: np.stack([outcomes, broken] * 2))
+    row = dict(zip(COLUMNS[PEAKS], OBSERVATIONS[PEAKS](BASE, None, ASKED), strict=True))
+    assert (row["peak"], row["peak_unfinished"]) == (outcomes["largest"].max(), 2)
+    monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
     broken["status"] = 1
     row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, ASKED), strict=True))
     assert row["unfinished"] == 3

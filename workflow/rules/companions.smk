@@ -50,7 +50,23 @@ def map_of(sweep):
     }
 
 
+def absorber_of(response, clearance, design):
+    """The figure of what the balls are good for, of three sweeps."""
+    tables = {"response": response, "clearance": clearance, "design": design}
+    sweep = f"sweeps.{clearance}"
+    return {
+        "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
+        "system": SWEEPS[clearance]["case"],
+        "settings": {"band": f"{sweep}.band", "number": f"{sweep}.starts", "seed": f"{sweep}.seed"} | OBSERVED,
+        "config": [key for name in tables.values() for key in sweep_keys(name)],
+        "inputs": {table: table_of(name) for table, name in tables.items()},
+        "before": [step(*STEPS["tile_of_sweep"])],
+        "tables": {"summary": "results/absorber.csv"},
+    }
+
+
 PRECISE = [case for case in config["cases"] if exact(case)]
+ABSORBER = ("frequency_response", "clearance", "design")
 OBSERVED = {"observation": "regimes.observation"}
 COMPANIONS = {
     "companion_10_04": {
@@ -83,6 +99,7 @@ COMPANIONS = {
         "tables": {"special_points": "results/regimes/special_points.csv"},
     },
     **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
+    **({"companion_absorber": absorber_of(*ABSORBER)} if {*ABSORBER} <= {*SWEEPS} else {}),
     "companion_modulation": {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
@@ -172,5 +189,5 @@ for name, companion in COMPANIONS.items():
 rule companions:
     input:
         rules.coexistence.output,
-        [table_of("regime_map")] if "regime_map" in SWEEPS else [],
+        [table_of(name) for name in DRAWN if name in SWEEPS],
         [path for name in COMPANIONS for path in companion_outputs(name).values()],

@@ -3,12 +3,12 @@
 
 import json
 
-from vibroimpact_pipeline.config.sweeps import LIMIT_HOURS
+from vibroimpact_pipeline.config.sweeps import DRAWN, LIMIT_HOURS
 from vibroimpact_pipeline.sweeps.places import table_path, tile_path
 from vibroimpact_pipeline.sweeps.words import announced
 
 SWEEPS = config.get("sweeps", {})
-OBSERVED_BY = ("observe", "starts", "seed", "cycles", "settle")
+OBSERVED_BY = ("observe", "starts", "seed", "cycles", "settle", "band")
 ANNOUNCED = set()
 
 

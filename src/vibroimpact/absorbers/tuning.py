@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.optimize import minimize
 
-from vibroimpact.absorbers.linear import POINTS, checked_band
-from vibroimpact.absorbers.references import Tuning, tuned
+from vibroimpact.absorbers.linear import POINTS, Linear, checked_band
+from vibroimpact.absorbers.references import Tuning, fixed_balls, tuned, without_balls
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Where the search for the best tuning starts: these times the frequencies of the textbook."""
@@ -53,6 +53,20 @@ def best(system, band: tuple[float, float]) -> Tuning:
     if not found:
         raise ArithmeticError(f"no best tuning was found in the band ({frequencies[0]}, {frequencies[-1]})")
     return min(found, key=lambda tuning: tuned(system, tuning).peak(band))
+
+
+def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
+    """All that balls are held against, by name; the best absorbers are those of a band of frequencies.
+
+    Raises:
+        ValueError, ArithmeticError: as `best`.
+    """
+    return {
+        "without balls": without_balls(system),
+        "balls fixed": fixed_balls(system),
+        "absorbers of the textbook": tuned(system, den_hartog(system)),
+        "best absorbers": tuned(system, best(system, band)),
+    }
 
 
 def _levels(logarithms, system, frequencies):

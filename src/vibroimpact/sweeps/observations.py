@@ -4,15 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.ensemble import ensemble, finals
 from vibroimpact.exact.engine.event_loop import FINISHED
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.families import FixedPoints
+from vibroimpact.regimes.modulation import PER_CYCLE, cycle_amplitudes, sampled
 from vibroimpact.regimes.settling import Observation, settle
+from vibroimpact.sweeps.grid import Grid, axis
 
-REGIMES_OF, AMPLITUDES, FIXED_POINTS, ORBITS = "regimes", "amplitudes", "fixed_points", "orbits"
+REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS = "regimes", "amplitudes", "envelopes", "peaks"
+FIXED_POINTS, ORBITS = "fixed_points", "orbits"
 FROM_REST = "from_rest"
 AMPLITUDE_COLUMNS = (
     *("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2"),
@@ -21,12 +24,16 @@ AMPLITUDE_COLUMNS = (
 COLUMNS = {
     REGIMES_OF: (*REGIMES, FROM_REST),
     AMPLITUDES: AMPLITUDE_COLUMNS,
+    ENVELOPES: ("low_X1", "low_X2", "high_X1", "high_X2"),
+    PEAKS: ("peak", "peak_rms", "peak_at", "peak_unfinished"),
     FIXED_POINTS: ("fixed_points", "stable_points"),
     ORBITS: ("orbits", "stable_orbits"),
 }
 """The columns of each observation, in their order."""
-SIMULATED = (REGIMES_OF, AMPLITUDES)
-"""Observations that simulate, from every start."""
+SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES)
+"""Observations that simulate, from every start; PEAKS does, too, all along its band."""
+LOW, HIGH = 0.05, 0.95
+"""An envelope leaves out so much of the cycles below, and above."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +41,8 @@ class Asked:
     """What is observed at every point.
 
     observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
-    amplitudes are observed, forcing periods; those before `settle` are left out. observation: arguments of
-    `regimes.settling.Observation`.
+    amplitudes are observed, forcing periods; those before `settle` are left out. band: arguments of `grid.axis`, of the
+    parameters that peaks are sought along. observation: those of `regimes.settling.Observation`.
     """
 
     observe: tuple[str, ...]
@@ -43,12 +50,14 @@ class Asked:
     seed: int = 0
     cycles: int = 0
     settle: int = 0
+    band: dict | None = None
     observation: dict | None = None
 
     @property
     def runs(self) -> int:
         """Starts that are simulated at a point, for each observation anew."""
-        return self.starts * sum(name in SIMULATED for name in self.observe)
+        along_band = len(axis(**self.band).values) if PEAKS in self.observe else 0
+        return self.starts * (along_band + sum(name in SIMULATED for name in self.observe))
 
 
 def observed(system, asked: Asked) -> dict:
@@ -80,6 +89,29 @@ def _amplitudes(system, states, asked):
     return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
 
 
+def _envelopes(system, states, asked):
+    """Parts LOW and HIGH of the cycles of all starts have an amplitude of X_i, cycle by cycle, below these."""
+    cycles = asked.cycles - asked.settle
+    runs = [sampled(system, state, cycles).samples for state in finals(system, states, asked.settle)]
+    found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
+    return tuple(float(np.quantile(amplitudes, part)) for part in (LOW, HIGH) for amplitudes in found)
+
+
+def _peaks(system, states, asked):
+    """Along the band, over all starts and both boxes: the largest |X_i|, the largest root mean square, and where the
+    largest |X_i| is met, as the value of the first parameter.
+    """
+    band = Grid(system, [axis(**asked.band)])
+    systems = np.array([band.system(number) for number in range(len(band))])
+    runs = ensemble(systems[:, None], states, asked.cycles, settle=asked.settle)
+    done = runs["status"] == FINISHED
+    if not done.any():
+        return np.nan, np.nan, np.nan, done.size
+    largest = np.where(done[..., None], runs["largest"], -np.inf).max(axis=(1, 2))
+    rms = np.sqrt(runs["mean_square"][done].max())
+    return largest.max(), rms, band.axes[0].values[largest.argmax()], np.count_nonzero(~done)
+
+
 def _fixed_points(system, states, asked):
     """How many the theory has, and how many of them it calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
@@ -95,6 +127,8 @@ def _orbits(system, states, asked):
 OBSERVATIONS = {
     REGIMES_OF: _regimes,
     AMPLITUDES: _amplitudes,
+    ENVELOPES: _envelopes,
+    PEAKS: _peaks,
     FIXED_POINTS: _fixed_points,
     ORBITS: _orbits,
 }

@@ -18,9 +18,13 @@ POINTS = 4_000_000
 """Points of a sweep: its table is read and drawn in the memory of one job."""
 LIMIT_HOURS = 1.0
 """Core hours that a sweep may take unless it says otherwise."""
-MAP, MAPPED = "regime_map", ("regimes", "fixed_points")
-"""The sweep that companion_regime_map draws, and what it has to observe."""
-NEEDED = {"regimes": ("starts", "seed"), "amplitudes": ("starts", "seed", "cycles", "settle")}
+_SIMULATED = ("starts", "seed", "cycles", "settle")
+NEEDED = {
+    "regimes": ("starts", "seed"),
+    "amplitudes": _SIMULATED,
+    "envelopes": _SIMULATED,
+    "peaks": (*_SIMULATED, "band"),
+}
 """What an observation needs to know."""
 
 
@@ -90,14 +94,16 @@ class Sweep(Section):
     case: CaseName
     axes: Annotated[list[Axis], Field(min_length=1, max_length=2)]
     observe: Annotated[
-        list[Literal["regimes", "amplitudes", "fixed_points", "orbits"]], Field(min_length=1, max_length=4)
-    ] = Field(description="What is observed; the first two simulate, from every start")
+        list[Literal["regimes", "amplitudes", "envelopes", "peaks", "fixed_points", "orbits"]],
+        Field(min_length=1, max_length=6),
+    ] = Field(description="What is observed; the first four simulate, from every start")
     starts: Starts = None
     seed: Seed = None
     cycles: Cycles = Field(default=None, description="Length of a run whose amplitudes are observed")
     settle: Annotated[int, Field(ge=0, le=1_000_000)] = Field(
         default=None, description="Cycles of it that are left out", json_schema_extra=unit("forcing periods")
     )
+    band: Axis = Field(default=None, description="What moves at every point while peaks are sought: the worst is told")
     limit_hours: Annotated[float, Field(gt=0, le=1e6)] = Field(
         default=LIMIT_HOURS,
         description="A sweep that would take longer, by what a few of its points take, is not begun",
@@ -106,16 +112,24 @@ class Sweep(Section):
 
     def conditions(self):
         yield from repeated("observe", self.observe)
-        first = self.axes[0].along
-        for number, name in enumerate(self.axes[-1].along):
-            if len(self.axes) == 2 and name in first:
-                yield Problem(("axes", 1, "along", number), f"{name} moves along the first axis already")
+        moved = {}
+        for (place, axis), which in zip(self.moving().items(), ("the first axis", "the second axis", ""), strict=False):
+            for number, name in enumerate(axis.along):
+                if name in moved:
+                    yield Problem((*place, "along", number), f"{name} moves along {moved[name]} already")
+            moved |= dict.fromkeys(axis.along, which)
         yield from self._missing()
         points = {"values of axis 1": self.axes[0].number()}
         points |= {"values of axis 2": self.axes[1].number()} if len(self.axes) == 2 else {}
+        points |= {"values of the band": self.band.number()} if self.band else {}
         yield from above(("axes",), POINTS, "points", **points)
         if self.cycles is not None and self.settle is not None and self.settle >= self.cycles:
             yield Problem(("settle",), f"{self.settle} leaves nothing of {self.cycles} cycles to observe")
+
+    def moving(self) -> dict[tuple, Axis]:
+        """All that moves, by its place."""
+        band = {("band",): self.band} if self.band else {}
+        return {("axes", number): axis for number, axis in enumerate(self.axes)} | band
 
     def _missing(self):
         """What an observation needs and is not said."""
@@ -131,9 +145,10 @@ class Sweep(Section):
 
     def unsound_corners(self, parameters: dict) -> Iterator[Problem]:
         """Corners of the grid where a parameter leaves its limits, one problem for each end of an axis."""
-        found = {}
-        for corner in product(*(axis.ends().items() for axis in self.axes)):
-            moved = {name: value for axis, (value, _) in zip(self.axes, corner, strict=True) for name in axis.along}
+        found, axes = {}, self.moving()
+        for corner in product(*(axis.ends().items() for axis in axes.values())):
+            ends = zip(axes.values(), corner, strict=True)
+            moved = {name: value for axis, (value, _) in ends for name in axis.along}
             where = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
             for (*name,), what in unsound(parameters | moved):
                 found.setdefault(self._place(corner, name), f"at {where}: {': '.join([*name[:1], what])}")
@@ -142,24 +157,46 @@ class Sweep(Section):
 
     def _place(self, corner, name):
         """The end of the axis that a parameter moves along, of the first axis where it does not move."""
-        along = [k for k, axis in enumerate(self.axes) if name and name[0] in axis.along]
+        axes = self.moving()
+        along = [k for k, axis in enumerate(axes.values()) if name and name[0] in axis.along]
         k = along[0] if along else 0
-        return ("axes", k, *corner[k][1])
+        return (*list(axes)[k], *corner[k][1])
 
+
+FORCES = ("f10_hat", "f20_hat")
+DRAWN = {
+    "regime_map": ("companion_regime_map", [FORCES[:1], FORCES[1:]], ("regimes", "fixed_points")),
+    "frequency_response": ("companion_absorber", [("sigma_e_hat",), FORCES], ("amplitudes", "envelopes", "regimes")),
+    "clearance": ("companion_absorber", [FORCES], ("peaks",)),
+    "design": ("companion_absorber", [("kappa",), FORCES], ("peaks",)),
+}
+"""Sweeps that companion figures draw: which figure, what moves along each axis, and what has to be observed."""
+SPREAD_EVENLY = "regime_map"
 
 Sweeps = Annotated[
     dict[Name, Sweep],
-    Field(max_length=100, description=f"Sweeps by name; a build makes {MAP}, which a companion figure draws"),
+    Field(
+        max_length=100, description=f"Sweeps by name; a build makes {', '.join(DRAWN)}, which companion figures draw"
+    ),
 ]
 
 
 def not_drawn(sweeps: Sweeps) -> Iterator[Problem]:
-    """What the sweep that a companion figure draws lacks."""
-    if MAP not in sweeps:
-        return
-    other = f"as companion_{MAP} draws it; another question takes another name"
-    forces = [axis.along == [name] for axis, name in zip(sweeps[MAP].axes, ("f10_hat", "f20_hat"), strict=False)]
-    if forces != [True, True] or any(axis.listed or axis.scale == LOGARITHMIC for axis in sweeps[MAP].axes):
-        yield Problem((MAP, "axes"), f"are not f10_hat and f20_hat, evenly over a range each, {other}")
-    if missing := [name for name in MAPPED if name not in sweeps[MAP].observe]:
-        yield Problem((MAP, "observe"), f"{' and '.join(missing)} missing, {other}")
+    """What the sweeps that companion figures draw lack."""
+    for name in DRAWN.keys() & sweeps.keys():
+        figure, along, observe = DRAWN[name]
+        other = f"as {figure} draws it; another question takes another name"
+        if not _along(sweeps[name].axes, along, even=name == SPREAD_EVENLY):
+            words = " and ".join(", ".join(names) for names in along)
+            yield Problem(
+                (name, "axes"), f"are not {words}{', evenly over a range each' * (name == SPREAD_EVENLY)}, {other}"
+            )
+        if missing := [wanted for wanted in observe if wanted not in sweeps[name].observe]:
+            yield Problem((name, "observe"), f"{' and '.join(missing)} missing, {other}")
+
+
+def _along(axes, along, even):
+    """Whether parameters move along axes in this order, and where it has to be `even`, evenly."""
+    if [tuple(axis.along) for axis in axes] != along:
+        return False
+    return not (even and any(axis.listed or axis.scale == LOGARITHMIC for axis in axes))

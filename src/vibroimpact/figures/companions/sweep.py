@@ -27,6 +27,11 @@ PANELS = {
     "share of starts": {name: name for name in REGIMES},
     "largest $|X_i|$": {"largest_X1": "box 1", "largest_X2": "box 2"},
     "root mean square of $X_i$": {"rms_X1": "box 1", "rms_X2": "box 2"},
+    "cycle amplitude of $X_i$": {
+        **{f"low_X{i}": f"box {i}, 5 %" for i in (1, 2)},
+        **{f"high_X{i}": f"box {i}, 95 %" for i in (1, 2)},
+    },
+    "along the band": {"peak": "largest $|X_i|$", "peak_rms": "root mean square"},
     "mean ball speed": {"ball_speed_1": "ball 1", "ball_speed_2": "ball 2"},
     "fixed points": {"fixed_points": "all", "stable_points": "stable"},
     "1:1 orbits": {"orbits": "all", "stable_orbits": "stable"},
@@ -86,10 +91,10 @@ def _curves(place, names, part, axes):
 def _map(place, names, part, axes):
     x, y = (axis["along"][0] for axis in axes)
     square = part.pivot(index=y, columns=x, values="value")
-    edges = [_edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
+    borders = [edges(values, axis) for values, axis in zip((square.columns, square.index), axes, strict=True)]
     most = 1.0 if names[1] in REGIMES else max(part["value"].max(), 1e-12)
     hatch_gaps(place)
-    mesh = place.pcolormesh(*edges, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
+    mesh = place.pcolormesh(*borders, square, cmap="Greys", vmin=0.0, vmax=most, rasterized=True)
     bar = place.figure.colorbar(mesh, ax=place)
     bar.locator = MaxNLocator(4)
     bar.ax.tick_params(labelsize=7.5)
@@ -97,7 +102,7 @@ def _map(place, names, part, axes):
     place.set_title(series if series in REGIMES else f"{panel}, {series}", fontsize=8.5, pad=3)
 
 
-def _edges(values, axis):
+def edges(values, axis):
     """Borders of cells around ascending values, half-way between them on the scale of their axis."""
     there, back = (np.log, np.exp) if axis.get("scale") == LOGARITHMIC else (np.asarray, np.asarray)
     at = there(np.asarray(values, dtype=float))
