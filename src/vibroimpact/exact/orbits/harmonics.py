@@ -8,8 +8,9 @@ H(n Omega) = dynamic stiffness^-1 of the boxes, which are exact at any epsilon, 
 N = 1 is the describing function of the balls, harmonic balance with one harmonic; with N -> infinity the symmetric
 conditions are those of the exact orbit (Masri and Caughey 1966 for one module). Two facts about the impact itself need
 no series. There, s = 0, the velocity of the kicked box jumps by 1 and the sum gives the mean of both sides: just
-before, it is lower by 1/2. And the part -1/(n Omega)^2 of H, that of a free mass, sums to -T/8. Without it, x(0) converges like
-1/N: its error is 1/(pi Omega N) to leading order; with it, like 1/N^3. The mean velocity converges like gamma/N.
+before, it is lower by 1/2. And the part -1/(n Omega)^2 of H, that of a free mass, sums to -T/8. Without it, x(0)
+converges like 1/N: its error is 1/(pi Omega N) to leading order; with it, like 1/N^3. The mean velocity converges like
+gamma/N.
 """
 
 import numpy as np
