@@ -129,7 +129,7 @@ def _draw_errors(axes, rows):
     cost = worst.loc[worst["series"] == EXACT, "cost"].max()
     axes.axvline(cost, color=BLACK, linewidth=0.8, linestyle=":")
     axes.annotate(
-        "exact", (cost, 0.02), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right"
+        "exact", (cost, 0.93), (-3, 0), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right"
     )
     axes.set(xscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
     if worst["error"].gt(0).any():
