@@ -22,4 +22,6 @@ def axis_words(axis: dict) -> str:
     if "listed" in axis:
         return f"{together}: {show(axis['listed'])}"
     low, high = axis["range"]
+    if "cells" in axis:
+        return f"{together}: centres of {axis['cells']} cells from {low:g} to {high:g}"
     return f"{together}: {axis['values']} values from {low:g} to {high:g}, {axis.get('scale', 'linear')}"
