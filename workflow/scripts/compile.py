@@ -11,9 +11,11 @@ from vibroimpact_pipeline.sources import Sources
 
 
 def engine(system, start):
+    from vibroimpact.exact.engine.ensemble import ensemble
     from vibroimpact.exact.engine.simulation import simulate
 
     simulate(system, start, cycles=1, sample_times=[0.0])
+    ensemble(system, start, cycles=1)
 
 
 def certificate(system, start):

@@ -110,7 +110,7 @@ def lacks(table: pd.DataFrame, columns: dict, infinite=()) -> list[str]:
     """
     if table.empty:
         return ["no rows"]
-    parts = {series[-1]: part for series, part in _by_series(table).items()}
+    parts = dict(iter(table.groupby("series"))) if "series" in table else {}
     there = {name: compared for name, compared in columns.items() if name in table}
     found = [f"no column of those its card declares: {', '.join(columns)}"] if columns and not there else []
     for name, compared in there.items():

@@ -4,6 +4,7 @@ import json
 import shutil
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from checking import LIMITS, assert_caught
@@ -51,6 +52,14 @@ def test_a_series_without_its_values_is_a_failure(both):
     tables.write(table.assign(B=table["B"].where(table["series"] != series)), both / "fig10_04.csv")
     found = check("fig10_04", both, both, limits)
     assert_caught(found, f"fig10_04.csv: no value of B in series {series}")
+
+
+def test_a_series_has_its_values_in_any_of_its_panels(both):
+    table = tables.read(both / "fig10_04.csv")
+    tables.write(pd.concat([table, table.assign(panel="z", B=np.nan)], ignore_index=True), both / "fig10_04.csv")
+    series = table["series"].iloc[0]
+    limits = LIMITS | {"columns": {"fig10_04": {"B": {series: "algebra", "others": "algebra"}, "C": "algebra"}}}
+    assert check("fig10_04", both, both, limits)["reasons"] == []
 
 
 def test_infinity_passes_where_it_means_something(both):
