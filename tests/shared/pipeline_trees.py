@@ -11,8 +11,6 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from vibroimpact_pipeline.config.sweeps import DRAWN
-
 ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
@@ -20,7 +18,6 @@ NOT_COPIED = shutil.ignore_patterns(
 NOT_BY_DEFAULT = shutil.ignore_patterns(
     "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "figure.*"
 )
-SWEPT_BY_DEFAULT = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv")}
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -95,7 +92,11 @@ def copied(source: Path, path: Path) -> Tree:
 
 def not_by_default(folder, names) -> set[str]:
     """Results of targets that a default build leaves alone."""
-    others = set(names) - SWEPT_BY_DEFAULT if Path(folder).name == "sweeps" else set()
+    # Not above: a process that runs a command of a copy imports this file, and has to find the library of the copy.
+    from vibroimpact_pipeline.config.sweeps import DRAWN
+
+    made = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv")}
+    others = set(names) - made if Path(folder).name == "sweeps" else set()
     return NOT_BY_DEFAULT(folder, names) | others
 
 
