@@ -75,7 +75,7 @@ def test_an_edited_script_rebuilds_what_it_makes(rebuilt):
 
 
 def test_an_edited_claim_rebuilds_the_claims_alone(rebuilt):
-    rebuilt.edit("docs/claims.yaml", "The mass M of a box", "The mass of a box")
+    rebuilt.edit("docs/claims.yaml", "is small against the mass", "is small beside the mass")
     assert rebuilt.planned("stability", "companion_stability", "claims") == {"claims"}
 
 
