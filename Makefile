@@ -11,7 +11,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test test-all explore lock wheels cluster-tools clean set-up
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -53,6 +53,9 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 	.venv/bin/lint-imports
 	.venv/bin/snakefmt --check Snakefile workflow
 	.venv/bin/pytest --numprocesses 2 --dist worksteal
+
+test-all: export THOROUGH := 1
+test-all: test  ## the same and what takes minutes: Slurm under faults, a second build to the byte, all kinds of a fault
 
 explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
 	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \

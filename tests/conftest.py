@@ -29,6 +29,14 @@ def pytest_addoption(parser):
     parser.addoption("--attack", type=int, default=80, help="runs of each attack on the certificate")
 
 
+def pytest_collection_modifyitems(items):
+    """What takes a core for minutes is left to `make test-all`, and says so."""
+    if os.environ.get("THOROUGH") != "1":
+        for item in items:
+            if item.get_closest_marker("thorough"):
+                item.add_marker(pytest.mark.skip(reason="takes minutes: make test-all runs it"))
+
+
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
     """The project after a build. Read it, do not change it."""

@@ -3,7 +3,10 @@
 import os
 import signal
 
+import pytest
 
+
+@pytest.mark.thorough
 def test_what_was_made_is_not_made_again(tiles, slurm):
     tiles.without(1, 2)
     tiles.tell("hold", 2)

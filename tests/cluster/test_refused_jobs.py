@@ -1,6 +1,9 @@
 """Jobs that fail whatever is done: each is named, the others are kept."""
 
+import pytest
 
+
+@pytest.mark.thorough
 def test_a_tile_that_always_fails_is_named_and_the_others_are_kept(tiles):
     tiles.without(2, 3)
     tiles.tell("broken", 3)

@@ -52,7 +52,14 @@ def test_of_three_builds_at_once_one_works(held):
     assert sum("Nothing to do" in output for output in outputs) == 2
 
 
-@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda stop: stop.name)
+THOROUGH = pytest.mark.thorough
+
+
+@pytest.mark.parametrize(
+    "stop",
+    [signal.SIGINT, pytest.param(signal.SIGTERM, marks=THOROUGH), pytest.param(signal.SIGKILL, marks=THOROUGH)],
+    ids=lambda stop: stop.name,
+)
 def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, stop):
     build = held.start(FIGURE)
     wait_for(held / "started", build)

@@ -30,7 +30,10 @@ def without_locks(tmp_path):
     return write
 
 
-@pytest.mark.parametrize("error", ["ENOLCK", "ENOSYS", "ENOTSUP"])
+OTHERS = [pytest.param(error, marks=pytest.mark.thorough) for error in ("ENOSYS", "ENOTSUP")]
+
+
+@pytest.mark.parametrize("error", ["ENOLCK", *OTHERS])
 def test_a_build_goes_on_and_says_so_once(tree, without_locks, error):
     output = tree.snakemake("--dry-run", "companion_10_04", PYTHONPATH=without_locks(error))
     said = (

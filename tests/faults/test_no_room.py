@@ -28,7 +28,7 @@ def test_what_asks_only_still_answers_where_results_cannot_be_written_to(tree):
     assert FIGURE in tree.snakemake("--dry-run", FIGURE, prefix=read_only("results"))
 
 
-@pytest.mark.parametrize("limit", ["size=16k", "nr_inodes=4"])
+@pytest.mark.parametrize("limit", ["size=16k", pytest.param("nr_inodes=4", marks=pytest.mark.thorough)])
 def test_a_full_disk_is_named_nothing_half_written_counts_and_the_next_build_goes_on(tree, limit):
     """The disk is gone with the command; what is left on it is copied to where the next build finds it."""
     (tree / "results").mkdir()

@@ -95,7 +95,7 @@ def not_by_default(folder, names) -> set[str]:
     # Not above: a process that runs a command of a copy imports this file, and has to find the library of the copy.
     from vibroimpact_pipeline.config.sweeps import DRAWN
 
-    made = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv")}
+    made = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv", ".csv.sha256")}
     others = set(names) - made if Path(folder).name == "sweeps" else set()
     return NOT_BY_DEFAULT(folder, names) | others
 

@@ -2,12 +2,15 @@
 
 from pathlib import Path
 
+import pytest
+
 from vibroimpact_pipeline.same_bytes import digests
 
 FIGURES = ["fig10_01", "fig10_04", "fig10_06", "fig10_08"]  # one of each notebook that computes anew
 COMPANIONS = ["companion_10_05", "companion_modulation"]
 
 
+@pytest.mark.thorough
 def test_a_second_build_gives_the_same_bytes(built, tree):
     tree.snakemake(*FIGURES, *COMPANIONS)
     made, before = digests(tree / "results"), digests(built / "results")
