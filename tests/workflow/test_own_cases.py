@@ -75,6 +75,7 @@ def own(config):
     return config
 
 
+@pytest.mark.thorough
 def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
     tree = edited(own)
     tree.snakemake("all", "report")

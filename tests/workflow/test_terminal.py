@@ -231,7 +231,7 @@ def test_a_job_that_takes_long_is_named_once_with_the_time_of_the_last_build(han
     handler.tick(26)
     handler.tick(27)
     lines = Path("screen").read_text().splitlines()[1:]
-    assert lines == ["0 of 2  still running: regime tile 2-of-4 (16 s, usually 1 min 32 s)"]
+    assert lines == ["0 of 2  still running: tile of sweep 2 4 (16 s, usually 1 min 32 s)"]
 
 
 def test_the_words_of_a_scheduler_are_told(handler):
