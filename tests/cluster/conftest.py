@@ -13,7 +13,7 @@ from pipeline_trees import Tree
 
 SWEEP = "results/sweeps/plane"
 TILES = range(1, 9)
-RUNNING = "with running(snakemake):"
+RUNNING = "with running(snakemake), at_most(snakemake.threads):"
 WATCHED = """
         import pathlib, time
 
