@@ -69,7 +69,7 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.text(0.62, 1.3, "stable", ha="center")
     leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 1, "shrinkB": 0}
     beyond = "the ball would\nleave the box"
-    axes.annotate(beyond, (0.05, 1.9), (0.22, 1.95), fontsize=10, va="center", linespacing=1.0, arrowprops=leader)
+    axes.annotate(beyond, (0.05, 1.98), (0.22, 2.06), fontsize=10, va="center", linespacing=1.0, arrowprops=leader)
     frame = select(table, "regions", "range")
     axes.set(xlim=frame["kappa"], ylim=frame["C"], xlabel=r"$\kappa$", ylabel="$C_i$")
     return figure
