@@ -113,7 +113,11 @@ def _peaks(system, states, asked):
 
 
 def _fixed_points(system, states, asked):
-    """How many the theory has, and how many of them it calls stable."""
+    return fixed_point_counts(system)
+
+
+def fixed_point_counts(system) -> tuple[int, int]:
+    """How many fixed points the theory has, and how many of them it calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 

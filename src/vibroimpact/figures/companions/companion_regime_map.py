@@ -15,8 +15,7 @@ from scipy import ndimage
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, select
 from vibroimpact.regimes.classification import REGIMES, UNSETTLED
-from vibroimpact.regimes.families import FixedPoints
-from vibroimpact.sweeps.observations import FROM_REST
+from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 
 BORDERS = {
     "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 1.1},
@@ -72,9 +71,7 @@ def _borders(system, cells):
 
     @cache
     def counts(f10, f20):
-        here = system.with_(f10_hat=f10, f20_hat=f20)
-        points = [FixedPoints.member(here, root) for root in FixedPoints.roots(here)]
-        return len(points), sum(FixedPoints.stable(here, point) for point in points)
+        return fixed_point_counts(system.with_(f10_hat=f10, f20_hat=f20))
 
     for which, series in enumerate(BORDERS):
         square = _square(cells, series.replace(" ", "_"))
@@ -133,9 +130,10 @@ def draw(tables: dict) -> Figure:
         pieces = select(table, "map", series)[["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
         axes.add_collection(LineCollection(pieces, colors=BLACK, **style))
     axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
+    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
     for _, case in cases.iterrows():
         offset = {"xytext": (5, 3), "textcoords": "offset points", "fontsize": 9}
-        axes.annotate(case["label"], (case["f10_hat"], case["f20_hat"]), bbox=_paper("white"), **offset)
+        axes.annotate(case["label"], (case["f10_hat"], case["f20_hat"]), bbox=paper, **offset)
     _letter(axes, f10, f20, shown)
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
@@ -154,10 +152,6 @@ def _letter(axes, x, y, shown):
         dark = np.dot(to_rgb(COLOURS[number]), (0.3, 0.59, 0.11)) < 0.5
         look = {"linestyle": "none", "marker": f"${letter}$", "markersize": 7.0, "color": "white" if dark else BLACK}
         axes.plot([x[j - 1] for _, j in places], [y[i - 1] for i, _ in places], label=name, markeredgewidth=0.4, **look)
-
-
-def _paper(colour):
-    return {"facecolor": colour, "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
 
 
 def _ends(centres):
