@@ -105,7 +105,11 @@ class Tiles:
 
     def until(self, true, what, build):
         """Until something is true of a build that goes on."""
-        until(lambda: build.poll() is not None or true(), what)
+        try:
+            until(lambda: build.poll() is not None or true(), what)
+        except AssertionError as error:
+            error.add_note(f"Snakemake's log ends with\n{self.log()[-5000:]}")
+            raise
         assert build.poll() is None, build.communicate()[0]
 
     def until_begun(self, tile, build, times=1):

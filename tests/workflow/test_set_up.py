@@ -38,7 +38,11 @@ def test_the_locks_are_whole(tree):
 def test_what_a_cluster_needs_is_installed_on_request_alone(tree):
     """By its hashes, after the rest; a default set-up knows nothing of it."""
     said = subprocess.run(
-        ["make", "--dry-run", "cluster-tools"], cwd=tree.path, capture_output=True, text=True, check=True
+        ["make", "--no-print-directory", "--dry-run", "cluster-tools"],
+        cwd=tree.path,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     set_up, install = said.stdout.replace("\\\n", "").splitlines()
     assert set_up == "workflow/set_up.sh"
