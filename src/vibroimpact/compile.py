@@ -3,6 +3,7 @@
 Numba keeps the code beside the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
 """
 
+from vibroimpact.exact.engine.compile_notice import NOTICE
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
@@ -11,6 +12,7 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 def main() -> None:
     """Compile all that is not compiled yet."""
+    NOTICE.beforehand()
     system, rest = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
     run = simulate(system, rest, cycles=1)
     _ = run.certificate, run.jacobian, run.errors([]), run.energy, ensemble(system, rest, cycles=1)

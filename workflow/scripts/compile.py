@@ -10,6 +10,12 @@ from vibroimpact_pipeline.sources import Sources
 # Numba reads the environment when it is imported, so what needs it is imported after `prepare`.
 
 
+def beforehand():
+    from vibroimpact.exact.engine.compile_notice import NOTICE
+
+    NOTICE.beforehand()
+
+
 def engine(system, start):
     from vibroimpact.exact.engine.ensemble import ensemble
     from vibroimpact.exact.engine.simulation import simulate
@@ -46,6 +52,6 @@ if __name__ == "__main__":
     from vibroimpact.system.chapter import CASES, PARAMETERS
 
     given = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
-    with compiled.from_unchanged(sources.stamps, ROOT), ProcessPoolExecutor() as pool:
+    with compiled.from_unchanged(sources.stamps, ROOT), ProcessPoolExecutor(initializer=beforehand) as pool:
         for done in [pool.submit(work, *given) for work in (engine, certificate, rivals)]:
             done.result()

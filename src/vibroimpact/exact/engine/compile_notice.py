@@ -15,14 +15,18 @@ class _Notice(event.Listener):
     """Hears of all that Numba compiles, a function within another included, just before it does."""
 
     def __init__(self):
-        self.within, self.said = 0, set()
+        self.within, self.said, self.hint = 0, set(), " (python -m vibroimpact.compile does it beforehand)"
+
+    def beforehand(self) -> None:
+        """Who compiles on purpose needs no hint."""
+        self.hint = ""
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
         what = APART.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
         if not self.within and module.startswith(__package__) and what not in self.said:
             self.said.add(what)
-            say(f"compiling {what}, once (python -m vibroimpact.compile does it beforehand)")
+            say(f"compiling {what}, once{self.hint}")
         self.within += 1
 
     def on_end(self, compilation):
@@ -34,4 +38,5 @@ def say(words: str) -> None:
     print(f"vibroimpact: {words}", file=sys.stderr, flush=True)
 
 
-event.register("numba:compile", _Notice())
+NOTICE = _Notice()
+event.register("numba:compile", NOTICE)
