@@ -1,10 +1,11 @@
 """Do two builds give the same bytes? Compared is every table and picture that contains no timing."""
 
 import argparse
-import hashlib
 import re
 import sys
 from pathlib import Path
+
+from vibroimpact_pipeline.integrity.checksums import digest_of
 
 KINDS = ".csv", ".parquet", ".png", ".svg", ".pdf"
 TIME = re.compile(r"seconds|_s$")
@@ -19,7 +20,7 @@ def digests(folder) -> dict[str, str]:
     files = sorted(path for path in folder.rglob("*") if path.suffix in KINDS and path.is_file())
     timed = {path.with_suffix("") for path in files if path.suffix == ".csv" and has_time(path)}
     kept = [path for path in files if path.with_suffix("") not in timed and path.parent.name != PARTS]
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in kept}
+    return {str(path.relative_to(folder)): digest_of(path) for path in kept}
 
 
 def has_time(table) -> bool:

@@ -128,6 +128,7 @@ def test_a_claim_can_be_added(project):
     assert "1 failed" not in printed
 
 
+@pytest.mark.thorough
 def test_parameters_can_be_swept(project):
     said, head = follow("howto_sweep", project)
     assert "Sweep coupling: 12 points, 36 simulated starts, about " in said

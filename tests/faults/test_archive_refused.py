@@ -7,7 +7,7 @@ import pytest
 from archives import commit
 from pipeline_trees import ROOT, copied
 from vibroimpact_pipeline.archive.figures import RECORD, check_environment, figures
-from vibroimpact_pipeline.provenance.record import digest
+from vibroimpact_pipeline.integrity.checksums import digest_of
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_files_that_cite_it_differently(tmp_path):
 def test_figures_made_with_other_packages(tmp_path):
     (tmp_path / "environment.lock").write_text("numpy==2\n")
     paths = [tmp_path / f"{name}{RECORD}" for name in ("fig10_04", "fig10_05")]
-    locks = [digest(tmp_path / "environment.lock"), "another"]
+    locks = [digest_of(tmp_path / "environment.lock"), "another"]
     for path, lock in zip(paths, locks, strict=True):
         path.write_text(json.dumps({"lock": lock, "outputs": {}}))
     check_environment(figures(paths[:1]), tmp_path)

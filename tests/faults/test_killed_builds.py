@@ -39,6 +39,7 @@ def held(tree):
     return tree
 
 
+@pytest.mark.thorough
 def test_of_three_builds_at_once_one_works(held):
     builds = [held.start(FIGURE)]
     wait_for(held / "started", builds[0])

@@ -7,7 +7,8 @@ import tarfile
 from pathlib import Path
 
 from pipeline_trees import Tree
-from vibroimpact_pipeline.provenance.record import LOCK, digest
+from vibroimpact_pipeline.integrity.checksums import digest_of
+from vibroimpact_pipeline.provenance.record import LOCK
 
 COMMITTED = "2020-02-03T04:05:06+00:00"
 IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
@@ -33,7 +34,7 @@ def checkout(built: Tree, path: Path) -> Tree:
 def made_with_another_lock(tree: Tree) -> list[str]:
     """Figures in what a build starts from that are older than the lock; Snakemake does not see that."""
     records = sorted((tree / "results").rglob("*.provenance.json"))
-    lock = digest(tree / LOCK)
+    lock = digest_of(tree / LOCK)
     return [path.name.split(".")[0] for path in records if json.loads(path.read_text())["lock"] != lock]
 
 

@@ -80,6 +80,7 @@ def test_elsewhere_a_change_of_the_config_is_seen(elsewhere):
     assert elsewhere.planned("figures") == {"fig10_07"}
 
 
+@pytest.mark.thorough
 def test_elsewhere_a_damaged_result_is_made_again(elsewhere):
     with open(elsewhere / f"{FIGURE}.csv", "a") as table:
         table.write("\n")

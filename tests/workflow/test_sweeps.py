@@ -84,6 +84,7 @@ def test_what_is_made_stays_whatever_a_tile_should_take(swept):
     assert planned(swept, *TARGETS) == set()
 
 
+@pytest.mark.thorough
 def test_the_resolution_of_an_axis_makes_its_own_sweep_anew_and_no_other(again):
     again.edit("config/config.yaml", "values: 4", "values: 2")
     assert planned(again, "sweep_line") == set()
@@ -115,6 +116,7 @@ def test_a_tile_of_another_question_ends_in_no_table(again):
     assert again.snakemake("sweep_plane").endswith("Open first: results/sweeps/plane.html\n")
 
 
+@pytest.mark.thorough
 def test_a_sweep_above_its_limit_is_not_begun_and_says_what_lets_it_run(again):
     limit = ("--config", "sweeps={plane: {limit_hours: 1.0e-9}}", "--")
     again.snakemake(*POINT_EACH, *limit, "sweep_plane")  # all of it is there

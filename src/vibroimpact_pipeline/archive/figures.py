@@ -4,7 +4,8 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from vibroimpact_pipeline.provenance.record import LOCK, digest
+from vibroimpact_pipeline.integrity.checksums import digest_of
+from vibroimpact_pipeline.provenance.record import LOCK
 from vibroimpact_pipeline.same_bytes import has_time
 
 RECORD = ".provenance.json"
@@ -50,7 +51,7 @@ def check_environment(made: list[Figure], root) -> None:
     Raises:
         ValueError: some were made with another environment.lock.
     """
-    lock = digest(Path(root) / LOCK)
+    lock = digest_of(Path(root) / LOCK)
     if others := [figure.name for figure in made if figure.record["lock"] != lock]:
         names = " ".join(others)
         raise ValueError(

@@ -2,11 +2,11 @@
 
 import hashlib
 import json
-import os
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
+from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 from vibroimpact_pipeline.config.fields import OfFixedPoint
 from vibroimpact_pipeline.config.section import Problem, marked
@@ -75,8 +75,5 @@ def _kept(path, version):
 
 def _keep(path, content):
     """Where that is not possible they are computed again the next time."""
-    partial = path.with_name(f"{path.name}.{os.getpid()}")
-    with suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
+    with suppress(OSError), replacing(path) as partial:
         partial.write_text(json.dumps(content), encoding="utf-8")
-        partial.replace(path)

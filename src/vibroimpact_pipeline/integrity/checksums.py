@@ -25,7 +25,7 @@ def record(outputs: Iterable[str]) -> None:
         keep(path)
     for output, paths in files.items():
         with replacing(_record_of(output)) as partial:
-            partial.write_text("".join(f"{_digest(path)}  {path}\n" for path in paths), encoding="utf-8")
+            partial.write_text("".join(f"{digest_of(path)}  {path}\n" for path in paths), encoding="utf-8")
 
 
 def forget(outputs: Iterable[str]) -> None:
@@ -61,6 +61,12 @@ def has_record(output) -> bool:
     return _record_of(output).is_file()
 
 
+def digest_of(path) -> str:
+    """SHA-256 of a file's content, in hexadecimal digits."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def _record_of(output):
     return Path(f"{RECORDS}/{output}.sha256")
 
@@ -77,13 +83,8 @@ def _as_written(output):
 
 def _matches(output, digest, name):
     path = Path(name)
-    return path.is_relative_to(output) and path.is_file() and _digest(path) == digest
+    return path.is_relative_to(output) and path.is_file() and digest_of(path) == digest
 
 
 def _files(output):
     return sorted(path for path in output.rglob("*") if path.is_file()) if output.is_dir() else [output]
-
-
-def _digest(path):
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,6 +1,5 @@
 """Where the files of a figure come from: what goes into their metadata, and what only the sidecar says."""
 
-import hashlib
 import json
 import platform
 import time
@@ -13,6 +12,7 @@ from vibroimpact.figures.kit.artists import drawn_with
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.integrity.checksums import digest_of
 from vibroimpact_pipeline.provenance.rounding import rounded_by
 
 LOCK = "environment.lock"
@@ -34,8 +34,8 @@ def record(decided: dict, inputs, root: Path) -> dict:
     versions = {"python": platform.python_version(), "numpy": numpy.__version__, **drawn_with()}
     return {
         **decided,
-        "lock": digest(root / LOCK),
-        "inputs": {str(path): digest(path) for path in inputs},
+        "lock": digest_of(root / LOCK),
+        "inputs": {str(path): digest_of(path) for path in inputs},
         "versions": versions,
     }
 
@@ -44,7 +44,7 @@ def write_sidecar(path, provenance: dict, outputs, root: Path, seconds: float) -
     """Write the record, the files that were made, and what no file of the figure bears: commit, machine, run time."""
     commit, changes = git("rev-parse", "HEAD", root=root), git("status", "--porcelain", root=root)
     sidecar = provenance | {
-        "outputs": {str(output): digest(output) for output in outputs},
+        "outputs": {str(output): digest_of(output) for output in outputs},
         "commit": commit,
         "tree": None if changes is None else "modified" if changes else "clean",
         "seconds": round(seconds, 3),
@@ -52,7 +52,3 @@ def write_sidecar(path, provenance: dict, outputs, root: Path, seconds: float) -
     }
     with replacing(path) as partial:
         partial.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
-
-
-def digest(path) -> str:
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()

@@ -5,7 +5,6 @@ speaks, which also tells commit and run time.
 """
 
 import argparse
-import hashlib
 import json
 import re
 import sys
@@ -18,6 +17,7 @@ from PIL import Image
 import vibroimpact
 from vibroimpact.figures.kit.style import PROVENANCE_KEYS
 from vibroimpact_pipeline.checkout import ROOT
+from vibroimpact_pipeline.integrity.checksums import digest_of
 from vibroimpact_pipeline.sources import Sources
 
 CONFIG, LOCK = "config/config.yaml", "environment.lock"
@@ -119,7 +119,7 @@ def _config_difference(config, key, value):
 def _file_difference(path, digest):
     if not path.is_file():
         return "is missing"
-    return None if hashlib.sha256(path.read_bytes()).hexdigest() == digest else "has changed"
+    return None if digest_of(path) == digest else "has changed"
 
 
 def _code_difference(sources, root, step):

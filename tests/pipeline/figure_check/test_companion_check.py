@@ -166,7 +166,11 @@ def verdict(reference, tmp_path):
     return judge
 
 
-@pytest.mark.parametrize("name", MODULES)
+SLOW = "companion_regime_map", "companion_epsilon", "companion_branches"
+THOROUGH = [pytest.param(name, marks=[pytest.mark.thorough] * (name in SLOW)) for name in MODULES]
+
+
+@pytest.mark.parametrize("name", THOROUGH)
 def test_the_rounding_of_another_machine_passes(verdict, name):
     """The whole figure is computed from parameters spoilt in their last digits: chaotic motions come out different."""
     made = COMPUTE[name](other_rounding)
