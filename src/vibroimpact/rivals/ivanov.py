@@ -136,7 +136,7 @@ def _march_across_jumps(q, k, z, tau0, h, count):
                 part = (wall - z[4 * i]) / (ahead[4 * i] - z[4 * i])
                 way = 1.0 if boxes[i] > before[i] else -1.0
                 rows.append(_impact(tau0 + (n + part) * h, i, before[i], way, ahead[4 * i + 1], k))
-        z, before[:] = ahead, boxes
+        z, before = ahead, boxes.copy()
     return z, boxes, rows, count, math.nan
 
 

@@ -88,8 +88,6 @@ def _impulses(q1, q2, d11, d12, d22):
 @kept()
 def _note(rows, count, tau, module, wall, speed):
     if count == len(rows):
-        larger = np.empty((2 * count, 4))
-        larger[:count] = rows
-        rows = larger
+        rows = np.concatenate((rows, np.empty_like(rows)))
     rows[count, 0], rows[count, 1], rows[count, 2], rows[count, 3] = tau, module, wall, speed
     return rows, count + 1

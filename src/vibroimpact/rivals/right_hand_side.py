@@ -32,7 +32,7 @@ def rates(tau, s, q, stuck1, stuck2):
     """Derivative of the state, shape (8,), in a contact state of the balls."""
     a1, a2 = accelerations(tau, s, q, stuck1, stuck2)
     d = np.empty(8)
-    d[:4] = s[4:]
+    d[0], d[1], d[2], d[3] = s[4], s[5], s[6], s[7]  # a slice at once would take 3 s more to compile
     d[4], d[5], d[6], d[7] = a1, stuck1 * a1, a2, stuck2 * a2
     return d
 

@@ -51,7 +51,8 @@ def errors_at(flow, flights, events, times, limit):
     for n in range(len(flights)):
         last = n == len(events)
         while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
-            part[:], there[:] = flights[n], covariance
+            _copy(flights[n], part)
+            _copy(covariance.flat, there.flat)
             part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
             land(flow, part)
             fill_flight(flow, part, matrix)
@@ -102,6 +103,13 @@ def _multiply(a, b, product):
             if weight != 0.0:
                 for j in range(8):
                     product[i, j] += weight * b[k, j]
+
+
+@inlined
+def _copy(source, target):
+    """One by one: for an array into an array Numba compiles the words of an error, 2 s and never said."""
+    for i in range(len(source)):
+        target[i] = source[i]
 
 
 @inlined
