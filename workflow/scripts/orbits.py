@@ -3,6 +3,7 @@
 import json
 
 import pandas as pd
+
 from job import running
 from vibroimpact.claims.orbit_proofs import proof_rows
 from vibroimpact.claims.verdict_table import orbit_rows

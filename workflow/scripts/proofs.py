@@ -1,4 +1,4 @@
-"""How complete the lists of fixed points and orbits of all cases are, and what is proved of the orbits -> JSON, by case.
+"""How complete the lists of fixed points and orbits of all cases are, what is proved of the orbits -> JSON, by case.
 
 Lists are proved complete in interval arithmetic: of fixed points, those with unequal flights too, and of symmetric
 orbits. That of asymmetric orbits is not: the number of Newton starts that led to the one that was met least says how

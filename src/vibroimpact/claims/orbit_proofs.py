@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from vibroimpact.exact.orbits.proof import prove
-from vibroimpact.exact.orbits.walls import NOT_PROVED
+from vibroimpact.exact.orbits.proof.orbit import prove
+from vibroimpact.exact.orbits.proof.walls import NOT_PROVED
 
 
 def proof_rows(orbits) -> pd.DataFrame:

@@ -11,12 +11,12 @@ flint = pytest.importorskip("flint", reason="python-flint belongs to the optiona
 import vibroimpact as vi  # noqa: E402
 from chapter import FORCES, PARAMETERS  # noqa: E402
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
-from vibroimpact.exact.orbits.enclosure import EnclosedConditions  # noqa: E402
 from vibroimpact.exact.orbits.floquet import contraction  # noqa: E402
 from vibroimpact.exact.orbits.floquet_verdict import floquet  # noqa: E402
-from vibroimpact.exact.orbits.krawczyk import krawczyk  # noqa: E402
 from vibroimpact.exact.orbits.newton import newton  # noqa: E402
-from vibroimpact.exact.orbits.proof import prove  # noqa: E402
+from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions  # noqa: E402
+from vibroimpact.exact.orbits.proof.krawczyk import krawczyk  # noqa: E402
+from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
 from vibroimpact.exact.orbits.search import symmetric_orbit  # noqa: E402
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
 from vibroimpact.system.matrices import rate_matrix  # noqa: E402

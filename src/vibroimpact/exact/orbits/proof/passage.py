@@ -7,16 +7,13 @@ saltation.py is then R + (A R - R A) z n^T / (n . A z) for the state z before th
 
 import functools
 
-from vibroimpact.exact.orbits.enclosure import WALLS
-from vibroimpact.exact.orbits.intervals import identity
-from vibroimpact.system.extras import need
+from flint import arb, arb_mat
+
+from vibroimpact.exact.orbits.proof.boxes import identity
+from vibroimpact.exact.orbits.proof.conditions import WALLS
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.system.state import BALLS, BOXES
-
-need("reference", "flint")
-
-from flint import arb, arb_mat  # noqa: E402 (after the word on what is missing)
 
 _SIZE = 10
 _DRIVEN = [*BOXES.tolist(), 8, 9]

@@ -4,13 +4,10 @@ Flights are halved until on each piece |W_i| < 1 in interval arithmetic, or, nex
 nears it throughout. W_i is expanded to first order about the centre of a piece, the second order enclosed over it.
 """
 
-from vibroimpact.exact.orbits.enclosure import WALLS
-from vibroimpact.exact.orbits.passage import GAPS
-from vibroimpact.system.extras import need
+from flint import arb
 
-need("reference", "flint")
-
-from flint import arb  # noqa: E402 (after the word on what is missing)
+from vibroimpact.exact.orbits.proof.conditions import WALLS
+from vibroimpact.exact.orbits.proof.passage import GAPS
 
 LEGAL, ILLEGAL, NOT_PROVED = "legal", "not legal", "not proved"
 _MOST = 2000  # pieces of a flight to look at

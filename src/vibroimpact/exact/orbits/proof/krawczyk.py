@@ -1,12 +1,7 @@
 """Krawczyk's interval form of Newton's method: exactly one root in a box (Krawczyk 1969; Neumaier 1990)."""
 
 import numpy as np
-
-from vibroimpact.system.extras import need
-
-need("reference", "flint")
-
-from flint import arb, arb_mat  # noqa: E402 (after the word on what is missing)
+from flint import arb, arb_mat
 
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths that are tried
 _TIGHT = 2.0**-90

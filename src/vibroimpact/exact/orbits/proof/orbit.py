@@ -10,17 +10,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from flint import acb, acb_mat, ctx
 
-from vibroimpact.exact.orbits.enclosure import EnclosedConditions
-from vibroimpact.exact.orbits.krawczyk import krawczyk
-from vibroimpact.exact.orbits.passage import EnclosedPassage
-from vibroimpact.exact.orbits.walls import NOT_PROVED, between_walls
-from vibroimpact.system.extras import need
+from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions
+from vibroimpact.exact.orbits.proof.krawczyk import krawczyk
+from vibroimpact.exact.orbits.proof.passage import EnclosedPassage
+from vibroimpact.exact.orbits.proof.walls import NOT_PROVED, between_walls
 from vibroimpact.system.verdict import STABLE, UNSTABLE
-
-need("reference", "flint")
-
-from flint import acb, acb_mat, ctx  # noqa: E402 (after the word on what is missing)
 
 _BITS = 128
 

@@ -6,12 +6,9 @@ both kinds are roots; a symmetric one is its own mirror image.
 
 import itertools
 
-from vibroimpact.exact.orbits.intervals import SteadyBoxes
-from vibroimpact.system.extras import need
+from flint import acb, arb, arb_mat
 
-need("reference", "flint")
-
-from flint import acb, arb, arb_mat  # noqa: E402 (after the word on what is missing)
+from vibroimpact.exact.orbits.proof.boxes import SteadyBoxes
 
 WALLS = (1, -1, 1, -1)
 _KICKS = (-1, 1, -1, 1)

@@ -1,13 +1,9 @@
 """Steady motion of the boxes under forcing and trains of impulses, in interval arithmetic (python-flint's arb)."""
 
 import numpy as np
+from flint import acb, acb_mat, arb, arb_mat
 
-from vibroimpact.system.extras import need
 from vibroimpact.system.matrices import rate_matrix
-
-need("reference", "flint")
-
-from flint import acb, acb_mat, arb, arb_mat  # noqa: E402 (after the word on what is missing)
 
 _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
