@@ -9,6 +9,7 @@ import pytest
 flint = pytest.importorskip("flint", reason="python-flint belongs to the optional extra `reference`")
 
 import vibroimpact as vi  # noqa: E402
+from attacks import random_system  # noqa: E402
 from chapter import FORCES, PARAMETERS  # noqa: E402
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
 from vibroimpact.exact.orbits.floquet import contraction  # noqa: E402
@@ -140,6 +141,13 @@ def test_all_of_the_case_is_proved_and_agrees_with_what_floats_say(orbits, proof
         label for label, orbit in orbits.items() if (orbit.ball_speeds > 0).all() and not orbit.admissible
     ]
     assert through_a_wall  # not only those that speeds give away
+
+
+@pytest.mark.parametrize("seed", [5, 11])
+def test_orbits_of_random_systems_are_proved_too(seed):
+    for orbit in vi.orbits(random_system(np.random.default_rng(seed))):
+        proof = prove(orbit)
+        assert (proof.motion, proof.stability) == ("legal" if orbit.admissible else "not legal", floquet(orbit))
 
 
 def test_the_multipliers_multiply_to_the_contraction(orbits, proofs):
