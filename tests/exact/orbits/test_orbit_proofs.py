@@ -150,6 +150,14 @@ def test_orbits_of_random_systems_are_proved_too(seed):
         assert (proof.motion, proof.stability) == ("legal" if orbit.admissible else "not legal", floquet(orbit))
 
 
+@pytest.mark.parametrize(("beyond", "motion"), [(-1e-7, "not legal"), (1e-7, "legal")])
+def test_a_ball_that_just_misses_the_wall_or_does_not(chapter, beyond, motion):
+    """Next to the place where continuation finds that an asymmetric orbit grazes."""
+    near = vi.orbits(chapter(1.0, 0.7645496612 + beyond))
+    orbit = min(near, key=lambda o: np.hypot(*(o.C - [1.7160529, 0.6802411])) + o.symmetric)
+    assert prove(orbit).motion == motion
+
+
 def test_the_multipliers_multiply_to_the_contraction(orbits, proofs):
     for label, proof in proofs.items():
         product = np.prod([complex(value) for value in proof.multipliers])
