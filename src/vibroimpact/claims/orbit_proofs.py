@@ -9,12 +9,12 @@ from vibroimpact.exact.orbits.proof.walls import NOT_PROVED
 def proof_rows(orbits) -> pd.DataFrame:
     """A row per exact orbit, in order: an `OrbitProof`.
 
-    Columns box_radius, orbit_error, modulus_error (as there), motion_proved ("legal", "not legal", "not proved"),
+    Columns box_radius, orbit_error, moduli_error (as there), motion_proved ("legal", "not legal", "not proved"),
     floquet_proved ("stable", "unstable", "not proved").
     """
     proofs = [prove(orbit) for orbit in orbits]
-    rows = [(p.radius, p.error, p.modulus_error, p.motion, p.stability) for p in proofs]
-    names = ["box_radius", "orbit_error", "modulus_error", "motion_proved", "floquet_proved"]
+    rows = [(p.radius, p.error, p.moduli_error, p.motion, p.stability) for p in proofs]
+    names = ["box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_proved"]
     return pd.DataFrame(rows, columns=names)
 
 

@@ -27,7 +27,7 @@ REFUSED = (0.0, np.inf, "not proved", "not proved", np.inf)
 
 
 def said(proof):
-    return proof.radius, proof.error, proof.motion, proof.stability, proof.modulus_error
+    return proof.radius, proof.error, proof.motion, proof.stability, proof.moduli_error
 
 
 def unknowns(orbit):
@@ -120,7 +120,7 @@ def test_an_orbit_followed_with_80_digits_has_its_multipliers_in_the_enclosures(
     np.testing.assert_array_equal(np.sum(inside, axis=1), 1)
     np.testing.assert_array_equal(np.sum(inside, axis=0), 1)
     assert all(float(box.rad()) < 1e-20 for box in proof.multipliers)
-    assert float(error) <= proof.modulus_error == pytest.approx(float(error), rel=1e-6)
+    assert float(error) <= proof.moduli_error == pytest.approx(float(error), rel=1e-6)
     order = np.argsort(orbit.impact_phases.ravel())
     gaps = [*(phases - orbit.impact_phases.ravel()[order]), *(speeds - orbit.ball_speeds.ravel()[order])]
     assert float(max(map(abs, gaps))) <= proof.error == pytest.approx(float(max(map(abs, gaps))), rel=1e-6)
@@ -198,7 +198,7 @@ def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):
     assert said(prove(dataclasses.replace(orbits["S4"], symmetric=False))) == REFUSED
     off = dataclasses.replace(orbit, ball_speeds=orbit.ball_speeds + 1e-7, multipliers=orbit.multipliers * (1 + 1e-6))
     assert prove(off).error == pytest.approx(1e-7, rel=1e-3)
-    assert prove(off).modulus_error == pytest.approx(1e-6 * abs(orbit.multipliers[0]), rel=1e-3)
+    assert prove(off).moduli_error == pytest.approx(1e-6 * abs(orbit.multipliers[0]), rel=1e-3)
 
 
 def test_nothing_is_proved_where_symmetry_breaks_or_impacts_coincide(chapter):

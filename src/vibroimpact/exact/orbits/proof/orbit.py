@@ -30,14 +30,14 @@ class OrbitProof:
     error: bound on the distance of the listed impact times and speeds from those of the root; inf without one.
     motion: "legal", "not legal" or "not proved": every ball meets its walls from inside and |W_i| < 1 between.
     multipliers: enclosures, eight acb by descending modulus, or none.
-    modulus_error: bound on the error of the listed moduli; inf without enclosures.
+    moduli_error: bound on the error of the listed moduli; inf without enclosures.
     """
 
     radius: float
     error: float
     motion: str
     multipliers: tuple[acb, ...]
-    modulus_error: float
+    moduli_error: float
 
     @property
     def stability(self) -> str:
@@ -72,7 +72,7 @@ def prove(orbit) -> OrbitProof:
             error=_distance(passage.phases + passage.speeds, numbers),
             motion=between_walls(passage),
             multipliers=multipliers,
-            modulus_error=_distance(map(abs, multipliers), np.abs(orbit.multipliers)) if multipliers else math.inf,
+            moduli_error=_distance(map(abs, multipliers), np.abs(orbit.multipliers)) if multipliers else math.inf,
         )
 
 
