@@ -24,6 +24,8 @@ def test_orbits_of_all_cases_are_gathered(built):
     moduli = table.filter(like="modulus_")
     assert moduli.shape[1] == 8
     assert ((moduli["modulus_1"] < 1) == (table["floquet"] == "stable")).all()
+    assert (table["floquet"] == table["floquet_proved"]).all()
+    assert ((table["motion_proved"] == "legal") == table["admissible"]).all()
     assert table.filter(like="phase").stack().between(0, 1, inclusive="left").all()
 
 
@@ -35,6 +37,8 @@ def test_fixed_points_and_symmetric_orbits_are_proved_complete(built):
         assert found["asymmetric_fixed_points"]["complete"]
         assert found["symmetric_orbits"]["complete"]
         assert found["fixed_points"]["undecided"] == found["symmetric_orbits"]["undecided"] == []
+        orbits = found["orbits"]
+        assert orbits["listed"] == orbits["proved"] == orbits["motion_proved"] == orbits["floquet_proved"] > 0
 
 
 def test_verdicts_are_those_expected(built):

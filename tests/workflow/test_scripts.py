@@ -56,7 +56,8 @@ def test_a_case_without_responses_goes_through_all_stages(tmp_path, changes):
     verdicts.main("still", system, paths, paths["verdicts"])
     tables = {name: pd.read_csv(paths[name]) for name in ("verdicts", "orbits")}
     assert [len(table) for table in tables.values()] == [0, 0]
-    proofs.main({"still": system}, {"still": tmp_path / "search.json"}, tmp_path / "proofs.json")
+    found = {"still": (paths["orbits"], tmp_path / "search.json")}
+    proofs.main({"still": system}, found, tmp_path / "proofs.json")
     found = json.loads((tmp_path / "proofs.json").read_text())["still"]
     assert found["fixed_points"]["complete"]
     assert found["symmetric_orbits"]["complete"]

@@ -1,5 +1,5 @@
-# Is it stable? Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, how
-# complete both lists are. The tables of all cases feed no figure of the chapter.
+# Is it stable? Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, what is
+# proved of them, how complete both lists are. The tables of all cases feed no figure of the chapter.
 
 # Tables of all cases, gathered from those of each: fixed points with the verdicts on them, and orbits.
 GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/orbits/{case}.csv"}
@@ -58,7 +58,8 @@ for name, per_case in GATHERED.items():
 
 rule proofs:
     input:
-        expand("results/orbits/{case}.search.json", case=all_systems()),
+        tables=expand("results/orbits/{case}.csv", case=all_systems()),
+        searches=expand("results/orbits/{case}.search.json", case=all_systems()),
     output:
         "results/proofs.json",
     params:

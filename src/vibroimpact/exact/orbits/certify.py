@@ -22,20 +22,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from vibroimpact.exact.orbits.proof.boxes import SteadyBoxes
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system.extras import need
-from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 need("reference", "flint")
 
-from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series  # noqa: E402 (after the word on what is missing)
+from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the word on what is missing)
 
 _NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
 _FIRST = 8
 _MOST = 10_000  # intervals to look at: the rest is reported as undecided
 _TERMS = 3
-_IDENTITY = arb_mat(np.eye(4).tolist())
-_UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 @dataclass(frozen=True)
@@ -90,23 +88,14 @@ class _Condition:
     """F and D of the module docstring, with derivatives, on intervals of delta."""
 
     def __init__(self, system):
-        self.half_period = arb.pi() / arb(system.Omega)
-        self.rate = arb_mat(rate_matrix(system)[:4, :4].tolist())
+        boxes = SteadyBoxes(system, sign=-1)
+        self.half_period, self.rate, self.start, self.omega = boxes.period / 2, boxes.rate, boxes.start, boxes.omega
         epsilon, kappa = arb(system.epsilon), arb(system.kappa)
-        omega = arb(system.Omega)
         self.place = 1 / (1 + epsilon)
         self.kick = 4 * epsilon * self.place / self.half_period
         self.own_velocity = 2 * self.place / self.half_period * (1 + 2 * epsilon - kappa) / (1 + kappa)
-        self.omega = omega
-        stiffness = acb_mat([[acb(z.real, z.imag) for z in row] for row in dynamic_stiffness(system).tolist()])
-        try:
-            amplitude = stiffness.solve(acb_mat([[acb(f)] for f in system.forcing.tolist()]))
-            closure = (self.rate * self.half_period).exp() + _IDENTITY
-            self.start = closure.solve(_UNIT_IMPULSES)
-        except ZeroDivisionError:
-            raise ValueError("system: its undamped boxes are in resonance with the impacts; add damping") from None
-        self.amplitude = amplitude[0, 0], amplitude[1, 0]
-        self.larger = int(abs(amplitude[1, 0]).mid() > abs(amplitude[0, 0]).mid())
+        self.amplitude = boxes.amplitude[0, 0], boxes.amplitude[1, 0]
+        self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
         """Roots with delta in (half + [lower, upper]) T/2: 0, 1, or None where that stays open."""

@@ -1,0 +1,36 @@
+"""What interval arithmetic proves of every exact orbit of a case, beside what floats say in verdict_table.py."""
+
+import pandas as pd
+
+from vibroimpact.exact.orbits.proof.orbit import prove
+from vibroimpact.exact.orbits.proof.walls import NOT_PROVED
+
+
+def proof_rows(orbits) -> pd.DataFrame:
+    """A row per exact orbit, in order: an `OrbitProof`.
+
+    Columns box_radius, orbit_error, moduli_error (as there), motion_proved ("legal", "not legal", "not proved"),
+    floquet_proved ("stable", "unstable", "not proved").
+    """
+    proofs = [prove(orbit) for orbit in orbits]
+    rows = [(p.radius, p.error, p.moduli_error, p.motion, p.stability) for p in proofs]
+    names = ["box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_proved"]
+    return pd.DataFrame(rows, columns=names)
+
+
+def counts(table: pd.DataFrame) -> dict:
+    """How many orbits of a table are listed, and of how many existence, motion and verdict are proved.
+
+    Stable ones count if their motion is proved legal too.
+    """
+    legal, says = table["motion_proved"] == "legal", table["floquet_proved"]
+    found = {
+        "listed": table["label"],
+        "proved": table[table["box_radius"] > 0],
+        "motion_proved": table[table["motion_proved"] != NOT_PROVED],
+        "floquet_proved": table[says != NOT_PROVED],
+        "legal": table[legal],
+        "legal_and_stable": table[legal & (says == "stable")],
+        "legal_and_unstable": table[legal & (says == "unstable")],
+    }
+    return {name: len(rows) for name, rows in found.items()}

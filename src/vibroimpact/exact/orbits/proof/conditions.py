@@ -1,0 +1,99 @@
+"""The conditions of asymmetric.py on impact times and velocity changes of the balls, in interval arithmetic.
+
+They are six smooth equations for p_1, q_1, p_2, q_2, I_1, I_2 as long as no two impacts change their order. Orbits of
+both kinds are roots; a symmetric one is its own mirror image.
+"""
+
+import itertools
+
+from flint import acb, arb, arb_mat
+
+from vibroimpact.exact.orbits.proof.boxes import SteadyBoxes
+
+WALLS = (1, -1, 1, -1)
+_KICKS = (-1, 1, -1, 1)
+_UNKNOWNS = 6
+
+
+class EnclosedConditions:
+    """The equations for one system whose matrices and forcing are the float64 numbers that the code holds.
+
+    Raises:
+        ValueError: undamped boxes in resonance with the impacts.
+    """
+
+    def __init__(self, system):
+        self.boxes = SteadyBoxes(system, sign=1)
+        self.period = self.boxes.period
+        self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
+
+    def __call__(self, unknowns):
+        """Residual (6, 1) and Jacobian (6, 6) over a list of six intervals; None where impacts may coincide."""
+        lags = self.lags(unknowns)
+        if lags is None:
+            return None
+        motions = [self.before(m, unknowns, lags) for m in range(4)]
+        rows = [row for i in range(2) for row in self._of_module(i, unknowns, lags, motions)]
+        return arb_mat([row[:1] for row in rows]), arb_mat([row[1:] for row in rows])
+
+    def lags(self, unknowns):
+        """Time since impact k at impact m, by (m, k), above 0 and below a period; None where impacts may coincide."""
+        lags = {}
+        for m, k in itertools.permutations(range(4), 2):
+            lag = unknowns[m] - unknowns[k]
+            lag += self.period if lag.mid() < 0 else 0
+            if not (lag > 0 and lag < self.period):
+                return None
+            lags[m, k] = lag
+        return lags
+
+    def fraction(self, i, lags):
+        """Flight of ball i from wall +1, of the period."""
+        return lags[2 * i + 1, 2 * i] / self.period
+
+    def before(self, m, unknowns, lags):
+        """State (4, 1) of the boxes just before impact m and its derivatives by the unknowns: rows of length 7."""
+        forced = self.boxes.forced(unknowns[m])
+        columns = [forced, *[0 * forced] * _UNKNOWNS]
+        columns[1 + m] = forced * acb(0, self.boxes.omega)
+        columns = [arb_mat([[entry.imag] for entry in column.entries()]) for column in columns]
+        for k in range(4):
+            strength = 5 + k // 2
+            motion = self._response(m, k, lags)
+            columns[0] += motion * unknowns[strength - 1]
+            columns[strength] += motion
+            if k != m:
+                moved = self.boxes.rate * motion * unknowns[strength - 1]
+                columns[1 + m] += moved
+                columns[1 + k] -= moved
+        return [[column[row, 0] for column in columns] for row in range(4)]
+
+    def _response(self, m, k, lags):
+        """Motion of the boxes just before impact m under the kicks of impact k, per velocity change of its ball."""
+        box, kick = k // 2, _KICKS[k] * self.epsilon
+        motion = self.boxes.start if m == k else self.boxes.free(lags[m, k]) * self.boxes.start
+        own = [arb(int(m == k and row == 2 + box)) for row in range(4)]
+        return arb_mat([[kick * (motion[row, box] - own[row])] for row in range(4)])
+
+    def _of_module(self, i, unknowns, lags, motions):
+        """The three conditions of a module, each with its derivatives."""
+        start, end, strength = 2 * i, 2 * i + 1, unknowns[4 + i]
+        u, kappa, epsilon = self.fraction(i, lags), self.kappa, self.epsilon
+        first = [(1 + kappa) * term for term in motions[start][2 + i]]
+        second = [(1 + kappa) * term for term in motions[end][2 + i]]
+        path = [a - b for a, b in zip(motions[start][i], motions[end][i], strict=True)]
+        path[0] -= 2
+        # What the equations have besides the motion of the box is strength times a function of u.
+        slope = (1 + kappa) / self.period
+        self._add(first, i, strength, kappa * u - (1 - u) - epsilon, slope)
+        self._add(second, i, strength, u - kappa * (1 - u) + epsilon, slope)
+        self._add(path, i, strength, u * (1 - u) * self.period, 1 - 2 * u)
+        return first, second, path
+
+    @staticmethod
+    def _add(row, i, strength, factor, slope):
+        """Add strength times factor, whose derivative by the later impact time of module i is slope."""
+        row[0] += strength * factor
+        row[5 + i] += factor
+        row[2 + 2 * i] += strength * slope
+        row[1 + 2 * i] -= strength * slope

@@ -1,0 +1,100 @@
+"""Proofs on single orbits in interval arithmetic: existence, motion between the walls, multipliers.
+
+Krawczyk's test on the six conditions of asymmetric.py shows that near the listed numbers there is one root and no
+other. It is symmetric if its mirror image is as near, so that both must be the same; asymmetric if a flight fraction
+is not 1/2. From its enclosure follow those of the state at the impacts, of the monodromy matrix and of its eigenvalues
+(flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from flint import acb, acb_mat, ctx
+
+from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions
+from vibroimpact.exact.orbits.proof.krawczyk import krawczyk
+from vibroimpact.exact.orbits.proof.passage import EnclosedPassage
+from vibroimpact.exact.orbits.proof.walls import NOT_PROVED, between_walls
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+
+_BITS = 128
+
+
+@dataclass(frozen=True)
+class OrbitProof:
+    """What is proved of an orbit of a system whose matrices and forcing are the float64 numbers that the code holds.
+
+    radius: half-width of a box around the listed impact times and changes of ball velocity with exactly one root, of
+        the listed kind (symmetric or not); 0 where nothing is proved.
+    error: bound on the distance of the listed impact times and speeds from those of the root; inf without one.
+    motion: "legal", "not legal" or "not proved": every ball meets its walls from inside and |W_i| < 1 between.
+    multipliers: enclosures, eight acb by descending modulus, or none.
+    moduli_error: bound on the error of the listed moduli; inf without enclosures.
+    """
+
+    radius: float
+    error: float
+    motion: str
+    multipliers: tuple[acb, ...]
+    moduli_error: float
+
+    @property
+    def stability(self) -> str:
+        """ "stable" or "unstable" where the enclosures prove it, else "not proved"."""
+        moduli = [abs(value) for value in self.multipliers]
+        if any(modulus > 1 for modulus in moduli):
+            return UNSTABLE
+        return STABLE if moduli and all(modulus < 1 for modulus in moduli) else NOT_PROVED
+
+
+_NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
+
+
+def prove(orbit) -> OrbitProof:
+    """Prove what can be proved of an Orbit from its listed numbers.
+
+    Raises:
+        ValueError: undamped boxes in resonance with the impacts.
+    """
+    with ctx.workprec(_BITS):
+        conditions = EnclosedConditions(orbit.system)
+        times, changes = orbit.impact_phases.ravel() * orbit.system.period, orbit.ball_speeds.sum(axis=1)
+        listed = np.concatenate([times, changes])
+        root, radius = krawczyk(conditions, listed)
+        if root is None or not _of_kind(orbit.symmetric, conditions, root, listed, radius):
+            return _NOTHING
+        passage = EnclosedPassage(orbit.system, conditions, root)
+        numbers = [*orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
+        multipliers = _multipliers(passage.monodromy())
+        return OrbitProof(
+            radius=radius,
+            error=_distance(passage.phases + passage.speeds, numbers),
+            motion=between_walls(passage),
+            multipliers=multipliers,
+            moduli_error=_distance(map(abs, multipliers), np.abs(orbit.multipliers)) if multipliers else math.inf,
+        )
+
+
+def _multipliers(monodromy) -> tuple[acb, ...]:
+    """Enclosures of the eigenvalues of an interval matrix, by descending modulus; none where that fails."""
+    try:
+        values = acb_mat(monodromy).eig(multiple=True)
+    except ValueError:
+        return ()
+    return tuple(sorted(values, key=lambda value: -float(abs(value).mid())))
+
+
+def _of_kind(symmetric, conditions, root, listed, radius):
+    """Whether the root is proved to be symmetric, or proved not to be."""
+    if not symmetric:
+        lags = conditions.lags(root)
+        return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in range(2))
+    gaps = [abs(root[a] - listed[b]) - conditions.period / 2 for a, b in ((0, 1), (1, 0), (2, 3), (3, 2))]
+    return all(abs(gap) < radius for gap in gaps)
+
+
+def _distance(enclosures, listed):
+    """Upper bound, rounded up, of the distance of numbers from those enclosed."""
+    gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
+    return max(math.nextafter(float(gap), math.inf) for gap in gaps)

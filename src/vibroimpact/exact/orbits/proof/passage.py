@@ -1,0 +1,96 @@
+"""An orbit followed once round in interval arithmetic: its flights and its monodromy matrix.
+
+The state is carried with sin(Omega tau) and cos(Omega tau) in places 8 and 9, so that free flight is one linear map,
+the exponential of a rate matrix A (10, 10). With R the map of an impact and n its normal, the saltation matrix of
+saltation.py is then R + (A R - R A) z n^T / (n . A z) for the state z before the impact.
+"""
+
+import functools
+
+from flint import arb, arb_mat
+
+from vibroimpact.exact.orbits.proof.boxes import identity
+from vibroimpact.exact.orbits.proof.conditions import WALLS
+from vibroimpact.system.matrices import rate_matrix
+from vibroimpact.system.restitution import after_impact
+from vibroimpact.system.state import BALLS, BOXES
+
+_SIZE = 10
+_DRIVEN = [*BOXES.tolist(), 8, 9]
+GAPS = arb_mat([[1, -1] + [0] * 8, [0, 0, 1, -1] + [0] * 6])
+"""W_1 and W_2 of a state (10, 1)."""
+
+
+class EnclosedPassage:
+    """The motion of a root of `EnclosedConditions`, given by intervals around the six unknowns.
+
+    rate (10, 10): rate matrix of free flight; phases, speeds (4,): of the impacts, in forcing periods, and of the
+    flights that start with them, module by module, wall +1 first.
+    """
+
+    def __init__(self, system, conditions, unknowns):
+        self._conditions, self._unknowns = conditions, unknowns
+        self._lags = conditions.lags(unknowns)
+        self.phases = [time / conditions.period for time in unknowns[:4]]
+        self.speeds = [self._speed(k) for k in range(4)]
+        self._boxes = [conditions.before(m, unknowns, self._lags) for m in range(4)]
+        self._impacts = [_impact(i, conditions) for i in range(2)]
+        self.rate = _rate(system)
+
+    def flights(self):
+        """Impact that it starts with, impact that it ends with, state after the first one and duration of each."""
+        order = sorted(range(4), key=lambda m: float(self._unknowns[m].mid()))
+        for m, following in zip(order, [*order[1:], order[0]], strict=True):
+            yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
+
+    def monodromy(self) -> arb_mat:
+        """Derivative (8, 8) of the state before the first impact of a period by that before the same one earlier.
+
+        Entries are not finite where an impact may be without relative velocity.
+        """
+        maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
+        whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
+        return arb_mat([row[:8] for row in whole.tolist()[:8]])
+
+    def _before(self, m):
+        """State (10, 1) just before impact m."""
+        state = [arb(0)] * _SIZE
+        for place, row in zip(BOXES, self._boxes[m], strict=True):
+            state[place] = row[0]
+        for i in range(2):
+            last = min((k for k in (2 * i, 2 * i + 1) if k != m), key=lambda k: float(self._lags[m, k].mid()))
+            velocity = WALLS[last] * self.speeds[last]
+            state[BALLS[i]] = self._boxes[last][i][0] - WALLS[last] + velocity * self._lags[m, last]
+            state[BALLS[2 + i]] = velocity
+        phase = self._conditions.boxes.omega * self._unknowns[m]
+        return arb_mat([[entry] for entry in [*state[:8], phase.sin(), phase.cos()]])
+
+    def _speed(self, k):
+        """Speed of the flight that starts with impact k."""
+        u = self._conditions.fraction(k // 2, self._lags)
+        return self._unknowns[4 + k // 2] * (1 - u if WALLS[k] == 1 else u)
+
+    def _saltation(self, m):
+        impact, state, normal = self._impacts[m // 2], self._before(m), arb_mat([GAPS.tolist()[m // 2]])
+        field = self.rate * state
+        kick = self.rate * impact * state - impact * field
+        return impact + kick * normal / (normal * field)[0, 0]
+
+
+def _rate(system):
+    matrix = [[arb(0)] * _SIZE for _ in range(_SIZE)]
+    for row, entries in zip(_DRIVEN, rate_matrix(system).tolist(), strict=True):
+        for column, entry in zip(_DRIVEN, entries, strict=True):
+            matrix[row][column] = arb(entry)
+    for place, velocity in zip(BALLS[:2], BALLS[2:], strict=True):
+        matrix[place][velocity] = arb(1)
+    return arb_mat(matrix)
+
+
+def _impact(i, conditions):
+    matrix = identity(_SIZE).tolist()
+    places = BOXES[2 + i], BALLS[2 + i]
+    for column, velocities in zip(places, ((arb(1), arb(0)), (arb(0), arb(1))), strict=True):
+        for row, entry in zip(places, after_impact(conditions.epsilon, conditions.kappa, *velocities), strict=True):
+            matrix[row][column] = entry
+    return arb_mat(matrix)

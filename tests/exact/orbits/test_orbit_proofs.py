@@ -1,0 +1,231 @@
+"""Proofs on single orbits, against orbits followed with 80 digits; and that they do not prove too much."""
+
+import dataclasses
+
+import mpmath
+import numpy as np
+import pytest
+
+flint = pytest.importorskip("flint", reason="python-flint belongs to the optional extra `reference`")
+
+import vibroimpact as vi  # noqa: E402
+from attacks import random_system  # noqa: E402
+from chapter import FORCES, PARAMETERS  # noqa: E402
+from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
+from vibroimpact.exact.orbits.floquet import contraction  # noqa: E402
+from vibroimpact.exact.orbits.floquet_verdict import floquet  # noqa: E402
+from vibroimpact.exact.orbits.newton import newton  # noqa: E402
+from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions  # noqa: E402
+from vibroimpact.exact.orbits.proof.krawczyk import krawczyk  # noqa: E402
+from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
+from vibroimpact.exact.orbits.search import symmetric_orbit  # noqa: E402
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
+from vibroimpact.system.matrices import rate_matrix  # noqa: E402
+
+DIGITS = 80
+REFUSED = (0.0, np.inf, "not proved", "not proved", np.inf)
+
+
+def said(proof):
+    return proof.radius, proof.error, proof.motion, proof.stability, proof.moduli_error
+
+
+def unknowns(orbit):
+    return np.concatenate([orbit.impact_phases.ravel() * orbit.system.period, orbit.ball_speeds.sum(axis=1)])
+
+
+@pytest.fixture(scope="module")
+def orbits():
+    """Those of the case `equal`, by label: S1 to S4 and A1 to A8."""
+    f10, f20 = FORCES["equal"]
+    found = vi.orbits(vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20))
+    return {f"{'S' if k < 4 else 'A'}{k + 1 if k < 4 else k - 3}": orbit for k, orbit in enumerate(found)}
+
+
+@pytest.fixture(scope="module")
+def proofs(orbits):
+    return {label: prove(orbit) for label, orbit in orbits.items()}
+
+
+class Stroboscope:
+    """The state [X1, X2, X1', X2', Y1, Y2, Y1', Y2'] a period later, in mpmath: modes, impacts by Newton's method.
+
+    Its derivative is taken by central differences, so that no saltation matrix is needed. phases, speeds: of the
+    impacts met last and of the flights they start, in the order of time.
+    """
+
+    def __init__(self, orbit):
+        self.system, self.period = orbit.system, 2 * mpmath.pi / mpmath.mpf(orbit.system.Omega)
+        self.rates, self.modes = mpmath.eig(mpmath.matrix(rate_matrix(orbit.system).tolist()))
+        self.inverse = self.modes**-1
+        in_order = np.argsort(orbit.impact_phases.ravel())
+        self.impacts = [
+            (self.period * mpmath.mpf(orbit.impact_phases.flat[k]), k // 2, 1 - 2 * (k % 2)) for k in in_order
+        ]
+
+    def __call__(self, state):
+        tau, boxes, balls = mpmath.mpf(0), [*state[:4], mpmath.mpf(0), mpmath.mpf(1)], list(state[4:])
+        self.phases, self.speeds = [], []
+        for expected, i, wall in self.impacts:
+            duration = expected - tau
+            for _ in range(4):
+                x, y = self._flown(boxes, balls, duration)
+                duration -= (x[i] - y[i] - wall) / (x[2 + i] - y[2 + i])
+            boxes, balls = self._flown(boxes, balls, duration)
+            impulse = (1 + mpmath.mpf(self.system.kappa)) * (boxes[2 + i] - balls[2 + i]) / (1 + self.epsilon)
+            boxes[2 + i], balls[2 + i] = boxes[2 + i] - self.epsilon * impulse, balls[2 + i] + impulse
+            tau += duration
+            self.phases.append(tau / self.period)
+            self.speeds.append(wall * balls[2 + i])
+        boxes, balls = self._flown(boxes, balls, self.period - tau)
+        return mpmath.matrix(boxes[:4] + balls)
+
+    @property
+    def epsilon(self):
+        return mpmath.mpf(self.system.epsilon)
+
+    def _flown(self, boxes, balls, duration):
+        amplitudes = self.inverse * mpmath.matrix(boxes)
+        grown = [a * mpmath.exp(rate * duration) for a, rate in zip(amplitudes, self.rates, strict=True)]
+        moved = [entry.real for entry in self.modes * mpmath.matrix(grown)]
+        return moved, [balls[0] + duration * balls[2], balls[1] + duration * balls[3], *balls[2:]]
+
+    def jacobian(self, state):
+        step, columns = mpmath.mpf(10) ** (-DIGITS // 3), []
+        for k in range(8):
+            push = mpmath.matrix([step * (j == k) for j in range(8)])
+            columns.append((self(state + push) - self(state - push)) / (2 * step))
+        return mpmath.matrix([[column[row] for column in columns] for row in range(8)])
+
+    def closed(self, state):
+        """The periodic state near this one, by Newton's method with one derivative, and the derivative there."""
+        inverse = (mpmath.eye(8) - self.jacobian(state)) ** -1
+        for _ in range(6):
+            state = state + inverse * (self(state) - state)
+        return state, self.jacobian(state)
+
+
+@pytest.mark.parametrize("label", ["S4", "A3", "A7"])
+def test_an_orbit_followed_with_80_digits_has_its_multipliers_in_the_enclosures(orbits, proofs, label):
+    orbit, proof = orbits[label], proofs[label]
+    with mpmath.workdps(DIGITS), flint.ctx.workprec(4 * DIGITS):
+        strobe = Stroboscope(orbit)
+        state, jacobian = strobe.closed(mpmath.matrix(orbit.state[[0, 2, 4, 6, 1, 3, 5, 7]].tolist()))
+        assert mpmath.norm(strobe(state) - state) < mpmath.mpf(10) ** -45
+        phases, speeds = strobe.phases, strobe.speeds
+        true = mpmath.eig(jacobian, right=False)
+        inside = [[box.contains(_ball(value)) for value in true] for box in proof.multipliers]
+        moduli = sorted((abs(value) for value in true), reverse=True)
+        error = max(abs(value - mpmath.mpf(float(abs(m)))) for value, m in zip(moduli, orbit.multipliers, strict=True))
+    np.testing.assert_array_equal(np.sum(inside, axis=1), 1)
+    np.testing.assert_array_equal(np.sum(inside, axis=0), 1)
+    assert all(float(box.rad()) < 1e-20 for box in proof.multipliers)
+    assert float(error) <= proof.moduli_error == pytest.approx(float(error), rel=1e-6)
+    order = np.argsort(orbit.impact_phases.ravel())
+    gaps = [*(phases - orbit.impact_phases.ravel()[order]), *(speeds - orbit.ball_speeds.ravel()[order])]
+    assert float(max(map(abs, gaps))) <= proof.error == pytest.approx(float(max(map(abs, gaps))), rel=1e-6)
+
+
+def _ball(value):
+    digits = [mpmath.nstr(part, 40) for part in (value.real, value.imag)]
+    return flint.acb(*(flint.arb(text) + flint.arb(0, 1e-38) for text in digits))
+
+
+def test_all_of_the_case_is_proved_and_agrees_with_what_floats_say(orbits, proofs):
+    assert {proofs[label].motion for label, orbit in orbits.items() if orbit.admissible} == {"legal"}
+    assert {proofs[label].motion for label, orbit in orbits.items() if not orbit.admissible} == {"not legal"}
+    assert all(proofs[label].stability == floquet(orbit) for label, orbit in orbits.items())
+    assert {proof.stability for proof in proofs.values()} == {"stable", "unstable"}
+    assert min(proof.radius for proof in proofs.values()) > 1e-4
+    through_a_wall = [
+        label for label, orbit in orbits.items() if (orbit.ball_speeds > 0).all() and not orbit.admissible
+    ]
+    assert through_a_wall  # not only those that speeds give away
+
+
+@pytest.mark.parametrize("seed", [5, 11])
+def test_orbits_of_random_systems_are_proved_too(seed):
+    for orbit in vi.orbits(random_system(np.random.default_rng(seed))):
+        proof = prove(orbit)
+        assert (proof.motion, proof.stability) == ("legal" if orbit.admissible else "not legal", floquet(orbit))
+
+
+@pytest.mark.parametrize(("beyond", "motion"), [(-1e-7, "not legal"), (1e-7, "legal")])
+def test_a_ball_that_just_misses_the_wall_or_does_not(chapter, beyond, motion):
+    """Next to the place where continuation finds that an asymmetric orbit grazes."""
+    near = vi.orbits(chapter(1.0, 0.7645496612 + beyond))
+    orbit = min(near, key=lambda o: np.hypot(*(o.C - [1.7160529, 0.6802411])) + o.symmetric)
+    assert prove(orbit).motion == motion
+
+
+def test_the_multipliers_multiply_to_the_contraction(orbits, proofs):
+    for label, proof in proofs.items():
+        product = np.prod([complex(value) for value in proof.multipliers])
+        assert product == pytest.approx(contraction(orbits[label].system, 4), rel=1e-11)
+
+
+def test_intervals_and_floats_have_the_same_conditions(orbits):
+    """Away from any root; the floats list the conditions in another order."""
+    point = unknowns(orbits["A5"]) + np.linspace(-0.1, 0.2, 6)
+    by_module = [0, 1, 4, 2, 3, 5]
+    enclosed = EnclosedConditions(orbits["A5"].system)([flint.arb(value) for value in point.tolist()])
+    for mine, theirs in zip(enclosed, AsymmetricConditions(orbits["A5"].system)(point[None]), strict=True):
+        mine = np.array([[float(entry) for entry in row] for row in mine.tolist()])
+        np.testing.assert_allclose(mine, theirs[0][by_module].reshape(mine.shape), atol=1e-11)
+
+
+def test_newtons_method_from_all_over_the_box_finds_one_root(orbits, proofs):
+    for label in ("S3", "A3", "A7"):
+        centre, radius = unknowns(orbits[label]), proofs[label].radius
+        starts = centre + radius * np.random.default_rng(1).uniform(-1, 1, (200, 6))
+        roots = newton(AsymmetricConditions(orbits[label].system), starts)
+        inside = roots[(abs(roots - centre) < radius).all(axis=1)]
+        assert len(inside) > 100
+        assert np.ptp(inside, axis=0).max() < 1e-11
+
+
+def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):
+    orbit = orbits["A3"]
+    spoilt = {
+        "phases": orbit.impact_phases + np.array([[0.01, 0.0], [0.0, 0.0]]),
+        "speeds": orbit.ball_speeds * 1.05,
+        "kind": True,
+        "system": orbit.system.with_(f10_hat=1.01),
+    }
+    names = {"phases": "impact_phases", "speeds": "ball_speeds", "kind": "symmetric", "system": "system"}
+    for what, value in spoilt.items():
+        assert said(prove(dataclasses.replace(orbit, **{names[what]: value}))) == REFUSED, what
+    assert said(prove(dataclasses.replace(orbits["S4"], symmetric=False))) == REFUSED
+    off = dataclasses.replace(orbit, ball_speeds=orbit.ball_speeds + 1e-7, multipliers=orbit.multipliers * (1 + 1e-6))
+    assert prove(off).error == pytest.approx(1e-7, rel=1e-3)
+    assert prove(off).moduli_error == pytest.approx(1e-6 * abs(orbit.multipliers[0]), rel=1e-3)
+
+
+def test_nothing_is_proved_where_symmetry_breaks_or_impacts_coincide(chapter):
+    """Where the asymmetric pair leaves the symmetric orbit it is not alone; with impacts at once the order is open."""
+
+    def symmetric(f):
+        system = chapter(f, f)
+        root = min(symmetric_solutions(system), key=lambda root: np.hypot(root[2] - 1.6217, root[3] - 1.2138))
+        return symmetric_orbit(system, root)
+
+    low, high = 1.19, 1.21
+    while low < (middle := (low + high) / 2) < high:
+        low, high = (middle, high) if np.abs(symmetric(middle).multipliers[1]) < 1 else (low, middle)
+    outside = [sum(abs(value) > 1 for value in prove(symmetric(f)).multipliers) for f in (1.19, 1.21)]
+    assert outside == [1, 2]
+    assert said(prove(symmetric(low))) == said(prove(symmetric(high))) == REFUSED
+    in_step = [orbit for orbit in vi.orbits(chapter(sigma20_hat=0)) if np.ptp(orbit.impact_phases, axis=0).max() < 1e-9]
+    assert in_step
+    assert {said(prove(orbit)) for orbit in in_step} == {REFUSED}
+
+
+@pytest.mark.parametrize(("curve", "found"), [((1, 0, -2), True), ((1, 0, 0), False), ((1, 0, 1), False)])
+def test_krawczyks_test_accepts_single_roots_only(curve, found):
+    def equations(x):
+        a, b, c = curve
+        return flint.arb_mat([[(a * x[0] + b) * x[0] + c]]), flint.arb_mat([[2 * a * x[0] + b]])
+
+    root, radius = krawczyk(equations, np.array([1.41 if found else 1e-9]))
+    assert (root is not None) == found == (radius > 0)
+    assert not found or root[0].contains(flint.arb(2).sqrt())
