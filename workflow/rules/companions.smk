@@ -104,7 +104,11 @@ COMPANIONS = {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
         "settings": keys_of("regimes.modulation") | OBSERVED,
-        "tables": {"measures": "results/regimes/modulation.csv", "windows": "results/regimes/modulation_windows.csv"},
+        "tables": {
+            "measures": "results/regimes/modulation.csv",
+            "windows": "results/regimes/modulation_windows.csv",
+            "spectra": "results/regimes/spectra.csv",
+        },
     },
     "companion_basins": {
         "method": SIMULATED,
