@@ -14,7 +14,9 @@ EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_te
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
 SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", FINDINGS)
 """Numbers of the findings with the place that each is taken from."""
-CHAOTIC = "regimes/modulation.csv", "regimes/spectra.csv", "regimes/basin_shares.csv", "regimes/lifetimes.csv"
+CHAOTIC = tuple(
+    f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
+)
 
 
 def test_orbits_of_all_cases_are_gathered(built):

@@ -96,7 +96,10 @@ COMPANIONS = {
         "config": ["regimes.branches.case", "regimes.coexistence"],
         "inputs": {"lifetimes": rules.coexistence.output.lifetimes},
         "before": [step(*STEPS["coexistence"])],
-        "tables": {"special_points": "results/regimes/special_points.csv"},
+        "tables": {
+            "special_points": "results/regimes/special_points.csv",
+            "onsets": "results/regimes/modulation_onsets.csv",
+        },
     },
     **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
     **({"companion_absorber": absorber_of(*ABSORBER)} if {*ABSORBER} <= {*SWEEPS} else {}),
