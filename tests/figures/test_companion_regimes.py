@@ -185,6 +185,23 @@ def test_exponents_have_errors_and_windows_show_what_converges(tables):
     assert rest["uncertainty"].notna().all()
 
 
+def test_spectra_say_the_same_as_the_measures_and_add_up(tables):
+    """The largest exponent, the eight of the periodic case against what damping and impacts say, its dimension 0."""
+    spectra, measures = tables["modulation"]["spectra"], tables["modulation"]["measures"]
+    values = spectra.pivot(index=["case", "start", "regime"], columns="quantity", values="mean")
+    largest = measures[measures["quantity"] == "largest Lyapunov exponent"].set_index(["case", "start", "regime"])[
+        "mean"
+    ]
+    assert values["exponent 1"].sort_index().equals(largest.sort_index().rename("exponent 1"))
+    np.testing.assert_allclose(values["sum of exponents"], values["contraction"], atol=1e-6)
+    eight = values.loc["equal"].filter(like="exponent ").sum(axis=1)
+    np.testing.assert_allclose(eight, values.loc["equal"]["contraction"], atol=1e-9)
+    assert (values.loc["equal"]["Kaplan-Yorke dimension"] == 0).all()
+    assert 5 < values.loc["weak", "spread"]["Kaplan-Yorke dimension"].item() < 6.5
+    running = tables["modulation"]["csv"].query("panel == 'running' and cycles == cycles.max() and series == 'weak, 1'")
+    assert running["estimate"].item() == pytest.approx(values.loc["weak", "spread"]["exponent 1"].item(), rel=1e-12)
+
+
 def test_the_map_has_every_point_and_shows_those_without_a_value(tables, figures):
     cells = tables["regime_map"]["csv"].query("series == 'cell'")
     assert cells["f10_hat"].tolist() == np.repeat(cells["f20_hat"][:6], 6).tolist()

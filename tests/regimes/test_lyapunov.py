@@ -1,10 +1,11 @@
-"""Exponents that are known: a stable orbit's multipliers, two neighbouring motions, two equal uncoupled modules."""
+"""Exponents that are known: of a linear system, of a stable orbit, of neighbouring motions; their sum, their errors."""
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.regimes.lyapunov import largest_exponent
+from vibroimpact.regimes.lyapunov import Spectrum, contraction, kaplan_yorke, largest_exponent, spectrum
+from vibroimpact.system.state import STICK
 
 
 def stable_orbit(system):
@@ -64,3 +65,95 @@ def test_the_error_is_the_scatter_over_starts(chapter):
 def test_an_error_needs_two_blocks(chapter):
     with pytest.raises(ValueError, match="blocks"):
         largest_exponent(chapter(), np.zeros(8), 1, 10)
+
+
+@pytest.fixture(scope="module")
+def watched(chapter):
+    """The strongly modulated response cycle by cycle: its spectrum, and the same runs by themselves."""
+    system = chapter(0.5, 0.5)
+    state = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.4], 300).final
+    found, runs = spectrum(system, state, 600, 0), []
+    for _ in range(600):
+        runs.append(vi.simulate(system, state, 1))
+        state = runs[-1].final
+    return found, runs
+
+
+def test_volumes_shrink_by_damping_and_impacts_as_in_closed_form(watched):
+    """To the rounding of the Jacobians: a part in 1e16 times their condition."""
+    found, runs = watched
+    free = np.isfinite(found.contraction)
+    condition = np.array([np.linalg.cond(run.jacobian) for run in runs])
+    off = np.abs(found.growth[free].sum(axis=1) - found.contraction[free])
+    assert (off < 10 * np.finfo(float).eps * condition[free]).all()
+    assert np.median(off) < 1e-13
+    determinants = [np.linalg.slogdet(run.jacobian)[1] for run in np.array(runs, dtype=object)[free]]
+    np.testing.assert_allclose(determinants, found.contraction[free], rtol=0, atol=1e-6)
+
+
+def test_a_ball_that_sticks_forgets_two_directions(watched):
+    found, runs = watched
+    stuck = [k for k, run in enumerate(runs) if (run.events["kind"] == STICK).any()]
+    assert stuck
+    assert np.isneginf(found.contraction[stuck]).all()
+    for k in stuck:
+        values = np.linalg.svd(runs[k].jacobian, compute_uv=False)
+        lost = np.isneginf(found.growth[k]).sum()
+        assert lost in (2, 4)
+        assert values[-lost] < 1e-13 * values[0]
+    assert np.isneginf(found.exponents).sum() >= 2
+    assert np.isnan(found.errors(10)[0]).sum() == np.isneginf(found.exponents).sum()
+
+
+def test_without_impacts_they_are_real_parts_of_eigenvalues(chapter):
+    """Of boxes, eigenvalues of the damped linear system; perturbations of balls that drift grow with time alone."""
+    system, cycles = chapter(0.02, 0.02), 400
+    found = spectrum(system, np.zeros(8), cycles).exponents
+    e, a = system.epsilon, system.epsilon * system.alpha12_hat
+    damping = e * np.array([[0.2 + 0.2, -0.2], [-0.2, 0.2 + 0.2]])
+    stiffness = np.array([[1 + a, -a], [-a, 1 + e * system.sigma20_hat + a]])
+    rate = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffness, -damping]])
+    growth = np.sort(np.linalg.eigvals(rate).real)[::-1] * system.period
+    np.testing.assert_allclose(found[4:], growth, atol=3 / cycles)
+    np.testing.assert_allclose(found[:4], 0, atol=np.log(system.period * 500) / cycles)
+    assert found.sum() == pytest.approx(-np.trace(damping) * system.period, abs=1e-12)
+
+
+def test_on_a_stable_orbit_they_are_the_logs_of_all_multipliers(chapter):
+    system = chapter(1.0, 1.0)
+    orbit, cycles = stable_orbit(system), 300
+    found = spectrum(system, orbit.state, cycles)
+    expected = np.sort(np.log(np.abs(orbit.multipliers)))[::-1]
+    np.testing.assert_allclose(found.exponents, expected, atol=3 / cycles)
+    assert found.exponents.sum() == pytest.approx(expected.sum(), abs=1e-8)
+    assert found.dimension == 0
+    assert contraction(vi.simulate(system, orbit.state, 1)) == pytest.approx(expected.sum(), abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("exponents", "dimension"),
+    [
+        ([0.419, -1.623], 1 + 0.419 / 1.623),  # Hénon's map
+        ([0.906, 0.0, -14.572], 2 + 0.906 / 14.572),  # the Lorenz system
+        ([-0.1, -0.2], 0),
+        ([0.3, -np.inf], 1),
+        ([0.3, -0.1], 2),
+    ],
+)
+def test_the_dimension_of_known_spectra(exponents, dimension):
+    assert kaplan_yorke(exponents) == pytest.approx(dimension)
+
+
+def test_the_bootstrap_knows_that_cycles_hang_together():
+    """Growth that remembers the cycle before: the error of its mean in closed form, three times that of white noise."""
+    cycles, memory = 20_000, 0.8
+    noise = np.random.default_rng(5).normal(size=(cycles, 8))
+    growth = np.zeros_like(noise)
+    for n in range(1, cycles):
+        growth[n] = memory * growth[n - 1] + noise[n]
+    centres = np.array([4.0, 1.0, 0.0, -1.0, -2.0, -6.0, -7.0, -8.0])
+    errors, of_dimension = Spectrum(growth + centres, np.zeros(cycles)).errors(100, resamples=400)
+    expected = 1 / (1 - memory) / np.sqrt(cycles)
+    np.testing.assert_allclose(errors, expected, rtol=0.2)
+    # D = 5 + (sum of five) / -lambda_6: five errors, and D - 5 = 1/3 of that of the sixth, over 6.
+    assert of_dimension == pytest.approx(expected * np.sqrt(5 + 1 / 9) / 6, rel=0.2)

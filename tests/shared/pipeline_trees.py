@@ -16,7 +16,7 @@ NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "figure.*"
+    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "ladder_grid*", "figure.*"
 )
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]

@@ -12,9 +12,12 @@ from vibroimpact_pipeline.report.results import Results
 
 EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
-SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", FINDINGS)
-"""Numbers of the findings with the place that each is taken from."""
-CHAOTIC = "regimes/modulation.csv", "regimes/basin_shares.csv", "regimes/lifetimes.csv"
+LADDER = (ROOT / "docs/ladder.md").read_text(encoding="utf-8")
+SOURCED = re.findall(r"(−?[\d.]+)<!-- ((?!regimes/ladder_grid).+?) -->", FINDINGS + LADDER)
+"""Numbers of documents with the place in a build that each is from; those on demand are in test_ladder_grid.py."""
+CHAOTIC = tuple(
+    f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
+)
 
 
 def test_orbits_of_all_cases_are_gathered(built):

@@ -5,6 +5,7 @@ SCHEDULED = {
     "probe_of_sweep",
     "tile_of_sweep",
     "confusion",
+    "ladder_grid",
     "verdict_grid",
     "coexistence",
     "companion_branches",

@@ -96,7 +96,10 @@ COMPANIONS = {
         "config": ["regimes.branches.case", "regimes.coexistence"],
         "inputs": {"lifetimes": rules.coexistence.output.lifetimes},
         "before": [step(*STEPS["coexistence"])],
-        "tables": {"special_points": "results/regimes/special_points.csv"},
+        "tables": {
+            "special_points": "results/regimes/special_points.csv",
+            "onsets": "results/regimes/modulation_onsets.csv",
+        },
     },
     **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
     **({"companion_absorber": absorber_of(*ABSORBER)} if {*ABSORBER} <= {*SWEEPS} else {}),
@@ -104,7 +107,11 @@ COMPANIONS = {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,
         "settings": keys_of("regimes.modulation") | OBSERVED,
-        "tables": {"measures": "results/regimes/modulation.csv", "windows": "results/regimes/modulation_windows.csv"},
+        "tables": {
+            "measures": "results/regimes/modulation.csv",
+            "windows": "results/regimes/modulation_windows.csv",
+            "spectra": "results/regimes/spectra.csv",
+        },
     },
     "companion_basins": {
         "method": SIMULATED,

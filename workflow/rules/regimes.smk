@@ -38,3 +38,19 @@ rule confusion:
         "results/benchmarks/regimes/confusion.tsv"
     script:
         "../scripts/confusion.py"
+
+
+# Not part of the default build: snakemake ladder_grid
+rule ladder_grid:
+    output:
+        "results/regimes/ladder_grid.csv",
+    params:
+        system=next(iter(all_systems().values())),
+        settings=config["stability"]["verdict_grid"],
+        code=code("workflow/scripts/ladder_grid.py"),
+    log:
+        "results/logs/regimes/ladder_grid.log",
+    benchmark:
+        "results/benchmarks/regimes/ladder_grid.tsv"
+    script:
+        "../scripts/ladder_grid.py"

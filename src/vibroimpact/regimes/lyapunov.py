@@ -1,10 +1,25 @@
-"""Largest Lyapunov exponent of a motion, from the exact Jacobian of the flow through impacts, chatter and sticking."""
+"""Lyapunov exponents of a motion, from the exact Jacobian of the flow through impacts, chatter and sticking.
 
+A frame of perturbations is carried along by the Jacobian of every block of cycles, saltation matrices included (Müller
+1995), and made orthonormal again, by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990): the logarithms of
+the diagonal of R are the growth of that block. The time of a start is no perturbation: a flow in the extended phase
+space has one exponent more, 0, and its attractor one dimension more.
+"""
+
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
+from vibroimpact.exact.engine.replay import FORCING, WALLS
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.system.matrices import damping_matrix
+from vibroimpact.system.state import IMPACT
+
+SIZE = 8
+_OTHERS = np.random.default_rng(1).normal(size=(SIZE, SIZE - 1))  # a frame with a pattern may span too little
+_FRAME = np.linalg.qr(np.column_stack([np.ones(SIZE), _OTHERS]))[0]
 
 
 class Exponent(NamedTuple):
@@ -17,9 +32,8 @@ class Exponent(NamedTuple):
 def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Exponent:
     """Largest Lyapunov exponent, with its scatter.
 
-    A perturbation is carried along by the Jacobian of each block of cycles (saltation matrices included) and made of
-    length one again (Benettin et al. 1980; Müller 1995 for saltations). On a periodic motion this is the log of its
-    largest multiplier's modulus, over the period. The error takes the growth in different blocks as independent.
+    On a periodic motion this is the log of its largest multiplier's modulus, over the period. The error takes the
+    growth in different blocks as independent.
 
     Args:
         state: (8,) on the attractor, at the start of a forcing cycle.
@@ -33,23 +47,103 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     """
     if blocks < 2:
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
-    rates = growth_rates(system, state, discarded + blocks, cycles)[discarded:]
+    growths = [logs[0] for _, logs in _carried(system, state, discarded + blocks, cycles, 1)]
+    if -np.inf in growths:
+        raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
+    rates = np.array(growths[discarded:]) / cycles
     return Exponent(float(rates.mean()), float(rates.std(ddof=1) / np.sqrt(blocks)))
 
 
-def growth_rates(system, state, blocks: int, cycles: int) -> np.ndarray:
-    """Growth rate per forcing period of a perturbation in each block, shape (blocks,); see `largest_exponent`.
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """All Lyapunov exponents of a motion, of the map from one forcing cycle to the next, largest first.
 
-    Raises:
-        ArithmeticError: the perturbation vanished.
+    growth: (n, 8) of the eight directions in each of n cycles; where a ball sticks, how it came to its wall is
+        forgotten: -inf for two of them, for four where both do.
+    contraction: (n,) of volume in each cycle, in closed form: what the growths add up to.
     """
-    direction, growth = np.full(8, 8**-0.5), []
+
+    growth: np.ndarray
+    contraction: np.ndarray
+
+    @property
+    def exponents(self) -> np.ndarray:
+        """(8,) per forcing period, in nats."""
+        return self.growth.mean(axis=0)
+
+    @property
+    def dimension(self) -> float:
+        """Kaplan-Yorke dimension of the attractor in the section at whole cycles, see `kaplan_yorke`."""
+        return kaplan_yorke(self.exponents)
+
+    @property
+    def running(self) -> np.ndarray:
+        """(n, 8) exponents as they are known after each cycle."""
+        return np.cumsum(self.growth, axis=0) / np.arange(1, len(self.growth) + 1)[:, None]
+
+    def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
+        """Standard errors of the exponents, (8,), nan where they are -inf, and of the dimension.
+
+        By the circular block bootstrap (Politis and Romano 1992): the n cycles are drawn anew in n / block stretches of
+        `block` cycles, which keep what one cycle has to do with the next.
+        """
+        n, forgotten = len(self.growth), np.isneginf(self.exponents)
+        finite = np.where(forgotten, 0.0, self.growth)
+        stretches = sliding_window_view(np.concatenate([finite, finite[: block - 1]]), block, axis=0).mean(axis=-1)
+        drawn = stretches[np.random.default_rng(seed).integers(n, size=(resamples, n // block))].mean(axis=1)
+        dimensions = [kaplan_yorke(np.where(forgotten, -np.inf, exponents)) for exponents in drawn]
+        return np.where(forgotten, np.nan, drawn.std(axis=0, ddof=1)), float(np.std(dimensions, ddof=1))
+
+
+def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
+    """All Lyapunov exponents over so many forcing cycles after others, from a state as for `largest_exponent`."""
+    pairs = [(logs, contraction(run)) for run, logs in _carried(system, state, discarded + cycles, 1, SIZE)][discarded:]
+    growth, volume = (np.array(column) for column in zip(*pairs, strict=True))
+    return Spectrum(growth[:, np.argsort(-growth.mean(axis=0), kind="stable")], volume)
+
+
+def contraction(run) -> float:
+    """Logarithm of the factor by which a run shrinks volumes of states.
+
+    Flights shrink them by the damping, exp(-tr D t). In the gap of its module, its rate and the motion of their centre
+    of mass an impact is triangular, with -kappa for the gap (the saltation) and -kappa for its rate (Newton's rule):
+    the factor is kappa^2, whatever the flights around it. A ball that sticks leaves no volume: -inf.
+    """
+    if _stuck(run):
+        return -np.inf
+    impacts = np.count_nonzero(run.events["kind"] == IMPACT)
+    return float(
+        2 * impacts * np.log(run.system.kappa) - np.trace(damping_matrix(run.system)) * run.cycles * run.system.period
+    )
+
+
+def kaplan_yorke(exponents) -> float:
+    """Dimension at which volumes neither grow nor shrink (Kaplan and Yorke 1979), of exponents (n,), largest first.
+
+    The sum of the largest exponents, interpolated linearly in their number, is 0 there; 0 if all are negative.
+    """
+    exponents = np.asarray(exponents)
+    sums = np.cumsum(exponents)
+    whole = int(np.argmax(sums < 0)) if (sums < 0).any() else len(sums)
+    if whole in (0, len(sums)):
+        return float(whole)
+    return float(whole + sums[whole - 1] / -exponents[whole])
+
+
+def _carried(system, state, blocks, cycles, directions):
+    """Run and growth (directions,) of each block of cycles."""
+    frame = _FRAME[:, :directions]
     for _ in range(blocks):
         run = simulate(system, state, cycles)
-        direction, state = run.jacobian @ direction, run.final
-        length = np.linalg.norm(direction)
-        if length == 0:
-            raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
-        direction /= length
-        growth.append(np.log(length))
-    return np.array(growth) / cycles
+        frame, upper = np.linalg.qr(run.jacobian @ frame)
+        with np.errstate(divide="ignore"):
+            logs = np.log(np.abs(np.diag(upper)))
+        logs[SIZE - 2 * _stuck(run) :] = -np.inf  # in floats, rounding
+        state = run.final
+        yield run, logs
+
+
+def _stuck(run):
+    """Most balls that stick at one time."""
+    _, flights, _ = run.course
+    return int(np.count_nonzero(flights[:, WALLS:FORCING], axis=1).max())

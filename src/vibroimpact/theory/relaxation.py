@@ -27,7 +27,7 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """What becomes of both balls, each (2,).
+    """What becomes of both balls, each (..., 2).
 
     bursts: mean length of the stretches in resonance that have ended, in forcing periods; nan where none has.
     share: part of the time that each ball is in resonance.
@@ -51,29 +51,31 @@ def describing_function(kappa: float):
     return lambda size: np.interp(size, B, N)
 
 
-def relax(system, cycles: int, settle: int, start=(1.0, 1.0)) -> Relaxation:
+def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Relaxation:
     """Follow the slow flow for `cycles` forcing periods after `settle` others.
 
     Args:
         start: amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls are in resonance.
+        forces: (..., 2) in the place of those of the system; all are followed at once.
     """
     e, K = impedances(system)
-    forces, lowest = np.array([system.f10_hat, system.f20_hat]), B_min(rho(system.kappa))
+    forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
+    lowest = B_min(rho(system.kappa))
     ball, step = describing_function(system.kappa), system.epsilon * system.period / _PER_CYCLE
 
     def flow(b, resonant):
-        return (forces - (e + resonant * ball(np.abs(b))) * b - K * (b - b[::-1])) / 2j
+        return (forces - (e + resonant * ball(np.abs(b))) * b - K * (b - b[..., ::-1])) / 2j
 
-    b, resonant = np.array(start, dtype=complex), np.array([True, True])
-    sizes, states = np.empty((2, cycles * _PER_CYCLE, 2))
+    b, resonant = np.broadcast_to(np.array(start, dtype=complex), forces.shape), np.full(forces.shape, True)
+    sizes, states = np.empty((2, cycles * _PER_CYCLE, *forces.shape))
     for number in range(-settle * _PER_CYCLE, cycles * _PER_CYCLE):
         b = b + step * flow(b + step / 2 * flow(b, resonant), resonant)
         size = np.abs(b)
         resonant = np.where(resonant, size > lowest, size >= RETURN)
         if number >= 0:
             sizes[number], states[number] = size, resonant
-    bursts = [_mean_length(states[:, module]) / _PER_CYCLE for module in (0, 1)]
-    return Relaxation(np.array(bursts), states.mean(axis=0), sizes.max(axis=0))
+    bursts = np.apply_along_axis(_mean_length, 0, states) / _PER_CYCLE
+    return Relaxation(bursts, states.mean(axis=0), sizes.max(axis=0))
 
 
 def _mean_length(states):

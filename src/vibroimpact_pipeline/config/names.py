@@ -24,6 +24,7 @@ RULES = {
     "gather_orbits",
     "hazards",
     "hazards_full",
+    "ladder_grid",
     "orbits",
     "page_of_sweep",
     "picture_of_sweep",

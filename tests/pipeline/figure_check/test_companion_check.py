@@ -20,6 +20,7 @@ from vibroimpact.figures.companions import (
     companion_10_05,
     companion_asymmetric,
     companion_horizon,
+    companion_ladder,
     companion_stability,
 )
 from vibroimpact.figures.companions import companion_basins as basins
@@ -85,6 +86,9 @@ COMPUTE = {
     "companion_epsilon": lambda change: epsilon_limit.compute(
         all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}
     ),
+    "companion_ladder": lambda change: companion_ladder.compute(
+        {"equal": change(SYSTEMS["equal"])}, [1, 3, 5], [0.2, 1.6], [0.2, 1.6], 2, [0.6, 0.89]
+    ),
 }
 """Tables of each figure, with every system as `change` leaves it."""
 MODULES = {
@@ -98,6 +102,7 @@ MODULES = {
     "companion_basins": basins,
     "companion_asymmetric": companion_asymmetric,
     "companion_epsilon": epsilon_limit,
+    "companion_ladder": companion_ladder,
 }
 OF_SYSTEMS = [name for name in MODULES if name != "companion_10_05"]
 CHAOTIC = ["companion_horizon", "companion_branches", "companion_regime_map", "companion_modulation"]
@@ -239,6 +244,16 @@ def test_exponents_in_a_wrong_unit_are_caught(verdict):
 
     found = verdict(*edited("companion_modulation", per_radian))
     assert_caught(found, "exponent is off by ")
+
+
+def test_a_cheaper_rung_in_the_map_is_caught(verdict):
+    """One place of it, said to be right with the next rung below."""
+
+    def cheaper(table):
+        (place,) = table.index[(table["panel"] == "plane") & (table["label"] == "two terms")][:1]
+        return table.assign(label=table["label"].where(table.index != place, "leading order"))
+
+    assert_caught(verdict(*edited("companion_ladder", cheaper)), "label is off by ")
 
 
 def test_lost_digits_are_caught(verdict):

@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact.regimes import onset
 from vibroimpact.regimes.branches import Path, branches
 from vibroimpact.regimes.classification import APERIODIC, UNSETTLED
 from vibroimpact.regimes.classification import starts as spread_starts
@@ -80,16 +81,18 @@ def compute(
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C belongs
     to half of the ball's mean path per cycle; rows of the panel "mean life", labelled by the path, with life,
-    uncertainty, least, and of their coexistence and crisis in p), and "special_points" (path, family, kind, p, C1, C2;
-    a path without any has a row of the kind "none").
+    uncertainty, least, and of their coexistence and crisis in p), "special_points" (path, family, kind, p, C1, C2;
+    a path without any has a row of the kind "none"), and "onsets" (rows of `regimes.onset.onsets`).
     """
-    parts = []
+    parts, onsets = [], []
     for panel, settings in zip("abcdefgh", paths, strict=False):
         path, interval = Path(system, tuple(settings["along"])), settings["range"]
         for family in FAMILIES.values():
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
             parts += [part for number, branch in enumerate(found) for part in _pieces(panel, path, number, branch)]
-        parts.append(_attractors(panel, path, interval, observation, **attractors))
+        ends = _attractors(panel, path, interval, observation, **attractors)
+        parts.append(ends)
+        onsets += onset.onsets(path, np.unique(ends["p"]), ends["p"], ends["label"])
     table = join(parts).reindex(columns=COLUMNS)
     special = table[table["label"].ne("") & table["branch"].notna()]
     special = special.sort_values("admissible").drop_duplicates(
@@ -100,7 +103,8 @@ def compute(
     special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
     special = _every_path(special[["path", "family", "kind", "p", "C1", "C2", "admissible"]], paths)
     drawn = lifetimes[lifetimes["path"].isin(special["path"])]
-    return {"csv": join([table, *_lives(drawn), *_coexistence(drawn, special)]), "special_points": special}
+    table = join([table, *_lives(drawn), *_coexistence(drawn, special)])
+    return {"csv": table, "special_points": special, "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS)}
 
 
 def _every_path(special, paths):

@@ -47,7 +47,7 @@ def compute(systems: dict, harmonics, f10_range, f20_range, points: int, fold_ra
     }
     rows = [row for case, one in systems.items() for row in _of_case(case, one, harmonics)]
     rows += [_cheapest(name, limit, place, found) for place, found in plane.items() for name, limit in LIMITS.items()]
-    return {"csv": join(rows), "verdicts": _verdicts(plane.values()), "limits": _limits(system, fold_range)}
+    return {"csv": join(rows), "verdicts": verdicts(plane.values()), "limits": _limits(system, fold_range)}
 
 
 def _of_case(case, system, harmonics):
@@ -67,7 +67,11 @@ def _cheapest(name, limit, place, found):
     return curve(PLANE, name, label=right, f10_hat=place[0], f20_hat=place[1])
 
 
-def _verdicts(plane):
+def verdicts(plane) -> pd.DataFrame:
+    """How often leading order and two terms say what of a motion, and what is true; plane: the rungs of each place.
+
+    Returns columns rung, said, true, motions.
+    """
     counts = Counter()
     for found in plane:
         exact = found[EXACT]

@@ -1,17 +1,16 @@
-"""Companion: modulated and other regimes in numbers, with uncertainties over starts; burst lengths and exponents."""
+"""Companion: modulated and other regimes in numbers, with uncertainties over starts; burst lengths and spectra."""
 
 from string import ascii_lowercase
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+from vibroimpact.figures.companions import spectra
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
-from vibroimpact.regimes.lyapunov import largest_exponent
 from vibroimpact.regimes.modulation import (
     PER_CYCLE,
     burst_lengths,
@@ -26,17 +25,6 @@ from vibroimpact.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
-_DOT, _DIAMOND = {"marker": "o", "markersize": 3, "markeredgewidth": 0}, {"marker": "D", "markersize": 4}
-DOTS = {
-    "spread starts": {"label": "spread starts", "linestyle": "none", "color": GREY, **_DOT},
-    "from rest": {"label": "from rest", "linestyle": "none", "color": "white", "markeredgecolor": BLACK, **_DIAMOND},
-}
-BARS = {"elinewidth": 0.7, "ecolor": GREY, "capsize": 0}
-"""Standard errors of single exponents."""
-GRID = 0.25
-"""The axis of exponents ends at multiples of this, wherever those of chaotic motions lie."""
-
-
 SHOWN = 4
 """So many starts of a regime are watched over the longest of the windows."""
 
@@ -55,16 +43,18 @@ def compute(
     Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
     uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
     blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
-    spread starts; and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, and the
-    exponent of each start with its standard error, per period.
+    spread starts; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see
+    `spectra.rows`); and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, the
+    exponents of each start with their standard errors, per period, and running means of those of modulated starts.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
         for case, system in systems.items()
     ]
-    rows, compared, curves = zip(*tables, strict=True)
+    rows, compared, exponents, curves = zip(*tables, strict=True)
     return {
         "measures": pd.concat(rows, ignore_index=True),
+        "spectra": pd.DataFrame([row for part in exponents for row in part]),
         "windows": pd.DataFrame(
             [row for part in compared for row in part],
             columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
@@ -79,13 +69,13 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
     for name in REGIMES:
         if members := [regime for regime in regimes[1:] if regime.name == name]:
             groups["spread", name] = members
-    rows, curves, compared = [], [], []
+    rows, curves, compared, exponents = [], [], [], []
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
-        exponents = [largest_exponent(system, state, blocks, block) for state in states]
+        watched = spectra.watch(system, states, blocks, block)
         found = [
-            measures(system, state, cycles) | {(EXPONENT, 0): exponent.mean}
-            for state, exponent in zip(states, exponents, strict=True)
+            measures(system, state, cycles) | {(EXPONENT, 0): one.exponents[0]}
+            for state, (one, *_) in zip(states, watched, strict=True)
         ]
         key = {"case": case, "start": start, "regime": name}
         if start == "spread":
@@ -95,19 +85,16 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
         for quantity, module in found[0]:
             mean, error, count = mean_and_error([values[quantity, module] for values in found])
             if quantity == EXPONENT and count == 1:
-                error = exponents[0].error
+                error = watched[0][1][0]
             named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
             rows.append({**key, "starts": count, **named})
-        curves.append(curve("exponents", case, label=f"{start}, {name}", **_columns(exponents)))
+        exponents += spectra.rows(key, watched)
+        curves += spectra.curves(case, f"{start}, {name}", watched)
         if (start, name) == ("spread", STRONGLY_MODULATED):
             compared = _windows(case, system, states[:SHOWN], windows)
             curves += [_survival(case, system, states, cycles, module) for module in (1, 2)]
-    return pd.DataFrame(rows), compared, curves
-
-
-def _columns(exponents):
-    means, errors = zip(*exponents, strict=True)
-    return {"exponent": means, "error": errors}
+            curves += spectra.running(case, watched)
+    return pd.DataFrame(rows), compared, exponents, curves
 
 
 def _windows(case, system, states, windows):
@@ -132,53 +119,35 @@ def _survival(case, system, states, cycles, module):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: how long bursts last, for each case with bursts, and the exponents of all starts."""
+    """Draw the table of `compute`: bursts of each case that has any, exponents, how those of the last one settle."""
     table = tables["csv"]
-    exponents = table[table["panel"] == "exponents"]
-    cases = list(dict.fromkeys(exponents["series"]))
-    modulated = [case for case in cases if len(select(table, "bursts", f"{case}, module 1"))]
-    columns, rows = side_by_side(len(modulated) + 1)
+    exponents = table[table["panel"] == spectra.EXPONENTS]
+    modulated = [case for case in spectra.cases_of(exponents) if len(select(table, "bursts", f"{case}, module 1"))]
+    settling = table[(table["panel"] == spectra.RUNNING) & table["series"].str.startswith(tuple(modulated[-1:]))]
+    panels = [(_bursts, table, case) for case in modulated] + [(spectra.draw_exponents, exponents, "")]
+    panels += [(spectra.draw_running, settling, case) for case in modulated[-1:]]
+    columns, rows = side_by_side(len(panels), 2)
     figure = new_figure(DOUBLE_COLUMN, 58.0 * rows)
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
-    for axes in grid[len(modulated) + 1 :]:
+    for axes in grid[len(panels) :]:
         axes.set_axis_off()
-    for axes, case, letter in zip(grid, modulated, ascii_lowercase, strict=False):
-        for module, style in LINES.items():
-            bursts = select(table, "bursts", f"{case}, module {module}")
-            axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
-        drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
-        limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
-        axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", **limits)
-        axes.legend(fontsize=8.5)
+    for axes, (drawn, part, case), letter in zip(grid, panels, ascii_lowercase, strict=False):
+        drawn(axes, part, case)
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
-    grid[0].set_ylabel("fraction of bursts at least this long")
-    _exponents(grid[len(modulated)], exponents, cases)
-    letter_panel(grid[len(modulated)], ascii_lowercase[len(modulated)])
     return figure
+
+
+def _bursts(axes, table, case):
+    for module, style in LINES.items():
+        bursts = select(table, "bursts", f"{case}, module {module}")
+        axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
+    drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
+    limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
+    axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", ylabel="fraction at least this long", **limits)
+    axes.legend(fontsize=8.5)
 
 
 def _decade(value):
     """The next power of ten from a value on: axes end there, wherever the longest of these chaotic bursts does."""
     return 10.0 ** np.ceil(np.log10(value))
-
-
-def _exponents(axes, exponents, cases):
-    for place, case in enumerate(cases):
-        rows = exponents[exponents["series"] == case]
-        rest = rows["label"].str.startswith("rest")
-        x = place + np.linspace(-0.25, 0.25, len(rows))
-        for mine, at, name in ((~rest, x[~rest], "spread starts"), (rest, place - 0.33, "from rest")):
-            bars = axes.errorbar(at, rows["exponent"][mine], yerr=rows["error"][mine], **BARS, **DOTS[name])
-            for part in bars.get_children():
-                part.set_label(name)
-    axes.axhline(0, color=BLACK, linewidth=0.6)
-    low, high = ((exponents["exponent"] + sign * exponents["error"]) for sign in (-1, 1))
-    low, high = low.min(), high.max()
-    axes.set(xticks=range(len(cases)), xticklabels=cases, xlim=(-0.5, len(cases) - 0.5))
-    axes.set(ylim=(np.floor(low / GRID) * GRID, np.ceil(high / GRID) * GRID))
-    axes.set_ylabel(r"$\lambda_{\max}$ per forcing period")
-    axes.legend(
-        handles=[Line2D([], [], **style) for style in DOTS.values()], fontsize=8.5, handlelength=1.0, loc="upper left"
-    )
-    axes.tick_params(axis="x", length=0)

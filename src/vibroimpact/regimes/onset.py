@@ -1,0 +1,54 @@
+"""At which forces along a path the response is modulated: what the slow flow predicts, and what starts end in."""
+
+import numpy as np
+
+from vibroimpact.regimes.classification import CHAOTIC, STRONGLY_MODULATED
+from vibroimpact.theory.relaxation import relax
+
+FORCES = {"f10_hat", "f20_hat"}
+COLUMNS = ["path", "who", "first", "last", "uncertainty", "agreement"]
+SLOW_FLOW, SIMULATION = "slow flow", "simulation"
+_FOLLOWED = 300, 300
+"""Cycles that count, and cycles before those, in which a ball may be lost for good."""
+
+
+def predicted(path, values) -> np.ndarray:
+    """Whether the slow flow takes a ball in and out of resonance for good, see `theory.relaxation`, shape (n,).
+
+    Args:
+        path: value -> system, along forces alone. values: (n,).
+    """
+    forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
+    share = relax(path.system, *_FOLLOWED, forces=forces).share
+    return ((share > 0) & (share < 1)).any(axis=1)
+
+
+def observed(values, p, names) -> np.ndarray:
+    """Whether a start at each of the values (n,) ends in a modulated or chaotic response, of starts at p named so."""
+    modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
+    return np.isin(values, modulated)
+
+
+def longest_range(values, flags) -> tuple[float, float]:
+    """First and last of the longest unbroken sequence of values (n,) with a flag; nan if none has one."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+    if not len(edges):
+        return np.nan, np.nan
+    widest = np.argmax(edges[1::2] - edges[::2])
+    return float(values[edges[2 * widest]]), float(values[edges[2 * widest + 1] - 1])
+
+
+def onsets(path, values, p, names) -> list[tuple]:
+    """Where along a path modulated responses are, by both, and at what part of its values both say the same.
+
+    Args:
+        path, values: as for `predicted`, values evenly spaced. p, names: where starts are, and what they end in.
+
+    Returns two rows of COLUMNS: names of the path, who says so, ends of the longest range, spacing, agreement; none if
+    something else than forces changes along the path.
+    """
+    if not set(path.names) <= FORCES:
+        return []
+    flags = {SLOW_FLOW: predicted(path, values), SIMULATION: observed(values, p, names)}
+    common = " ".join(path.names), float(values[1] - values[0]), float((flags[SLOW_FLOW] == flags[SIMULATION]).mean())
+    return [(common[0], who, *longest_range(values, said), *common[1:]) for who, said in flags.items()]
