@@ -92,6 +92,7 @@ COMPANIONS = {
     "companion_branches": {
         "method": f"continuation of fixed points and exact 1:1 responses; attractors by {SIMULATED}",
         "system": REGIMES["branches"]["case"],
+        "systems": True,
         "settings": keys_of("regimes.branches", "case") | OBSERVED,
         "config": ["regimes.branches.case", "regimes.coexistence"],
         "inputs": {"lifetimes": rules.coexistence.output.lifetimes},
@@ -109,8 +110,7 @@ COMPANIONS = {
     "companion_basins": {
         "method": SIMULATED,
         "system": REGIMES["basins"]["case"],
-        "settings": keys_of("regimes.basins", "case") | OBSERVED,
-        "config": ["regimes.basins.case"],
+        "settings": keys_of("regimes.basins") | OBSERVED,
         "tables": {"shares": "results/regimes/basin_shares.csv"},
     },
     "companion_epsilon": {
@@ -158,7 +158,7 @@ def companion_settings(name):
 def companion_provenance(name):
     companion = COMPANIONS[name]
     cases = (
-        [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
+        sorted(config["cases"]) if "systems" in companion else [companion["system"]] if "system" in companion else []
     )
     keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
     own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])

@@ -7,7 +7,16 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, side_by_side, styled
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    letter_panel,
+    new_figure,
+    side_by_side,
+    styled,
+)
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
@@ -35,7 +44,8 @@ BARS = {"elinewidth": 0.7, "ecolor": GREY, "capsize": 0}
 """Standard errors of single exponents."""
 GRID = 0.25
 """The axis of exponents ends at multiples of this, wherever those of chaotic motions lie."""
-
+SHORTEST = 0.5
+"""Bursts in cycles: two flights of a quarter of the period."""
 
 SHOWN = 4
 """So many starts of a regime are watched over the longest of the windows."""
@@ -55,21 +65,22 @@ def compute(
     Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
     uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
     blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
-    spread starts; and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, and the
-    exponent of each start with its standard error, per period.
+    spread starts; and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, the
+    window that no burst outlasts, and the exponent of each start with its standard error, per period.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
         for case, system in systems.items()
     ]
     rows, compared, curves = zip(*tables, strict=True)
+    window = curve("bursts", "window", length=float(cycles), longer=np.nan)
     return {
         "measures": pd.concat(rows, ignore_index=True),
         "windows": pd.DataFrame(
             [row for part in compared for row in part],
             columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
         ),
-        "csv": join(part for parts in curves for part in parts),
+        "csv": join([*(part for parts in curves for part in parts), window]),
     }
 
 
@@ -142,14 +153,18 @@ def draw(tables: dict) -> Figure:
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid[len(modulated) + 1 :]:
         axes.set_axis_off()
+    bursts = table[table["panel"] == "bursts"]
+    (window,) = bursts[bursts["series"] == "window"]["length"]
+    limits = {"xlim": (SHORTEST, _decade(1.1 * window)), "ylim": (_decade(bursts["longer"].min()) / 10, 1.5)}
     for axes, case, letter in zip(grid, modulated, ascii_lowercase, strict=False):
         for module, style in LINES.items():
-            bursts = select(table, "bursts", f"{case}, module {module}")
-            axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
-        drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
-        limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
+            line = select(bursts, "bursts", f"{case}, module {module}")
+            axes.plot(line["length"], line["longer"], label=f"module {module}", **style)
+        axes.axvline(window, **LEVEL)
+        side = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points", "rotation": 90, "va": "center"}
+        axes.annotate("end of the window", (window, 0.5), (4, 0), **side, fontsize=8.5)
         axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", **limits)
-        axes.legend(fontsize=8.5)
+        axes.legend(fontsize=8.5, loc="center right", bbox_to_anchor=(0.78, 0.55), handlelength=1.4)
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
     grid[0].set_ylabel("fraction of bursts at least this long")
