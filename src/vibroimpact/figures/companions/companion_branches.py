@@ -181,7 +181,9 @@ def draw(tables: dict) -> Figure:
     along = dict(zip(panels, dict.fromkeys(special["path"]), strict=True))
     figure = new_figure(DOUBLE_COLUMN, 165.0)
     grid = figure.subplots(3, len(panels), sharex="col", squeeze=False, height_ratios=(3, 3, 2))
-    lives = table[table["panel"] == LIVES]
+    lives, letters = table[table["panel"] == LIVES], iter("abcdefghijklmnop"[2 * len(panels) :])
+    for axes in grid[:2].flat:
+        axes.label_outer()
     for column, panel in enumerate(panels):
         mine = table[table["panel"] == panel]
         attractors, theory = mine[mine["series"] == "attractor"], mine["series"] == FixedPoints.name
@@ -189,18 +191,14 @@ def draw(tables: dict) -> Figure:
         grid[1, column].set(ylim=(0.0, 2.6))
         _attractor_dots(grid[1, column], attractors)
         _cases(*grid[:2, column], mine[mine["series"] == "case"])
+        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
         _branches(grid[0, column], mine[theory])
         _branches(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
         for row, what in enumerate(("theory", "exact")):
             letter_panel(grid[row, column], "abcdefgh"[row * len(panels) + column])
             grid[row, column].set_title(what, loc="right", pad=3)
-    for axes in grid[:2].flat:
-        axes.label_outer()
     for axes in grid[:2, 0]:
         axes.set_ylabel("$C_2$")
-    letters = iter("abcdefghijklmnop"[2 * len(panels) :])
-    for column, panel in enumerate(panels):
-        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
     figure.legend(handles=_legend(grid[:2].flat), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
     return figure
 

@@ -7,7 +7,8 @@ GAP, CLEAR = 2.5, 6.0
 """In points: from a line to its name; a place is as good as any if other lines are so far from the name."""
 WIDTH = 0.22
 """Half the width of a letter, on average, by the size of the lettering."""
-PARTS = 100
+INNER, PARTS = (0.2, 0.8), 100
+"""Where on its curve a name may stand, and into how many parts curves are cut."""
 
 
 def name_lines(axes, named: dict, size: float = 8.5) -> None:
@@ -22,7 +23,7 @@ def name_lines(axes, named: dict, size: float = 8.5) -> None:
     taken = [points * _fine(line.get_transform().transform(line.get_xydata())) for line in lines]
     for name, (colour, curves) in named.items():
         half = size * np.array([WIDTH * len(name), 0.5])
-        own = np.concatenate([_fine(curve) for curve in curves])
+        own = np.concatenate([_fine(curve, *INNER) for curve in curves])
         shift = np.array([[0.0, half[1] + GAP], [0.0, -half[1] - GAP]])
         places = (points * axes.transData.transform(own) + shift[:, None]).reshape(-1, 2)
         best = np.argmax(_room(places, half, np.concatenate(taken), points * axes.bbox.get_points()))
@@ -40,7 +41,7 @@ def _room(places, half, taken, frame):
     return np.where(inside > 0, np.minimum(clear, CLEAR), -np.inf) - aside
 
 
-def _fine(corners):
-    """So many points along a polyline of corners (n, 2), evenly over its corners."""
-    at, steps = np.linspace(0.0, len(corners) - 1.0, PARTS), np.arange(len(corners))
+def _fine(corners, first=0.0, last=1.0):
+    """So many points along a part of a polyline of corners (n, 2), evenly over its corners."""
+    at, steps = np.linspace(first, last, PARTS) * (len(corners) - 1), np.arange(len(corners))
     return np.column_stack([np.interp(at, steps, column) for column in np.transpose(corners)])
