@@ -38,6 +38,18 @@ def motions_of(case):
     }
 
 
+def gaps_of(case):
+    """Of a simulated case: its motion, and where its second ball is out of resonance."""
+    tables = {table: f"results/simulations/{case}/{table}.csv" for table in ("samples", "events")}
+    return {
+        "method": "resonant bursts between the impacts of the simulation",
+        "system": case,
+        "inputs": tables,
+        "before": [simulation_step(case)],
+        "config": [f"cases.{case}.simulation"],
+    }
+
+
 def map_of(sweep):
     """The figure of a sweep over both forces."""
     return {
@@ -82,6 +94,7 @@ COMPANIONS = {
         if "fig10_08" in config["figures"]
         else {}
     ),
+    **({"companion_10_11": gaps_of(config["figures"]["fig10_11"]["case"])} if "fig10_11" in config["figures"] else {}),
     "companion_stability": {
         "method": "verdicts and places as computed, limits in closed form",
         "systems": True,
