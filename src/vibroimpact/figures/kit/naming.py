@@ -1,7 +1,6 @@
 """Names written at lines, where they are clear of every line of their axes."""
 
 import numpy as np
-from matplotlib.patheffects import withStroke
 
 GAP, CLEAR = 2.5, 6.0
 """In points: from a line to its name; a place is as good as any if other lines are so far from the name."""
@@ -28,8 +27,8 @@ def name_lines(axes, named: dict, size: float = 8.5) -> None:
         places = (points * axes.transData.transform(own) + shift[:, None]).reshape(-1, 2)
         best = np.argmax(_room(places, half, np.concatenate(taken), points * axes.bbox.get_points()))
         offset = {"textcoords": "offset points", "ha": "center", "va": "center", "fontsize": size}
-        outlined = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "zorder": 5}
-        axes.annotate(name, own[best % len(own)], shift[best // len(own)], color=colour, **offset, **outlined)
+        behind = {"bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.3}, "zorder": 5}
+        axes.annotate(name, own[best % len(own)], shift[best // len(own)], color=colour, **offset, **behind)
         taken.append(_fine(places[best] + half * [[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]))
 
 
