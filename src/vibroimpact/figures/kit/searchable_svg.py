@@ -1,7 +1,7 @@
-"""A backend of Matplotlib: SVG whose letters are outlines, the same on every machine, under words that can be searched.
+"""A backend of Matplotlib: SVG of outlines, which look the same on every machine, under words that can be searched.
 
-Words alone would need the font where they are read, and lie elsewhere without it. So the words are transparent: they are
-found, marked, copied and read aloud, and it is the outlines that are seen.
+Words alone would need the font where they are read, and lie elsewhere without it. So the words are transparent: they
+are found, marked, copied and read aloud, and it is the outlines that are seen.
 """
 
 import io
