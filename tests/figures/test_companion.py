@@ -206,6 +206,7 @@ def test_faces_tell_the_verdicts(companions, tables):
         black = {
             (int(line.get_xdata()[0]), int(line.get_ydata()[0])): line.get_markerfacecolor() == "black"
             for line in axes.lines
+            if line.get_label() != companion_stability.RING["label"]
         }
         expected = {
             (column, row): motion[criterion] == "stable"
@@ -213,6 +214,25 @@ def test_faces_tell_the_verdicts(companions, tables):
             for column, criterion in enumerate(CRITERIA)
         }
         assert black == expected
+
+
+def test_rings_are_where_a_criterion_calls_an_unstable_motion_stable(companions, tables):
+    """All symmetric motions are, by their multipliers; of what both time scales say only (c) of equal is refuted."""
+    table, figure = tables["companion_stability"], companions["companion_stability"]
+    for case, plane, matrix in zip(SYSTEMS, figure.axes, figure.axes[len(SYSTEMS) :], strict=False):
+        assert all(np.abs(orbit.multipliers).max() > 1 for orbit in orbits(SYSTEMS[case]) if orbit.symmetric)
+        motions = table[(table["panel"] == case) & table["series"].isin(companion_stability.KINDS)]
+        refuted = (motions["series"] != "asymmetric").to_numpy()[:, None] & motions[list(CRITERIA)].eq(
+            "stable"
+        ).to_numpy()
+        assert ringed(matrix) == {(column, row) for row, column in np.argwhere(refuted)}
+        c = motions[(motions["series"] == "fixed point") & (motions["label"] == "c") & (case == "equal")]
+        assert ringed(plane) == set(c[["C1", "C2"]].itertuples(index=False, name=None))
+
+
+def ringed(axes):
+    rings = [line for line in axes.lines if line.get_label() == companion_stability.RING["label"]]
+    return {tuple(ring.get_xydata()[0]) for ring in rings}
 
 
 @pytest.mark.parametrize("name", COMPANIONS)

@@ -1,10 +1,13 @@
 """Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour."""
 
+import itertools
+
 import matplotlib.colors
 import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
@@ -81,13 +84,14 @@ def tables(balls):
             attractors={"values": 3, "starts": 3, "seed": 1},
             observation=OBSERVATION,
             lifetimes=LIFETIMES,
+            systems=SYSTEMS,
         ),
         "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
         "absorber": companion_absorber.compute(SYSTEMS["equal"], **balls),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
-        "basins": basins.compute(SYSTEMS["unequal"], points=9, observation=OBSERVATION),
+        "basins": basins.compute(SYSTEMS["unequal"], "unequal", points=9, observation=OBSERVATION),
         "asymmetric": companion_asymmetric.compute(
             EQUAL, verdicts_of(EQUAL)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
         ),
@@ -106,11 +110,27 @@ def figures(tables):
     return drawn
 
 
+def lightness(colour):
+    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
+    channels = np.array(matplotlib.colors.to_rgb(colour))
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
+
+
 @pytest.mark.parametrize("name", MODULES)
-def test_nothing_is_told_by_colour(figures, name):
-    for line in figures[name].findobj(Line2D):
-        red, green, blue = matplotlib.colors.to_rgb(line.get_color())
-        assert red == green == blue
+def test_nothing_is_told_by_colour_alone(figures, name):
+    """Lines are grey; or their hue is told from others by its lightness as well, and said in words of that hue."""
+    colours = {matplotlib.colors.to_rgb(line.get_color()) for line in figures[name].findobj(Line2D)}
+    hues = {colour for colour in colours if len(set(colour)) > 1}
+    shades = sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)})
+    assert all(np.diff(shades) > 15)
+    assert hues <= {matplotlib.colors.to_rgb(text.get_color()) for text in figures[name].findobj(Text)}
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_lettering_is_at_least_6_5_points(figures, name):
+    for text in figures[name].findobj(Text):
+        assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.499, text.get_text()
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -140,13 +160,44 @@ def test_stable_pieces_are_bold_solid_and_unstable_ones_dashed(tables, figures):
         assert (line.get_linewidth() > 1.5) == piece["stable"].iloc[0]
 
 
-def test_special_points_are_marked_by_kind(tables, figures):
+def test_folds_ends_and_losses_of_stability_are_marked_and_no_other_special_point(tables, figures):
+    """A loss of stability is where a bold line ends within the axes."""
     special = tables["branches"]["special_points"]
-    exact = special[(special["family"] != "fixed point") & special["admissible"]]
-    assert len(exact)
-    for kind, rows in exact.groupby("kind"):
-        shown = [line for line in figures["branches"].axes[1].lines if line.get_marker() == branches.MARKERS[kind]]
-        assert any(np.array_equal(np.sort(line.get_xdata()), np.sort(rows["p"])) for line in shown)
+    for axes, theory in zip(figures["branches"].axes, (True, False), strict=False):
+        bold = [line.get_xydata() for line in axes.lines if line.get_linestyle() == "-" and line.get_linewidth() > 1.5]
+        ends = {tuple(line[k]) for line in bold for k in (0, -1)}
+        mine = special[(special["family"] == "fixed point") == theory].query("0.7 <= p <= 1.2 and admissible")
+        turning = mine[mine["kind"].isin(branches.ENDS)][["p", "C2"]].itertuples(index=False, name=None)
+        marks = [line for line in axes.lines if line.get_label() in branches.MARKERS]
+        marked = {tuple(place) for line in marks for place in line.get_xydata()}
+        assert {place for place in ends if 0.7 < place[0] < 1.2} | set(turning) == marked
+        assert len(marked) < len(mine)
+
+
+def test_cases_on_the_path_are_marked_with_their_names(figures):
+    theory, exact, _ = figures["branches"].axes
+    names = {text.xy[0]: text.get_text() for text in theory.texts if text.get_rotation() == 90}
+    assert names == {1.0: "equal", 0.89: "unequal"}
+    for axes in (theory, exact):
+        assert {
+            line.get_xdata()[0]
+            for line in axes.lines
+            if line.get_color() == branches.GREY and line.get_marker() == "None"
+        } == {1.0, 0.89}
+
+
+def test_names_of_lines_are_clear_of_them(figures):
+    """The box of each name, as rendered, meets no line but the one that it names, and no other name."""
+    for axes in figures["branches"].axes[:2]:
+        boxes = [text.get_window_extent() for text in axes.texts if text.get_rotation() == 0]
+        assert boxes
+        assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
+        paths = [
+            line.get_transform().transform_path(line.get_path())
+            for line in axes.lines
+            if line.get_linestyle() != "None"
+        ]
+        assert not any(path.intersects_bbox(box.padded(-1), filled=False) for path in paths for box in boxes)
 
 
 def test_simulated_attractors_lie_on_the_stable_branch(tables):
@@ -261,6 +312,22 @@ def test_basins_name_every_start_and_the_orbit_in_its_own(tables):
     starts = table[table["series"] == "start"]
     nearest = starts.iloc[np.hypot(starts["W1"] - orbit["W1"], starts["W2"] - orbit["W2"]).argmin()]
     assert nearest["label"] == orbit["label"]
+
+
+def test_basins_show_the_mirror_image_and_say_what_all_starts_share(tables, figures):
+    """The mirror image against the twin that the search for orbits finds; the case and six numbers in words."""
+    table = tables["basins"]["csv"].set_index("series")
+    stable = [o for o in vi.orbits(SYSTEMS["unequal"]) if not o.symmetric and np.abs(o.multipliers).max() < 1]
+    twins = np.array([[o.state[0] - o.state[1], o.state[2] - o.state[3]] for o in stable])
+    shown = table.loc[["orbit", "mirror image"], ["W1", "W2"]].to_numpy(float)
+    np.testing.assert_allclose(shown[shown[:, 0].argsort()], twins[twins[:, 0].argsort()], atol=1e-8)
+    (own,) = [o for o in stable if abs(o.state[0] - table.loc["shared", "X1"]) < 1e-9]
+    np.testing.assert_allclose(
+        table.loc["shared", basins.SHARED].to_numpy(float), own.state[[0, 2, 4, 5, 6, 7]], atol=1e-12
+    )
+    (legend,), (axes,) = figures["basins"].legends, figures["basins"].axes
+    assert f"$X_1 = {own.state[0]:.3f}$" in legend.get_title().get_text()
+    assert axes.get_title("left") == "unequal"
 
 
 @pytest.mark.parametrize("forces", [(0.0, 0.0), (0.5, 0.5)])

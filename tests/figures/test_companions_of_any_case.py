@@ -23,9 +23,9 @@ OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks
 
 
 def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
-    tables = companion_basins.compute(STILL, 3, OBSERVATION)
-    assert set(tables["csv"]["series"]) == {"start"}
-    np.testing.assert_allclose(sorted(set(tables["csv"]["W1"])), [-2 / 3, 0, 2 / 3], atol=1e-15)
+    tables = companion_basins.compute(STILL, "still", 3, OBSERVATION)
+    assert set(tables["csv"]["series"]) == {"start", "shared"}
+    np.testing.assert_allclose(sorted(set(tables["csv"]["W1"].dropna())), [-2 / 3, 0, 2 / 3], atol=1e-15)
     companion_basins.draw(tables)
 
 
@@ -42,7 +42,7 @@ def test_a_path_without_special_points_says_none(first):
     paths = [{"along": [first], "range": [0.01, 0.02]}, {"along": [second], "range": [0.01, 0.02]}]
     attractors = {"values": 2, "starts": 1, "seed": 1}
     lifetimes = pd.DataFrame(columns=["path", "p", "starts", "escapes", "cycles", "life", "uncertainty", "least"])
-    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, lifetimes)
+    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, lifetimes, {})
     assert tables["special_points"]["path"].tolist() == [first, second]
     assert tables["special_points"]["kind"].tolist() == ["none", "none"]
     companion_branches.draw(tables)

@@ -38,6 +38,18 @@ def motions_of(case):
     }
 
 
+def gaps_of(case):
+    """Of a simulated case: its motion, and where its second ball is out of resonance."""
+    tables = {table: f"results/simulations/{case}/{table}.csv" for table in ("samples", "events")}
+    return {
+        "method": "resonant bursts between the impacts of the simulation",
+        "system": case,
+        "inputs": tables,
+        "before": [simulation_step(case)],
+        "config": [f"cases.{case}.simulation"],
+    }
+
+
 def map_of(sweep):
     """The figure of a sweep over both forces."""
     return {
@@ -82,6 +94,7 @@ COMPANIONS = {
         if "fig10_08" in config["figures"]
         else {}
     ),
+    **({"companion_10_11": gaps_of(config["figures"]["fig10_11"]["case"])} if "fig10_11" in config["figures"] else {}),
     "companion_stability": {
         "method": "verdicts and places as computed, limits in closed form",
         "systems": True,
@@ -92,6 +105,7 @@ COMPANIONS = {
     "companion_branches": {
         "method": f"continuation of fixed points and exact 1:1 responses; attractors by {SIMULATED}",
         "system": REGIMES["branches"]["case"],
+        "systems": True,
         "settings": keys_of("regimes.branches", "case") | OBSERVED,
         "config": ["regimes.branches.case", "regimes.coexistence"],
         "inputs": {"lifetimes": rules.coexistence.output.lifetimes},
@@ -116,8 +130,7 @@ COMPANIONS = {
     "companion_basins": {
         "method": SIMULATED,
         "system": REGIMES["basins"]["case"],
-        "settings": keys_of("regimes.basins", "case") | OBSERVED,
-        "config": ["regimes.basins.case"],
+        "settings": keys_of("regimes.basins") | OBSERVED,
         "tables": {"shares": "results/regimes/basin_shares.csv"},
     },
     "companion_epsilon": {
@@ -165,7 +178,7 @@ def companion_settings(name):
 def companion_provenance(name):
     companion = COMPANIONS[name]
     cases = (
-        [companion["system"]] if "system" in companion else sorted(config["cases"]) if "systems" in companion else []
+        sorted(config["cases"]) if "systems" in companion else [companion["system"]] if "system" in companion else []
     )
     keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
     own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])

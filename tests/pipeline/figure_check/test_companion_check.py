@@ -45,6 +45,7 @@ BRANCHES = {
     "attractors": {"values": 15, "starts": 5, "seed": 1},
     "observation": OBSERVATION,
     "lifetimes": LIFETIMES,
+    "systems": SYSTEMS,
 }
 
 
@@ -81,7 +82,7 @@ COMPUTE = {
     "companion_modulation": lambda change: modulation.compute(
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
-    "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), 15, OBSERVATION),
+    "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), "unequal", 15, OBSERVATION),
     "companion_asymmetric": lambda change: asymmetric({"equal": change(SYSTEMS["equal"])}),
     "companion_epsilon": lambda change: epsilon_limit.compute(
         all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}

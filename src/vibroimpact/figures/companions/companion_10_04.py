@@ -16,11 +16,14 @@ from vibroimpact.theory.penetration import largest_C
 PIECES = {"SIM left": UNSTABLE, "SIM stable": STABLE, "SIM right": UNSTABLE}
 """The manifold from left to right: below the fold, between the limits, above the upper one."""
 LIMITS = {
-    "printed": ("(10.26)", {"marker": "s", "markerfacecolor": "white"}, (-15, 30)),
-    "fold": (r"$C_{\min}$", {"marker": "o", "markerfacecolor": BLACK}, (12, 30)),
-    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$", {"marker": "o", "markerfacecolor": BLACK}, (-24, 24)),
+    "printed": ("(10.26)", {"marker": "s", "markerfacecolor": "white"}, (14, 7)),
+    "fold": (r"$C_{\min}$", {"marker": "o", "markerfacecolor": BLACK}, (0, 11)),
+    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$", {"marker": "o", "markerfacecolor": BLACK}, (26, -17)),
 }
 """Of each limit: its name in the figure, its marker, the place of the name in points from the marker."""
+INSET, AROUND, TALL = (0.27, 0.42, 0.33, 0.36), 0.3, 0.35
+"""Of the inset between the printed limit and the fold: its place as shares of the axes, and what it shows beyond both,
+as shares of their distance in C, and of its height in B."""
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
@@ -48,19 +51,45 @@ def compute(kappa: float, C_max: float) -> pd.DataFrame:
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: stable piece bold solid on a shaded band, unstable pieces dashed, limits marked."""
-    figure = new_figure(SINGLE_COLUMN, 58.0)
+    figure = new_figure(SINGLE_COLUMN, 66.0)
     axes = figure.add_subplot()
+    axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
+    _draw_pieces(axes, table)
+    _mark(axes, table, ["symmetry breaking"], named=True)
+    _mark(axes, table, ["printed", "fold"], named=False)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.05, 1.0), ncols=2)
+    _draw_inset(axes, table)
+    return figure
+
+
+def _draw_pieces(axes, table):
+    """The manifold on the shaded band of its stable piece."""
     stable = select(table, "SIM", "SIM stable")["C"]
     axes.axvspan(stable.min(), stable.max(), facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
     names = {"SIM stable": "stable", "SIM left": "unstable"}
     for series, style in PIECES.items():
         piece = select(table, "SIM", series)
         axes.plot(piece["C"], piece["B"], **style, label=names.get(series))
-    for series, (name, marker, offset) in LIMITS.items():
+
+
+def _mark(axes, table, limits, named):
+    for series in limits:
+        name, marker, offset = LIMITS[series]
         ((C, B),) = select(table, "SIM", series)[["C", "B"]].to_numpy()
         axes.plot([C], [B], linestyle="none", color=BLACK, markersize=4.5, zorder=3, **marker)
-        leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
-        axes.annotate(name, (C, B), offset, textcoords="offset points", fontsize=10, ha="center", arrowprops=leader)
-    axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
-    axes.legend(loc="upper center", ncols=2)
-    return figure
+        if named:
+            axes.annotate(name, (C, B), offset, textcoords="offset points", fontsize=10, ha="center")
+
+
+def _draw_inset(axes, table):
+    """What lies between the printed limit and the fold, which (10.26) calls stable though it is not."""
+    ends = [select(table, "SIM", series)[["C", "B"]].to_numpy()[0] for series in ("printed", "fold")]
+    (left, top), (right, bottom) = ends
+    inset = axes.inset_axes(INSET)
+    wide, high = AROUND * (right - left), TALL * (top - bottom)
+    inset.set(xlim=(left - wide, right + wide), ylim=(bottom - high, top + 2 * high))
+    inset.set_xticks([left, right], [f"{left:.3f}", f"{right:.3f}"])
+    _draw_pieces(inset, table)
+    _mark(inset, table, ["printed", "fold"], named=True)
+    inset.tick_params(labelsize=7.5, labeltop=True, labelbottom=False, pad=2)
+    axes.indicate_inset_zoom(inset, edgecolor=BLACK, linewidth=0.5, alpha=1)

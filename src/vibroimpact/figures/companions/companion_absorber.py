@@ -162,7 +162,7 @@ def draw(tables: dict) -> Figure:
     for force, axes in zip(forces, places, strict=False):
         _draw_response(axes, table[(table["panel"] == "response") & (table["f10_hat"] == force)])
         _logarithmic(axes, "y", LEAST * peaks.min(), MOST * peaks.max())
-        axes.set_title(rf"$\hat f_{{10}} = \hat f_{{20}} = {force:g}$", loc="right", pad=3)
+        axes.set_title(rf"$\hat f_{{10}} = \hat f_{{20}} = {force:g}$", loc="right", pad=3, fontsize=9.5)
     last = places[len(forces) :]
     _draw_clearance(last[0], table[table["panel"] == "clearance"], summary.loc["balls"])
     _logarithmic(last[0], "y", LEAST * peaks.min(), MOST * peaks.max())

@@ -6,7 +6,8 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.basins import MIRRORED, ends, plane, stable_response
 from vibroimpact.regimes.classification import (
@@ -22,6 +23,7 @@ from vibroimpact.regimes.classification import (
     UNSETTLED,
 )
 from vibroimpact.regimes.settling import Observation
+from vibroimpact.system.state import NAMES
 
 SHADES = {
     STRONGLY_MODULATED: "white",
@@ -36,28 +38,40 @@ SHADES = {
     NO_IMPACTS: "0.35",
     UNSETTLED: "0.1",
 }
+_MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.8, "markersize": 5}
+MARKS = {
+    "orbit": {"marker": "o", "label": "the orbit itself"},
+    "mirror image": {"marker": "D", "label": "its mirror image"},
+}
+SHARED = [name for name in NAMES if name not in ("Y1", "Y2")]
+"""Coordinates that all starts have in common."""
 
 
-def compute(system, points: int, observation: dict) -> dict:
+def compute(system, case: str, points: int, observation: dict) -> dict:
     """Where starts end whose boxes and velocities are those of the stable asymmetric orbit at tau = 0.
 
     Where there is no such orbit, the boxes start from rest.
 
     Args:
+        case: what the system is called.
         points: starts along each axis, in the middles of equal parts of -1 < W_i < 1.
         observation: arguments of `regimes.settling.Observation`.
 
-    Returns "csv": columns panel, series ("start", "orbit"), label (regime), W1, W2; and "shares": columns regime,
-    share, uncertainty (of a share of so many independent starts, binomial).
+    Returns "csv": columns panel (the case), series ("start", "orbit", "mirror image": of the orbit, whose boxes are
+    elsewhere; "shared": what all starts have in common), label (regime), W1, W2, SHARED; and "shares": columns
+    regime, share, uncertainty (of a share of so many independent starts, binomial).
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)
+    shared = dict(zip(NAMES, states[0], strict=True))
     names = ends(system, states, Observation(**observation))
     W1, W2 = states[:, 0] - states[:, 1], states[:, 2] - states[:, 3]
-    table = curve("basins", "start", label=names, W1=W1, W2=W2)
+    table = [curve(case, "start", label=names, W1=W1, W2=W2)]
     if orbit is not None:
-        own = orbit.state[0::2][:2] - orbit.state[1::2][:2]
-        table = join([table, curve("basins", "orbit", label=ASYMMETRIC, W1=own[0], W2=own[1])])
+        half = simulate(system, orbit.state, 1, sample_times=[0.5 * system.period]).samples[0]
+        for series, label, own in (("orbit", ASYMMETRIC, orbit.state), ("mirror image", MIRRORED, -half)):
+            table.append(curve(case, series, label=label, W1=own[0] - own[1], W2=own[2] - own[3]))
+    table = join([*table, curve(case, "shared", **{name: shared[name] for name in SHARED})])
     share = pd.Series(names).value_counts(normalize=True)
     shares = pd.DataFrame({"regime": share.index, "share": share.to_numpy()})
     return {"csv": table, "shares": shares.assign(uncertainty=np.sqrt(share * (1 - share) / len(names)).to_numpy())}
@@ -65,12 +79,12 @@ def compute(system, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: a shade per regime, the orbit itself as a circle."""
+    """Draw the table of `compute`: a shade per regime, the orbit itself as a circle, its mirror image as a diamond."""
     table = tables["csv"]
-    starts, orbit = (table[table["series"] == name] for name in ("start", "orbit"))
+    starts, (shared,) = table[table["series"] == "start"], table[table["series"] == "shared"][SHARED].to_dict("records")
     order = [name for name in SHADES if (starts["label"] == name).any()]
     codes = starts.assign(code=starts["label"].map(order.index)).pivot(index="W2", columns="W1", values="code")
-    figure = new_figure(SINGLE_COLUMN, 90.0)
+    figure = new_figure(SINGLE_COLUMN, 112.0)
     axes = figure.add_subplot()
     axes.pcolormesh(
         codes.columns,
@@ -80,8 +94,23 @@ def draw(tables: dict) -> Figure:
         norm=BoundaryNorm(np.arange(len(order) + 1) - 0.5, len(order)),
         rasterized=True,
     )
-    axes.plot(orbit["W1"], orbit["W2"], "o", color="white", markeredgecolor=BLACK, markeredgewidth=0.8, markersize=5)
+    marks = []
+    for series, style in MARKS.items():
+        own = table[table["series"] == series]
+        marks += axes.plot(own["W1"], own["W2"], **_MARK, **style) if len(own) else []
+    letter_panel(axes, table["panel"].iloc[0])
     axes.set(xlabel="$W_1(0)$", ylabel="$W_2(0)$", aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
     patches = [Patch(facecolor=SHADES[name], edgecolor=BLACK, linewidth=0.6, label=name) for name in order]
-    figure.legend(handles=patches, loc="outside lower center", ncols=2, fontsize=8.5)
+    legend = {"loc": "outside lower center", "ncols": 2, "fontsize": 8.5, "title_fontsize": 10}
+    figure.legend(handles=patches + marks, title=_common(shared), **legend)
     return figure
+
+
+def _common(shared):
+    """The coordinates that all starts share, a line per module."""
+    said = {
+        name: f"${name[-2]}_{name[-1]}{name[:-2].replace('d', chr(39))} = {value:.3f}$"
+        for name, value in shared.items()
+    }
+    lines = (", ".join(text for name, text in said.items() if name[-1] == module) for module in "12")
+    return "all starts: " + "\n".join(lines)

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
+from vibroimpact.figures.kit.naming import name_lines
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes import onset
@@ -24,6 +24,7 @@ from vibroimpact.regimes.families import (
     SYMMETRY_BREAKING,
     AsymmetricOrbits,
     FixedPoints,
+    SymmetricOrbits,
 )
 from vibroimpact.regimes.lifetimes import bracket
 from vibroimpact.regimes.settling import Observation, settle
@@ -34,10 +35,12 @@ MARKERS = {
     PERIOD_DOUBLING: "s",
     NEIMARK_SACKER: "D",
     HOPF: "D",
-    GRAZING: "X",
-    SPEED_ZERO: "P",
     MANIFOLD_FOLD: "v",
+    GRAZING: "X",
+    SPEED_ZERO: "X",
 }
+ENDS = FOLD, GRAZING, SPEED_ZERO
+"""Marked wherever branches turn or end; of the other special points those that bound a stable piece."""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
 DOTS = {
@@ -47,17 +50,22 @@ DOTS = {
 }
 """What starts end in, by simulation."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
-BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and periodic pair coexist"}
+BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and the\nstable pair\ncoexist"}
 CRISIS = {"color": BLACK, "linestyle": (0, (1, 1.2)), "linewidth": 1.0, "label": "crisis"}
-LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4}
+CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
+LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4, "label": "mean life"}
 BARS = {"capsize": 2.0, "elinewidth": 0.8}
 LEAST = {"linestyle": "none", "marker": "^", "color": "white", "markeredgecolor": BLACK, "markersize": 4.4}
+LEAST |= {"label": "its lower bound"}
 LIVES = "mean life"
 NO_SPECIAL_POINT = "none"
 COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 LIFE_RANGE = (30.0, 1e6)
 """Fixed, so that the axis does not depend on the error of the shortest life."""
-COLOURS = {AsymmetricOrbits.name: "0.45"}
+HUES = {FixedPoints.name: BLACK, SymmetricOrbits.name: "#004488", AsymmetricOrbits.name: "#BB5566"}
+"""Blue and red of Paul Tol's high-contrast palette, which colour-blind readers and grey prints tell apart."""
+NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
+"""Of lines of exact orbits; those of the theory are named by their stability."""
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
 
 
@@ -69,6 +77,7 @@ def compute(
     attractors: dict,
     observation: dict,
     lifetimes: pd.DataFrame,
+    systems: dict,
 ) -> dict:
     """Branches along each path, their special points, and attractors from several starts.
 
@@ -78,11 +87,13 @@ def compute(
         attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
         observation: arguments of `regimes.settling.Observation`.
         lifetimes: of `coexistence.compute_lifetimes`; those along one of the paths are drawn.
+        systems: case -> system; those on a path are marked.
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C belongs
-    to half of the ball's mean path per cycle; rows of the panel "mean life", labelled by the path, with life,
-    uncertainty, least, and of their coexistence and crisis in p), "special_points" (path, family, kind, p, C1, C2;
-    a path without any has a row of the kind "none"), and "onsets" (rows of `regimes.onset.onsets`).
+    to half of the ball's mean path per cycle; of a case, named by the label, the p where it lies; rows of the panel
+    "mean life", labelled by the path, with life, uncertainty, least, and of their coexistence and crisis in p),
+    "special_points" (path, family, kind, p, C1, C2; a path without any has a row of the kind "none"), and "onsets"
+    (rows of `regimes.onset.onsets`).
     """
     parts, onsets = [], []
     for panel, settings in zip("abcdefgh", paths, strict=False):
@@ -91,7 +102,7 @@ def compute(
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
             parts += [part for number, branch in enumerate(found) for part in _pieces(panel, path, number, branch)]
         ends = _attractors(panel, path, interval, observation, **attractors)
-        parts.append(ends)
+        parts += [ends, *(curve(panel, "case", label=case, p=p) for case, p in _on(path, interval, systems))]
         onsets += onset.onsets(path, np.unique(ends["p"]), ends["p"], ends["label"])
     table = join(parts).reindex(columns=COLUMNS)
     special = table[table["label"].ne("") & table["branch"].notna()]
@@ -105,6 +116,14 @@ def compute(
     drawn = lifetimes[lifetimes["path"].isin(special["path"])]
     table = join([table, *_lives(drawn), *_coexistence(drawn, special)])
     return {"csv": table, "special_points": special, "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS)}
+
+
+def _on(path, interval, systems):
+    """Cases on a path, and where."""
+    places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
+    for case, p in places.items():
+        if interval[0] <= p <= interval[1] and path(p) == systems[case]:
+            yield case, p
 
 
 def _every_path(special, paths):
@@ -164,32 +183,44 @@ def draw(tables: dict) -> Figure:
     table, special = tables["csv"], tables["special_points"]
     panels = [panel for panel in dict.fromkeys(table["panel"]) if panel != LIVES]
     along = dict(zip(panels, dict.fromkeys(special["path"]), strict=True))
-    figure = new_figure(DOUBLE_COLUMN, 172.0)
+    figure = new_figure(DOUBLE_COLUMN, 165.0)
     grid = figure.subplots(3, len(panels), sharex="col", squeeze=False, height_ratios=(3, 3, 2))
-    lives = table[table["panel"] == LIVES]
+    lives, letters = table[table["panel"] == LIVES], iter("abcdefghijklmnop"[2 * len(panels) :])
+    for axes in grid[:2].flat:
+        axes.label_outer()
     for column, panel in enumerate(panels):
-        mine, points = table[table["panel"] == panel], special[special["path"] == along[panel]]
-        theory = mine["series"] == FixedPoints.name
-        _attractor_dots(grid[1, column], mine[mine["series"] == "attractor"])
-        _lines(grid[0, column], mine[theory])
-        _lines(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
-        _marks(grid[0, column], points[points["family"] == FixedPoints.name])
-        _marks(grid[1, column], points[(points["family"] != FixedPoints.name) & points["admissible"].eq(True)])
-        attractors = mine[mine["series"] == "attractor"]["p"]
-        grid[1, column].set(xlim=(attractors.min(), attractors.max()))
+        mine = table[table["panel"] == panel]
+        attractors, theory = mine[mine["series"] == "attractor"], mine["series"] == FixedPoints.name
+        grid[0, column].set(xlim=(attractors["p"].min(), attractors["p"].max()), ylim=(0.0, 2.6))
+        grid[1, column].set(ylim=(0.0, 2.6))
+        _attractor_dots(grid[1, column], attractors)
+        _cases(*grid[:2, column], mine[mine["series"] == "case"])
+        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
+        _branches(grid[0, column], mine[theory])
+        _branches(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
         for row, what in enumerate(("theory", "exact")):
             letter_panel(grid[row, column], "abcdefgh"[row * len(panels) + column])
             grid[row, column].set_title(what, loc="right", pad=3)
-    for axes in grid[:2].flat:
-        axes.set(ylim=(0.0, 2.6))
-        axes.label_outer()
     for axes in grid[:2, 0]:
         axes.set_ylabel("$C_2$")
-    letters = iter("abcdefghijklmnop"[2 * len(panels) :])
-    for column, panel in enumerate(panels):
-        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
-    figure.legend(handles=_legend(special), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
+    figure.legend(handles=_legend(grid[:2].flat), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
     return figure
+
+
+def _cases(theory, exact, cases):
+    """Thin lines where the cases lie, with their names above the foot of the first panel."""
+    for _, case in cases.iterrows():
+        for axes in (theory, exact):
+            axes.axvline(case["p"], **CASE)
+        theory.annotate(
+            case["label"],
+            (case["p"], 0),
+            (2, 3),
+            xycoords=theory.get_xaxis_transform(),
+            textcoords="offset points",
+            rotation=90,
+            fontsize=8.5,
+        )
 
 
 def _life(exact, axes, lives, along, letters):
@@ -203,25 +234,40 @@ def _life(exact, axes, lives, along, letters):
     for shaded in (exact, axes) if len(window) else ():
         shaded.axvspan(*window, zorder=0, **BOTH)
         shaded.axvline(window.iloc[-1], zorder=0.5, **CRISIS)
-    measured = lives[lives["life"].notna()]
+    for p, place, side, style in zip(window, (-4, 3), ("right", "left"), (BOTH, CRISIS), strict=False):
+        name = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points", "va": "top", "fontsize": 8.5}
+        axes.annotate(style["label"], (p, 1), (place, -4), ha=side, **name)
+    measured, least = lives[lives["life"].notna()], lives[lives["least"].notna()]
     axes.errorbar(measured["p"], measured["life"], yerr=measured["uncertainty"], **LIFE, **BARS)
-    least = lives[lives["least"].notna()]
     axes.plot(least["p"], least["least"], **LEAST)
     axes.set(yscale="log", ylabel="mean life, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
+    axes.legend(handles=[Line2D([], [], **LIFE), Line2D([], [], **LEAST)], loc="center right", fontsize=8.5)
     letter_panel(axes, next(letters))
     axes.set_title("life of the chaos", loc="right", pad=3)
 
 
-def _lines(axes, table):
-    for _, piece in table.groupby(["series", "branch", "piece"], sort=False):
-        style = STABLE if piece["stable"].iloc[0] else UNSTABLE
-        axes.plot(piece["p"], piece["C2"], **style | {"color": COLOURS.get(piece["series"].iloc[0], BLACK)})
+def _branches(axes, table):
+    """Lines of the pieces with their names, at stable ones if there are any, and the marks on them."""
+    named = {}
+    for (family, stable), pieces in table.groupby(["series", "stable"], sort=False):
+        style = (STABLE if stable else UNSTABLE) | {"color": HUES[family]}
+        lines = [
+            axes.plot(piece["p"], piece["C2"], **style)[0]
+            for _, piece in pieces.groupby(["branch", "piece"], sort=False)
+        ]
+        name = NAMES.get(family, "stable" if stable else "unstable")
+        if stable or name not in named:
+            named[name] = HUES[family], [line.get_xydata() for line in lines]
+    _marks(axes, table[table["label"].ne("")])
+    name_lines(axes, named)
 
 
 def _marks(axes, special):
+    """Special points where branches turn or end, and where stability is lost; each is in the pieces on both sides."""
     for kind, marker in MARKERS.items():
-        rows = special[_is(special, kind)]
-        axes.plot(rows["p"], rows["C2"], marker=marker, zorder=4, **_SPECIAL)
+        rows = special[_is(special, kind) & (special["stable"].eq(True) | (kind in ENDS))]
+        rows = rows[rows["p"].between(*axes.get_xlim())].drop_duplicates(["series", "branch", "p"])
+        axes.plot(rows["p"], rows["C2"], marker=marker, zorder=4, **_SPECIAL, label=kind)
 
 
 def _attractor_dots(axes, attractors):
@@ -233,24 +279,17 @@ def _attractor_dots(axes, attractors):
 
 def _is(special, kind):
     """Rows of a kind; of those that name a module as well."""
-    return special["kind"].str.split(",").str[0] == kind
+    return special["label" if "label" in special else "kind"].str.split(",").str[0] == kind
 
 
-def _legend(special):
-    kinds = [kind for kind in MARKERS if _is(special, kind).any()]
+def _legend(panels):
+    """What is drawn as a dot or mark in any panel; kinds of one marker have an entry together."""
+    shown = {line.get_label() for axes in panels for line in axes.lines if len(line.get_xdata())}
+    kinds = [kind for kind in MARKERS if kind in shown]
     marked = {MARKERS[kind]: [other for other in kinds if MARKERS[other] == MARKERS[kind]] for kind in kinds}
-    grey = {"color": COLOURS[AsymmetricOrbits.name]}
     return [
-        Line2D([], [], **STABLE, label="stable"),
-        Line2D([], [], **UNSTABLE, label="unstable"),
-        Line2D([], [], **STABLE | grey, label="asymmetric, stable"),
-        Line2D([], [], **UNSTABLE | grey, label="asymmetric, unstable"),
-        *(Line2D([], [], **style, label=kind) for kind, style in DOTS.items()),
+        *(Line2D([], [], **style, label=kind) for kind, style in DOTS.items() if kind in shown),
         *(Line2D([], [], marker=marker, label=", ".join(names), **_SPECIAL) for marker, names in marked.items()),
-        Patch(**BOTH),
-        Line2D([], [], **CRISIS),
-        Line2D([], [], **LIFE, label=LIVES),
-        Line2D([], [], **LEAST, label="its lower bound"),
     ]
 
 

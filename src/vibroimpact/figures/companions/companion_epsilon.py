@@ -6,8 +6,18 @@ from itertools import cycle, product
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    LIGHT_GREY,
+    letter_panel,
+    new_figure,
+    styled,
+)
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
 from vibroimpact.theory.fixed_points.labels import labels
@@ -92,8 +102,8 @@ def _mixed(name, found):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: three errors with a line of slope 1, the first also with two terms (grey), and the
-    mixed multipliers one by one.
+    """Draw the tables of `compute`: three errors with a triangle of slope 1, the first also with two terms (grey), and
+    the mixed multipliers one by one.
     """
     table, orders = tables["csv"], tables["orders"]
     figure = new_figure(DOUBLE_COLUMN, 138.0)
@@ -108,10 +118,7 @@ def draw(tables: dict) -> Figure:
             _draw_two_terms(axes, table[table["panel"] == TWO_TERMS])
         for (face, marker), (series, line) in zip(cycle(LOOKS), rows.groupby("series", sort=False), strict=False):
             _dots(axes, line["epsilon"], line["error"], face, marker, series)
-        ends = np.array([rows["epsilon"].min(), rows["epsilon"].max()])
-        line = rows["error"].min() * 0.3 * ends / ends[0]
-        axes.plot(ends, line, color=BLACK, linewidth=0.8)
-        axes.annotate("slope 1", (ends[0], line[0]), (30, 4), textcoords="offset points", fontsize=8.5)
+        _slope(axes, rows)
         fitted = orders[orders["panel"] == panel]["order"]
         if len(fitted):
             axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
@@ -136,6 +143,17 @@ def _draw_two_terms(axes, rows):
     axes.annotate(
         "first-order term\nadded", (last["epsilon"], last["error"]), (8, -16), textcoords="offset points", fontsize=8.5
     )
+
+
+def _slope(axes, rows):
+    """A triangle of slope 1 over a decade, below the least of the errors, as plots of convergence have it."""
+    least = rows.loc[rows["error"].idxmin()]
+    x, y = least["epsilon"] * np.array([3.0, 30.0]), 0.5 * least["error"] * np.array([1.0, 10.0])
+    corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1])]
+    axes.add_patch(Polygon(corners, facecolor=LIGHT_GREY, edgecolor=GREY, linewidth=0.6))
+    below = {"textcoords": "offset points", "ha": "center", "va": "top", "fontsize": 8.5}
+    axes.annotate("slope 1", (np.sqrt(x.prod()), y[0]), (0, -2), **below)
+    axes.margins(y=0.12)
 
 
 def _dots(axes, x, y, face, marker, label):

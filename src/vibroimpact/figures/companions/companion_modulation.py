@@ -7,7 +7,16 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.companions import spectra
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, side_by_side, styled
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    letter_panel,
+    new_figure,
+    side_by_side,
+    styled,
+)
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
@@ -25,6 +34,8 @@ from vibroimpact.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
+SHORTEST = 0.5
+"""Bursts in cycles: two flights of a quarter of the period."""
 SHOWN = 4
 """So many starts of a regime are watched over the longest of the windows."""
 
@@ -45,13 +56,15 @@ def compute(
     blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
     spread starts; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see
     `spectra.rows`); and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, the
-    exponents of each start with their standard errors, per period, and running means of those of modulated starts.
+    window that no burst outlasts, the exponents of each start with their standard errors, per period, and running means
+    of those of modulated starts.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
         for case, system in systems.items()
     ]
     rows, compared, exponents, curves = zip(*tables, strict=True)
+    window = curve("bursts", "window", length=float(cycles), longer=np.nan)
     return {
         "measures": pd.concat(rows, ignore_index=True),
         "spectra": pd.DataFrame([row for part in exponents for row in part]),
@@ -59,7 +72,7 @@ def compute(
             [row for part in compared for row in part],
             columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
         ),
-        "csv": join(part for parts in curves for part in parts),
+        "csv": join([*(part for parts in curves for part in parts), window]),
     }
 
 
@@ -139,13 +152,17 @@ def draw(tables: dict) -> Figure:
 
 
 def _bursts(axes, table, case):
+    bursts = table[table["panel"] == "bursts"]
+    (window,) = bursts[bursts["series"] == "window"]["length"]
     for module, style in LINES.items():
-        bursts = select(table, "bursts", f"{case}, module {module}")
-        axes.plot(bursts["length"], bursts["longer"], label=f"module {module}", **style)
-    drawn = table[table["series"].isin([f"{case}, module {module}" for module in LINES])]
-    limits = {"xlim": (1.0, _decade(drawn["length"].max())), "ylim": (_decade(drawn["longer"].min()) / 10, 1.5)}
+        line = select(bursts, "bursts", f"{case}, module {module}")
+        axes.plot(line["length"], line["longer"], label=f"module {module}", **style)
+    axes.axvline(window, **LEVEL)
+    side = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points", "rotation": 90, "va": "center"}
+    axes.annotate("end of the window", (window, 0.5), (4, 0), **side, fontsize=8.5)
+    limits = {"xlim": (SHORTEST, _decade(1.1 * window)), "ylim": (_decade(bursts["longer"].min()) / 10, 1.5)}
     axes.set(xscale="log", yscale="log", xlabel="burst length, cycles", ylabel="fraction at least this long", **limits)
-    axes.legend(fontsize=8.5)
+    axes.legend(fontsize=8.5, loc="center right", bbox_to_anchor=(0.78, 0.55), handlelength=1.4)
 
 
 def _decade(value):

@@ -1,11 +1,10 @@
 """Companion on stability: four criteria side by side on every fixed point and orbit of each case."""
 
-from string import ascii_lowercase
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT
 from vibroimpact.figures.kit.style import (
@@ -31,6 +30,8 @@ FACES = {STABLE: BLACK, UNSTABLE: "white", UNDECIDED: GREY}
 KINDS = {"fixed point": "o", "symmetric": "s", "asymmetric": "D"}
 """Markers: a fixed point of the theory, an exact orbit of either kind."""
 NAMES = {"fixed point": "fixed point", "symmetric": "symmetric orbit", "asymmetric": "asymmetric orbit"}
+RING = {"marker": "o", "linestyle": "none", "color": BLACK, "markerfacecolor": "none", "markersize": 8.6}
+RING |= {"markeredgewidth": 0.9, "label": "the orbit says otherwise"}
 ROW, PLANE, FRAME = 4.3, 46.0, 28.0
 """Heights in mm: a row of verdicts, a plane, everything around them."""
 
@@ -80,7 +81,9 @@ def _links(case, points, orbits):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white."""
+    """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white,
+    in a ring where the multipliers of the exact orbit say otherwise.
+    """
     cases = list(dict.fromkeys(table["panel"]))
     most = max(1, *(len(_motions(table, case)) for case in cases))
     columns, rows = side_by_side(len(cases))
@@ -91,9 +94,8 @@ def draw(table: pd.DataFrame) -> Figure:
     end = 1.1 * places[np.isfinite(places)].max()
     for axes in [*planes[len(cases) :], *matrices[len(cases) :]]:
         axes.set_axis_off()
-    for letter, case, plane, matrix in zip(ascii_lowercase, cases, planes, matrices, strict=False):
-        letter_panel(plane, letter)
-        plane.set_title(case, loc="right", pad=3)
+    for case, plane, matrix in zip(cases, planes, matrices, strict=False):
+        letter_panel(plane, case)
         _draw_plane(plane, table, case, end)
         _draw_matrix(matrix, _motions(table, case), most)
     figure.legend(handles=_key(table), loc="outside lower center", ncols=6, fontsize=8.5)
@@ -114,7 +116,7 @@ def _draw_plane(axes, table, case, end):
     for link in links:
         axes.plot(*link.T, color=BLACK, linewidth=0.6, zorder=2)
     for _, motion in _motions(table, case).iterrows():
-        axes.plot(motion["C1"], motion["C2"], **_marker(motion["series"], overall(motion)), zorder=3)
+        _mark(axes, (motion["C1"], motion["C2"]), motion, overall(motion))
     axes.set(xlim=(0, end), ylim=(0, end), xlabel="$C_1$", ylabel="$C_2$", aspect="equal")
 
 
@@ -135,20 +137,26 @@ def _draw_matrix(axes, motions, most):
         axes.text(-0.75, row, f"{motion['C1']:.2f}, {motion['C2']:.2f}", va="center", ha="right", fontsize=8.5)
         for column, criterion in enumerate(CRITERIA):
             if motion[criterion] != NO_ORBIT:
-                axes.plot(column, row, **_marker(motion["series"], motion[criterion]))
+                _mark(axes, (column, row), motion, motion[criterion])
     for column, heading in enumerate(HEADINGS):
         axes.text(column, -0.75, heading, ha="center", va="bottom", fontsize=8, linespacing=0.95)
     axes.text(-0.75, -0.75, "$C_1$, $C_2$", ha="right", va="bottom", fontsize=10)
 
 
+def _mark(axes, place, motion, verdict):
+    """The marker of a motion with the face of a verdict, in a ring where the exact orbit refutes it."""
+    if {verdict, motion["floquet"]} == {STABLE, UNSTABLE}:
+        axes.plot(*place, **RING, zorder=3)
+    axes.plot(*place, **_marker(motion["series"], verdict), zorder=3)
+
+
 def _key(table):
-    """What markers, and those of their faces that occur, mean."""
+    """What shapes mean, half in either face, and what faces do, those that occur, in no shape."""
     occurring = set(table[list(CRITERIA)].to_numpy().ravel())
-    kinds = [Line2D([], [], **_marker(series, STABLE), label=name) for series, name in NAMES.items()]
-    faces = [
-        Line2D([], [], **_marker("fixed point", verdict), label=verdict) for verdict in FACES if verdict in occurring
-    ]
-    return kinds + faces
+    either = {"fillstyle": "left", "markerfacecoloralt": "white"}
+    kinds = [Line2D([], [], **_marker(series, STABLE) | either, label=name) for series, name in NAMES.items()]
+    faces = [Patch(facecolor=FACES[name], edgecolor=BLACK, label=name) for name in FACES if name in occurring]
+    return [*kinds, *faces, Line2D([], [], **RING)]
 
 
 def _marker(series, verdict):

@@ -33,8 +33,13 @@ def describe(figure: Figure) -> dict:
         "texts": [_style_of_text(text) for text in _visible(figure.texts)],
         "legends": [_legend(legend) for legend in _visible(figure.legends)],
         "others": _others(figure),
-        "axes": [_axes(axes) for axes in sorted(_visible(figure.axes), key=_reading_order)],
+        "axes": [_axes(axes) for axes in sorted(_visible(with_insets(figure)), key=_reading_order)],
     }
+
+
+def with_insets(figure: Figure) -> list[Axes]:
+    """The axes of a figure, each with those inside it."""
+    return [each for axes in figure.axes for each in (axes, *axes.child_axes)]
 
 
 def _reading_order(axes):

@@ -23,6 +23,7 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+_BACKENDS = {"svg": "module://vibroimpact.figures.kit.searchable_svg"}
 PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
 """The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
 
@@ -75,7 +76,7 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
     for kind in (kind for kind in _METADATA if kind in outputs):
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
         with replacing(outputs[kind]) as path:
-            figure.savefig(path, format=kind, metadata=metadata)
+            figure.savefig(path, format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
         figure.set_layout_engine("none")  # one layout for all files, and not computed again for each
     if "artists" in outputs:
         with replacing(outputs["artists"]) as path:
