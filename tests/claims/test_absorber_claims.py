@@ -18,8 +18,9 @@ def systems(**changes):
     return SimpleNamespace(systems=cases, system=next(iter(cases.values())))
 
 
-def test_nearly_elastic_balls_neither_absorb_nor_leave_anything_to_harvest():
+def test_nearly_elastic_balls_neither_absorb_nor_leave_anything_to_harvest(monkeypatch):
     """They pass the energy on: what is lost is lost in the dampers, as without them."""
+    monkeypatch.setattr(absorber, "IMPULSES", absorber.IMPULSES[3::4])
     inelastic, elastic = systems(), systems(kappa=0.99)
     assert absorber.absorbs_rapidly(inelastic).verdict == IN_PART
     assert absorber.absorbs_rapidly(elastic).verdict == REFUTED

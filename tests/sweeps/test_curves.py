@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import yaml
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 import vibroimpact as vi
 import vibroimpact.rivals.solve_ivp as general
@@ -84,9 +83,10 @@ def measured(system, start):
 
 def turning(sol, box):
     """The largest |X| of a flight: where the velocity vanishes, or at the end."""
-    times = np.linspace(sol.t_min, sol.t_max, 2 * len(sol.ts))
+    times = np.linspace(sol.t_min, sol.t_max, 4 * len(sol.ts))
     speeds = sol(times)[4 + box]
-    turns = [brentq(lambda t: sol(t)[4 + box], *times[k : k + 2]) for k in np.flatnonzero(speeds[1:] * speeds[:-1] < 0)]
+    k = np.flatnonzero(speeds[1:] * speeds[:-1] < 0)
+    turns = times[k] + (times[k + 1] - times[k]) * speeds[k] / (speeds[k] - speeds[k + 1])
     return np.abs(sol(np.array([*turns, sol.t_max]))[box]).max()
 
 
