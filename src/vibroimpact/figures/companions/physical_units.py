@@ -24,7 +24,7 @@ MOTION = {
     "ball": {"color": BLACK, "linewidth": 0.7},
     WALLS: {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4},
 }
-FINE, PER_CYCLE = 301, 60
+FINE, PER_CYCLE = 301, 30
 
 
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
