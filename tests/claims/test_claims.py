@@ -21,7 +21,8 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
-TABLES = ("fixed_points", "orbits", "verdict_grid")
+TABLES = ("fixed_points", "orbits", "verdict_grid", "absorber")
+SWEEPS = ("clearance", "design")
 REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 
@@ -31,6 +32,7 @@ def evidence(built):
     results = built / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
+    inputs |= {name: results / f"sweeps/{name}.csv" for name in SWEEPS}
     inputs["proofs"] = results / "proofs.json"
     for case in ("equal", "weak"):
         files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
@@ -143,6 +145,7 @@ CHANGED_TABLES = {
     "only-possible-behaviour": ("modulation", 'start == "rest"', "regime", "strongly modulated", HOLDS),
     "resonant-intervals": ("modulation", 'quantity == "resonant share"', "mean", 0.3, IN_PART),
     "beating": ("modulation", 'quantity == "amplitude variation"', "mean", 0.35, REFUTED),
+    "complex-behaviours": ("special_points", "p == p", "family", "fixed point", IN_PART),
     "order-of-the-expansion": ("epsilon_orders", 'panel == "two terms"', "order", 1.0, IN_PART),
 }
 

@@ -12,7 +12,7 @@ NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 
 
 def test_there_is_one_notebook_per_kind_of_figure():
-    names = ["closed_form", "drawings", "fixed_points", "simulation", "theoretical_response"]
+    names = ["closed_form", "drawings", "fixed_points", "physical_units", "simulation", "theoretical_response"]
     assert [path.stem for path in NOTEBOOKS] == names
 
 

@@ -159,7 +159,7 @@ def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
 @pytest.mark.parametrize(
     ("page", "folder", "figures", "number"),
     [
-        ("figures", "figures", "fig10_", 11),
+        ("figures", "figures", ("fig10_", "machines"), 12),
         ("companions", "figures", "companion_", 13),
         ("accuracy", "accuracy", ("work_precision", "hazards"), 2),
     ],

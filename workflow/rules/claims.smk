@@ -7,7 +7,17 @@ from vibroimpact_pipeline.chapter import digest
 
 CLAIMS = own("docs/claims.yaml")
 BEHIND = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))["judged_with"]
-OTHERS = [] if DEPARTURES else [path for path in BEHIND if digest(config_at(path)) != BEHIND[path]]
+
+
+def seen(path):
+    """Whether the config has an entry, and the one that the claims lean on."""
+    try:
+        return digest(config_at(path)) == BEHIND[path]
+    except KeyError:
+        return False
+
+
+OTHERS = [] if DEPARTURES else [path for path in BEHIND if not seen(path)]
 UNLIKE = DEPARTURES + [f"{path} is not the one that docs/claims.yaml knows" for path in OTHERS]
 # Cases whose direct integrations the claims are judged by.
 CLAIMED_SIMULATIONS = ["equal", "weak"]
@@ -19,6 +29,9 @@ EVIDENCE = {
     "modulation": "results/regimes/modulation.csv",
     "special_points": "results/regimes/special_points.csv",
     "epsilon_orders": "results/regimes/epsilon_orders.csv",
+    "absorber": "results/absorber.csv",
+    "clearance": "results/sweeps/clearance.csv",
+    "design": "results/sweeps/design.csv",
 } | {
     f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
     for case in CLAIMED_SIMULATIONS

@@ -31,6 +31,7 @@ METHODS = {
     "fixed_points": "manifold in closed form, singular points as real zeros of (10.24)",
     "theoretical_response": "leading order, (10.9) and (10.10), at a fixed point",
     "simulation": "motion of the second module as simulated, with its events as corners",
+    "physical_units": "direct integration of (10.1) from rest; linear systems in closed form",
 }
 
 
@@ -58,11 +59,12 @@ def figure_settings(scene):
 def drawn_by(figure, scene):
     """The module that draws a figure; those of one notebook share the module of a figure of the chapter."""
     shared = {
-        "fixed_points": "fig10_06",
-        "theoretical_response": "fig10_10" if "C_max" in scene else "fig10_07",
-        "simulation": "fig10_08",
+        "fixed_points": "chapter.fig10_06",
+        "theoretical_response": "chapter.fig10_10" if "C_max" in scene else "chapter.fig10_07",
+        "simulation": "chapter.fig10_08",
+        "physical_units": "companions.physical_units",
     }
-    return f"vibroimpact.figures.chapter.{shared.get(scene['notebook'], figure)}"
+    return f"vibroimpact.figures.{shared.get(scene['notebook'], f'chapter.{figure}')}"
 
 
 def figure_step(figure, scene):

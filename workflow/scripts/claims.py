@@ -16,7 +16,10 @@ from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES
 
-TABLES = ("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders")
+TABLES = (
+    *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
+    *("absorber", "clearance", "design"),
+)
 
 
 def main(claims, systems: dict, unlike: list[str], inputs: dict, outputs: dict) -> None:

@@ -20,8 +20,9 @@ class Simulation:
 class Evidence:
     """Results of a build.
 
-    systems: case -> system. fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the tables
-    of these names. proofs: case -> what is proved of the lists. simulations: case -> Simulation.
+    systems: case -> system. fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders, absorber:
+    the tables of these names; clearance, design: those of the sweeps. proofs: case -> what is proved of the lists.
+    simulations: case -> Simulation.
     """
 
     systems: dict[str, System]
@@ -32,6 +33,9 @@ class Evidence:
     modulation: pd.DataFrame
     special_points: pd.DataFrame
     epsilon_orders: pd.DataFrame
+    absorber: pd.DataFrame
+    clearance: pd.DataFrame
+    design: pd.DataFrame
     simulations: dict[str, Simulation]
 
     @property

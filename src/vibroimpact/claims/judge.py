@@ -5,11 +5,11 @@ of that function) and refuted_by (what would refute it); docs/claims.yaml holds 
 the arguments, and returns a Finding.
 """
 
-from vibroimpact.claims import equations, manifold, motion, points
+from vibroimpact.claims import absorber, equations, manifold, motion, points
 from vibroimpact.claims.evidence import Evidence
 from vibroimpact.claims.finding import VERDICTS
 
-MODULES = (equations, manifold, points, motion)
+MODULES = (equations, manifold, points, motion, absorber)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
 NOT_JUDGED = "not judged"
 NOT_ABOUT = "Not judged: the claims are about the chapter's parameters and lean on settings that are others here:"

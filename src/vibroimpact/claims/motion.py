@@ -26,6 +26,7 @@ CHECKS = (
     "lower_amplitudes_end_stable_responses",
     "unstable_means_modulated",
     "periodic_solutions",
+    "complex_behaviours",
     "assesses_stability",
     "restitution_far_from_unity",
 )
@@ -194,6 +195,22 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
         "f20 of the fold of exact orbits": folds["symmetric orbit"],
     }
     return Finding(parts, numbers)
+
+
+def complex_behaviours(evidence):
+    """Bifurcations of exact 1:1 responses along paths of forces, chaos, and several attractors at the same forces."""
+    special, measured = evidence.special_points, evidence.modulation
+    kinds = special[special["family"].str.endswith("orbit")]["kind"].value_counts()
+    exponents = measured[(measured["quantity"] == "largest Lyapunov exponent") & (measured["start"] == "spread")]
+    stable = {case: int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in evidence.systems}
+    attractors = {case: number + (_modulated_share(evidence, case) > 0) for case, number in stable.items()}
+    parts = {
+        "bifurcations of its responses": len(kinds) > 0,
+        "chaos": (exponents["mean"] > 5 * exponents["uncertainty"]).any(),
+        "attractors side by side": max(attractors.values()) > 1,
+    }
+    numbers = {f"points of {kind}": int(count) for kind, count in kinds.items()}
+    return Finding(parts, numbers | {f"attractors, {case}": number for case, number in attractors.items()})
 
 
 def _at_epsilon(evidence):

@@ -7,7 +7,17 @@ from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from vibroimpact_pipeline.config.fields import Amplitude, CaseName, CRange, Label, Name, Planes, unit
+from vibroimpact_pipeline.config.fields import (
+    Amplitude,
+    CaseName,
+    CRange,
+    Label,
+    Name,
+    Planes,
+    not_ascending,
+    repeated,
+    unit,
+)
 from vibroimpact_pipeline.config.section import Problem, Section
 
 MOST = 100
@@ -85,7 +95,77 @@ class SimulatedMotion(Section):
     case: CaseName
 
 
-OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion, Field(discriminator="notebook")]
+Clearance = Annotated[float, Field(ge=1e-6, le=1e3, json_schema_extra=unit("m"))]
+Hertz = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra=unit("Hz"))]
+
+
+def quantity(of: str, name: str, least: float = 0.0):
+    """A field of a plant, from `least` on, in a unit."""
+    return Field(ge=least, le=1e9, description=of, json_schema_extra=unit(name))
+
+
+class Plant(Section):
+    """Machines on their springs, as in (10.1), in SI units; without dampers they could not be driven at resonance."""
+
+    M: float = quantity("Mass of a box", "kg", 1e-6)
+    m: float = quantity("Mass of a ball", "kg", 1e-6)
+    k1: float = quantity("Stiffness of machine 1 to ground", "N/m", 1e-6)
+    k2: float = quantity("Stiffness of machine 2 to ground", "N/m", 1e-6)
+    k12: float = quantity("Stiffness between them", "N/m")
+    c1: float = quantity("Damping of machine 1 to ground", "N s/m", 1e-6)
+    c2: float = quantity("Damping of machine 2 to ground", "N s/m", 1e-6)
+    c12: float = quantity("Damping between them", "N s/m")
+    F10: float = quantity("Amplitude of the force on machine 1", "N", 1e-6)
+    F20: float = quantity("Amplitude of the force on machine 2", "N")
+    kappa: Annotated[float, Field(ge=0.01, le=0.99)] = Field(description="Restitution coefficient")
+
+    def conditions(self):
+        if not 1e-6 <= self.m / self.M <= 10:
+            yield Problem(("m",), f"{self.m} is not between 1e-6 and 10 times M = {self.M}")
+
+
+class Band(Section):
+    """Frequencies, evenly spaced."""
+
+    range: Annotated[list[Hertz], Field(min_length=2, max_length=2)] = Field(description="Its ends")
+    values: Annotated[int, Field(ge=2, le=1000)] = Field(description="So many, both ends included")
+
+    def conditions(self):
+        yield from not_ascending("range", self.range)
+
+
+class Shown(Section):
+    """A motion from rest that is drawn over the time."""
+
+    L: Clearance = Field(description="Its clearance")
+    frequency: Hertz = Field(description="Of the forces")
+    cycles: Annotated[int, Field(ge=1, le=1000)] = Field(
+        description="Its length", json_schema_extra=unit("forcing periods")
+    )
+
+
+class PhysicalUnits(Section):
+    """Machines in kilograms, newtons and metres: how far they swing over the frequency, without and with balls."""
+
+    notebook: Literal["physical_units"] = NOTEBOOK
+    plant: Plant
+    clearances: Annotated[list[Clearance], Field(min_length=1, max_length=6)] = Field(description="Half of the play")
+    frequencies: Band
+    cycles: Annotated[int, Field(ge=1, le=100_000)] = Field(
+        description="Length of a run", json_schema_extra=unit("forcing periods")
+    )
+    settle: Annotated[int, Field(ge=0, le=100_000)] = Field(
+        description="Cycles of it that are left out", json_schema_extra=unit("forcing periods")
+    )
+    shown: Shown
+
+    def conditions(self):
+        yield from repeated("clearances", self.clearances)
+        if self.settle >= self.cycles:
+            yield Problem(("settle",), f"{self.settle} leaves nothing of {self.cycles} cycles to observe")
+
+
+OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion | PhysicalUnits, Field(discriminator="notebook")]
 
 
 class Figures(Section):

@@ -15,7 +15,7 @@ from vibroimpact_pipeline.config.system import SystemSection, unsound
 
 
 class Config(Section):
-    """Everything that decides on a build. All is dimensionless; times are in forcing periods 2 pi / Omega."""
+    """Everything that decides on a build. All is dimensionless but plants; times are in forcing periods."""
 
     system: SystemSection
     cases: Cases
