@@ -86,36 +86,40 @@ function Link(link)
   return link
 end
 
--- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper each of its columns has room for its
--- longest word, and they share the rest by what they hold, since equal shares would leave long text in a narrow one.
-local LINE, LONGEST, PADDING, WORD = 110, 70, 4, 14
+-- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper its columns share the width by what they
+-- hold, with room for the longest word, since equal shares would leave long text in a narrow one.
+local LINE, LONGEST, PADDING, WORD = 110, 70, 4, 12
 
 local function column(tbl, n)
-  local longest, word, squares = 0, 0, 0
+  local longest, word, held = 0, 0, 0
   local function measure(cell)
     local text = pandoc.utils.stringify(cell.contents)
-    for part in text:gmatch("[^%s%-_/]+") do word = math.max(word, math.min(utf8.len(part), WORD) + PADDING) end
+    for part in text:gmatch("[^%s%-_/]+") do word = math.max(word, math.min(utf8.len(part), WORD) + 2) end
     return utf8.len(text)
   end
   measure(tbl.head.rows[1].cells[n])
   for _, row in ipairs(tbl.bodies[1].body) do
     local length = measure(row.cells[n])
-    longest, squares = math.max(longest, length), squares + length ^ 2
+    longest, held = math.max(longest, length), held + length
   end
-  return { longest = longest, word = word, held = math.sqrt(squares / #tbl.bodies[1].body) }
+  return longest, word, held
 end
 
 -- Of the columns, and whether the table is too wide for a line.
 local function shares(tbl)
-  local columns, longest, words, held = {}, 0, 0, 0
+  local words, held, all, line, total = {}, {}, 0, 0, 0
   for n = 1, #tbl.colspecs do
-    local found = column(tbl, n)
-    columns[n], words, held = found, words + found.word, held + found.held
-    longest = found.longest > LONGEST and math.huge or longest + found.longest + PADDING
+    local longest
+    longest, words[n], held[n] = column(tbl, n)
+    all = all + held[n]
+    line = longest > LONGEST and math.huge or line + longest + PADDING
   end
-  local left = math.max(LINE - words, 0)
-  for n, found in ipairs(columns) do columns[n] = (found.word + left * found.held / held) / (words + left) end
-  return columns, longest > LINE
+  for n, word in ipairs(words) do
+    held[n] = math.max(word, LINE * held[n] / all)
+    total = total + held[n]
+  end
+  for n, part in ipairs(held) do held[n] = part / total end
+  return held, line > LINE
 end
 
 local function has_math(block)
