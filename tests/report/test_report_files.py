@@ -231,5 +231,6 @@ def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(report
         assert category in html
     for figure in (f"fig10_{number:02d}" for number in range(1, 12)):
         assert f"{figure}.svg" in html
+    assert "This page holds what one run of the pipeline made of it" in html
     assert "The vibro-impact system" in html
     assert "Accuracy against speed" in html

@@ -46,6 +46,7 @@ a.anchor-link { display: none; }
   .output_area th, .output_area td { padding: 0.1rem 0.25rem; overflow-wrap: anywhere; }
   details::details-content { content-visibility: visible; block-size: auto; }
   img, tr { break-inside: avoid; }
+  img { max-height: 110mm; width: auto; }
   h1, h2, h3, summary { break-after: avoid; }
 }
 </style>
