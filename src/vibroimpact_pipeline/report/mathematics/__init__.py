@@ -1,7 +1,7 @@
 """How formulas are set: LaTeX becomes MathML, which browsers draw by themselves, in the font that is shipped here.
 
-The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), cut down to the signs of formulas by fontTools:
-pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff2.
+The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), cut down to the signs of formulas by
+`pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff`.
 """
 
 import re
@@ -10,11 +10,11 @@ from pathlib import Path
 
 from math_core import LatexToMathML
 
-FONT = Path(__file__).with_name("stix_two_math.woff2")
+FONT = Path(__file__).with_name("stix_two_math.woff")
 STYLE = f"""\
 @font-face {{
   font-family: "STIX Two Math";
-  src: url(data:font/woff2;base64,{b64encode(FONT.read_bytes()).decode()}) format("woff2");
+  src: url(data:font/woff;base64,{b64encode(FONT.read_bytes()).decode()}) format("woff");
 }}
 math {{ font-family: "STIX Two Math", math, serif; }}
 .kept {{ white-space: nowrap; }}
