@@ -1,10 +1,11 @@
 -- What a page needs beyond plain Markdown, for HTML and for Typst alike.
-local page = nil
+local page, titles = nil, {}
 
 local function is_typst() return FORMAT:match("typst") ~= nil end
 
 function Meta(meta)
   page = pandoc.utils.stringify(meta.page)
+  titles = meta.titles or titles
 end
 
 -- Bars come in pairs; told apart, they are set as the delimiters they are and not as relations.
@@ -73,6 +74,10 @@ function Link(link)
   local name, anchor = link.target:match("^([%w_]+)%.md(#?.*)$")
   if not name then name, anchor = link.target:match("^([%w_]+)%.html(#?.*)$") end
   if not name then return nil end
+  -- In the repository a document is called by its file, in the report by its title.
+  if titles[name] and pandoc.utils.stringify(link.content) == name .. ".md" then
+    link.content = pandoc.Inlines(titles[name])
+  end
   if is_typst() then
     link.target = "#" .. name .. (anchor ~= "" and "-" .. anchor:sub(2) or "")
   else
@@ -81,34 +86,72 @@ function Link(link)
   return link
 end
 
--- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper its columns share the width by what
--- they hold, since equal shares would leave long text in a narrow one.
-local LINE, LONGEST, PADDING = 110, 70, 4
+-- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper its columns share the width by what they
+-- hold, with room for the longest word, since equal shares would leave long text in a narrow one.
+local LINE, LONGEST, PADDING, WORD = 110, 70, 4, 12
 
-local function widths(tbl)
-  local most, wide = {}, false
+local function column(tbl, n)
+  local longest, word, held = 0, 0, 0
+  local function measure(cell)
+    local text = pandoc.utils.stringify(cell.contents)
+    for part in text:gmatch("[^%s%-_/]+") do word = math.max(word, math.min(utf8.len(part), WORD) + 2) end
+    return utf8.len(text)
+  end
+  measure(tbl.head.rows[1].cells[n])
+  for _, row in ipairs(tbl.bodies[1].body) do
+    local length = measure(row.cells[n])
+    longest, held = math.max(longest, length), held + length
+  end
+  return longest, word, held
+end
+
+-- Of the columns, and whether the table is too wide for a line.
+local function shares(tbl)
+  local words, held, all, line, total = {}, {}, 0, 0, 0
+  for n = 1, #tbl.colspecs do
+    local longest
+    longest, words[n], held[n] = column(tbl, n)
+    all = all + held[n]
+    line = longest > LONGEST and math.huge or line + longest + PADDING
+  end
+  for n, word in ipairs(words) do
+    held[n] = math.max(word, LINE * held[n] / all)
+    total = total + held[n]
+  end
+  for n, part in ipairs(held) do held[n] = part / total end
+  return held, line > LINE
+end
+
+local function has_math(block)
+  local found = false
+  block:walk({ Math = function() found = true end })
+  return found
+end
+
+-- On a phone a row of a wide table is a card, where each cell says the head of its column; a formula cannot be said so.
+local function as_cards(tbl)
+  local heads = {}
+  for n, cell in ipairs(tbl.head.rows[1].cells) do
+    if cell.contents:find_if(has_math) then return {} end
+    heads[n] = pandoc.utils.stringify(cell.contents)
+  end
   for _, body in ipairs(tbl.bodies) do
     for _, row in ipairs(body.body) do
-      for n, cell in ipairs(row.cells) do
-        local length = utf8.len(pandoc.utils.stringify(cell.contents))
-        wide = wide or length > LONGEST
-        most[n] = math.max(most[n] or 0, math.min(length, LONGEST) + PADDING)
-      end
+      for n, cell in ipairs(row.cells) do cell.attributes.of = heads[n] end
     end
   end
-  local total = 0
-  for _, length in ipairs(most) do total = total + length end
-  return most, total, wide or total > LINE
+  return { "cards" }
 end
 
 function Table(tbl)
+  local columns, wide = shares(tbl)
   if not is_typst() then
     local attributes = { { "tabindex", "0" }, { "role", "region" }, { "aria-label", "Table" } }
-    return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll" }, attributes))
+    local classes = wide and #columns > 2 and as_cards(tbl) or {}
+    return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll", table.unpack(classes) }, attributes))
   end
-  local most, total, wide = widths(tbl)
   if wide then
-    for n, spec in ipairs(tbl.colspecs) do tbl.colspecs[n] = { spec[1], most[n] / total } end
+    for n, spec in ipairs(tbl.colspecs) do tbl.colspecs[n] = { spec[1], columns[n] } end
   end
   return tbl
 end

@@ -53,6 +53,7 @@ class ForceSweep {
     this.data = JSON.parse(document.getElementById(root.dataset.source).textContent);
     this.slider = root.querySelector("input");
     this.output = root.querySelector("output");
+    this.heads = root.querySelectorAll("th");
     this.rows = root.querySelector("tbody");
     this.planes = [...root.querySelectorAll("svg")].map((svg, module) => new Plane(svg, module, this.data.manifold));
     this.stations = [...document.querySelectorAll(".station")];
@@ -78,7 +79,11 @@ class ForceSweep {
     this.rows.replaceChildren(...points.map(({ label, C, B, verdicts }) => {
       const row = document.createElement("tr");
       const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));
-      for (const text of [label, ...places, ...Object.values(verdicts)]) row.insertCell().textContent = text;
+      [label, ...places, ...Object.values(verdicts)].forEach((text, n) => {
+        const cell = row.insertCell();
+        cell.textContent = text;
+        cell.dataset.of = this.heads[n].textContent;
+      });
       return row;
     }));
     // Of the sentences, in the order of their values, the last whose value is passed.

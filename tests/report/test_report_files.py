@@ -2,6 +2,8 @@
 
 import json
 import re
+import unicodedata
+from html import unescape
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 from zipfile import ZipFile
@@ -11,11 +13,13 @@ import pandas as pd
 import pypdfium2 as pdfium
 import pytest
 import yaml
+from fontTools.ttLib import TTFont
 
 import vibroimpact as vi
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.report.api import documented
+from vibroimpact_pipeline.report.mathematics import FONT
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 PAGES = [page["name"] for page in SETTINGS["pages"]]
@@ -156,6 +160,19 @@ def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
         assert any(f"{value:.3g}" == number for value in values), (name, number)
 
 
+def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
+    """And every letter in italics too, as which browsers draw it."""
+    signs = set(map(chr, TTFont(FONT).getBestCmap()))
+    shown = set()
+    for path in [*site.glob("*.html"), *site.glob("notebooks/*.html")]:
+        for formula in re.findall("<math.*?</math>", path.read_text(encoding="utf-8"), re.DOTALL):
+            shown |= set(unescape(re.sub("<annotation.*?</annotation>|<[^>]*>", "", formula)))
+    assert len(shown) > 100
+    assert [sign for sign in shown - signs if not sign.isspace()] == []
+    upright = {unicodedata.normalize("NFKD", sign) for sign in signs if "ITALIC" in unicodedata.name(sign, "")}
+    assert [letter for letter in shown if re.fullmatch("[A-Za-zα-ω]", letter) and letter not in upright | {"h"}] == []
+
+
 @pytest.mark.parametrize(
     ("page", "folder", "figures", "number"),
     [
@@ -231,5 +248,6 @@ def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(report
         assert category in html
     for figure in (f"fig10_{number:02d}" for number in range(1, 12)):
         assert f"{figure}.svg" in html
+    assert "This page holds what one run of the pipeline made of it" in html
     assert "The vibro-impact system" in html
     assert "Accuracy against speed" in html

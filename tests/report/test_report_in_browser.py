@@ -129,6 +129,16 @@ def test_mathematics_is_set(browser, site, page):
     assert browser.run(f"({TALL_FORMULAS})()") == fractions
 
 
+@pytest.mark.parametrize("page", ["derivation", "stability", "notebooks/fig10_06"])
+def test_formulas_are_set_in_the_font_that_is_shipped_and_fit_a_desktop(browser, site, page):
+    browser.open(address(site, page), width=1280)
+    fonts = "document.fonts.ready.then(fonts => [...fonts].map(font => [font.family, font.status]))"
+    assert [(name.strip('"'), status) for name, status in browser.run(fonts)] == [("STIX Two Math", "loaded")]
+    lines = "[...document.querySelectorAll('math[display=block]')].map(formula => formula.parentElement)"
+    assert browser.run(f"{lines}.length") > 0
+    assert browser.run(f"{lines}.filter(line => line.scrollWidth > line.clientWidth).length") == 0
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_no_formula_is_left_as_it_was_typed(browser, site, page):
     browser.open(address(site, page))

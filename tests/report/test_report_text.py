@@ -109,6 +109,26 @@ def test_formulas_headings_and_links_for_both_readers(target, parts):
     assert "tag" not in text.split("<annotation")[0]
 
 
+def test_a_document_is_called_by_its_title_where_a_link_says_its_file_alone():
+    known = KNOWN | {"titles": {"errata": "What is wrong in it"}}
+    text = convert("# Title\n\n[errata.md](errata.md), [see](errata.md)\n", "html", SOURCES, known)
+    assert re.findall(r'href="errata.html">(.*?)</a>', text) == ["What is wrong in it", "see"]
+
+
+def test_no_line_ends_between_a_formula_and_the_marks_around_it():
+    text = convert("# Title\n\nOf ($C$), $B$ and $L$.\n\n$$P$$\n", "html", SOURCES, KNOWN)
+    kept = [re.sub("<annotation.*?</annotation>|<[^>]*>", "", part) for part in re.findall('kept">(.*?)</span>', text)]
+    assert kept == ["(C),", "L."]
+
+
+@pytest.mark.parametrize(("head", "heads"), [("must be", ["where", "must be", "why"]), ("$C_1$", [])])
+def test_a_wide_table_is_read_as_cards_where_its_heads_can_be_said(head, heads):
+    source = f"# Here\n\n| where | {head} | why |\n| --- | --- | --- |\n| (10.1) | x | {20 * 'because '} |\n"
+    text = convert(source, "html", SOURCES, KNOWN)
+    assert re.findall('data-of="(.*?)"', text) == heads
+    assert ("cards" in text) == bool(heads)
+
+
 @pytest.mark.parametrize("target", ["html", "typst"])
 def test_figures_of_the_results_are_those_of_the_report(target):
     source = "# Title\n\n![What it is](../results/figures/one.png)\n\n[two](../results/accuracy/two.png)\n"
@@ -168,6 +188,8 @@ def test_the_section_of_a_statement_is_the_one_it_is_listed_under():
         ("f20 of P1 = S1", r"$\hat f_{20}$ of $P_{1}$ \= $S_{1}$"),
         ("residual of B_min at C_min", r"residual of $B_{\min}$ at $C_{\min}$"),
         ("all C >= 0", r"all $C$ $\ge$ 0"),
+        ("sigma_e_hat, f20_hat", r"$\hat \sigma_{e}$\, $\hat f_{20}$"),
+        ("at tau = 1", r"at $\tau$ \= 1"),
         ("no formula: $x$", r"no formula\: \$x\$"),
     ],
 )

@@ -4,7 +4,7 @@ import re
 
 from vibroimpact.figures.kit.markdown import plain
 
-GREEK = {"kappa": r"\kappa", "epsilon": r"\varepsilon", "Omega": r"\Omega"}
+GREEK = {"kappa": r"\kappa", "epsilon": r"\varepsilon", "tau": r"\tau", "Omega": r"\Omega"}
 WHOLE = {
     "printed_10_26": "by (10.26)",
     "masri_derived": "by Masri's analysis",
@@ -19,7 +19,7 @@ WHOLE = {
     "S1 by sin^2 + cos^2 = 1": r"$S_1$ by $\sin^2 + \cos^2 = 1$",
 }
 SYMBOL = re.compile(
-    r"\b(?:(?P<greek>kappa|epsilon|Omega)|(?P<least>[BC])_min|(?P<letter>[BCPSUWck])(?P<index>\d+)"
+    r"\b(?:(?P<greek>kappa|epsilon|tau|Omega)|(?P<hatted>alpha|gamma|sigma|f)_?(?P<of>\d+|e)_hat|(?P<least>[BC])_min|(?P<letter>[BCPSUWck])(?P<index>\d+)"
     r"|f(?P<force>[12]0)|(?P<alone>[BCSWY]))\b|(?P<sign>>=)"
 )
 
@@ -45,6 +45,8 @@ def _formula(symbol):
     found = symbol.groupdict()
     if found["greek"]:
         return GREEK[found["greek"]]
+    if found["hatted"]:
+        return rf"\hat {'f' if found['hatted'] == 'f' else chr(92) + found['hatted']}_{{{found['of']}}}"
     if found["least"]:
         return rf"{found['least']}_{{\min}}"
     if found["letter"]:

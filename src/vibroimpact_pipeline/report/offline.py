@@ -3,11 +3,11 @@
 import re
 from html import escape
 
-from math_core import LatexToMathML
 from nbconvert import HTMLExporter
 from nbconvert.filters import markdown_mistune
 from traitlets.config import Config
 
+from vibroimpact_pipeline.report.mathematics import MATHEMATICS, STYLE, kept
 from vibroimpact_pipeline.report.policy import guarded
 
 PAGE = """\
@@ -22,7 +22,9 @@ PAGE = """\
 <title>{{ resources.metadata.name | escape_html }}</title>
 <style>
 {% for css in resources.inlining.css %}{{ css }}{% endfor %}
-body { max-width: 50rem; margin: 2rem auto; padding: 0 1rem; font: 1.05rem/1.55 Georgia, serif; color: #111; }
+{{ resources.mathematics }}
+body { max-width: 50rem; margin: 2rem auto; padding: 0 1rem; color: #111; }
+body { font: 1.05rem/1.55 Georgia, serif; font-size-adjust: 0.48; }
 h1, h2, h3 { line-height: 1.2; }
 pre, code { font: 0.85rem/1.4 monospace; }
 .input_area, .output_area { overflow-x: auto; }
@@ -30,8 +32,6 @@ pre, code { font: 0.85rem/1.4 monospace; }
 .input_area pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 summary { cursor: pointer; font: 0.9rem system-ui, sans-serif; padding: 0.3rem 0; }
 .of { font: 0.9rem system-ui, sans-serif; border-bottom: 1px solid #ccc; padding-bottom: 0.6rem; }
-p:has(> math[display="block"]) { overflow-x: auto; }
-math[display="block"] { margin: 0.6rem 0; }
 /* Beside a numbered formula the margins share the room that is left, and the number keeps its line. */
 math mtd[style*="width: 50%"] { width: auto !important; white-space: nowrap; }
 img, svg { max-width: 100%; height: auto; }
@@ -40,12 +40,13 @@ th, td { padding: 0.15rem 0.6rem; border-bottom: 1px solid #ccc; text-align: rig
 a.anchor-link { display: none; }
 @media print {
   body { max-width: none; margin: 0; font-size: 10pt; }
-  .input_area, .output_area, p:has(> math[display="block"]) { overflow: visible; }
+  .input_area, .output_area { overflow: visible; }
   .output_area pre { white-space: pre-wrap; overflow-wrap: anywhere; }
   .output_area table { font-size: 7pt; }
   .output_area th, .output_area td { padding: 0.1rem 0.25rem; overflow-wrap: anywhere; }
   details::details-content { content-visibility: visible; block-size: auto; }
   img, tr { break-inside: avoid; }
+  img { max-height: 110mm; width: auto; }
   h1, h2, h3, summary { break-after: avoid; }
 }
 </style>
@@ -63,8 +64,6 @@ a.anchor-link { display: none; }
 </html>
 {% endblock footer -%}
 """
-
-MATHEMATICS = LatexToMathML(fancy_error=False)
 
 
 class MathMLRenderer(markdown_mistune.IPythonRenderer):
@@ -103,7 +102,7 @@ class OfflineExporter(HTMLExporter):
 def markdown_to_html(source: str) -> str:
     """HTML of the Markdown in a notebook; what looks like HTML in it is text, and no link leads to a program."""
     renderer = MathMLRenderer(escape=True, allow_harmful_protocols=False, exclude_anchor_links=True)
-    return markdown_mistune.MarkdownWithMath(renderer=renderer).render(source)
+    return kept(markdown_mistune.MarkdownWithMath(renderer=renderer).render(source))
 
 
 def linked(page: str, address: str) -> str:
@@ -113,5 +112,5 @@ def linked(page: str, address: str) -> str:
 
 def page(notebook, title: str) -> str:
     """The HTML page of an executed notebook; the title is that of its figure."""
-    html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}})
+    html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}, "mathematics": STYLE})
     return guarded(html)

@@ -18,12 +18,12 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
-SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?:percent \| )?(?P<place>.+?) -->")
-"""A number of a document, and in a comment behind it the file that it comes from and the place there."""
+SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?:percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
+"""A number of a document, in a comment behind it the file that it comes from and the place there, and what ends it."""
 SOURCE = (
-    '`<button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
+    '`<span class="kept"><button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
     '<span popover class="source" id="source-{id}"><b>{value}</b> in <code>results/{file}</code>: {place}. '
-    "Made by <code>snakemake --cores 2 results/{file}</code></span>`{{=html}}"
+    "Made by <code>snakemake --cores 2 results/{file}</code></span>{mark}</span>`{{=html}}"
 )
 NOTICE = (
     "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, "
@@ -91,8 +91,8 @@ class Pages:
         try:
             value = f"{self.results.value(file, *place):.6g}"
         except (LookupError, ValueError, StopIteration, OSError):
-            return found["number"]
-        told = {"number": found["number"], "value": value, "file": file, "place": ", ".join(place), "id": number}
+            return found["number"] + found["mark"]
+        told = found.groupdict() | {"value": value, "file": file, "place": ", ".join(place), "id": number}
         return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):
@@ -191,6 +191,7 @@ FILTERS = {
     "code": code,
     "data": data,
     "digits": digits,
+    "named": named,
     "plain": plain,
     "said": said,
     "section": section_of,

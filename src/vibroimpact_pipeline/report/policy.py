@@ -11,8 +11,8 @@ from collections.abc import Callable
 FILES = "'self' file:"
 """Of this site, and of this disk: opened from there, a page is of no site in some browsers."""
 POLICY = (
-    f"default-src 'none'; img-src {FILES} data:; style-src {FILES} 'unsafe-inline'; script-src {{scripts}}; "
-    "base-uri 'none'; form-action 'none'"
+    f"default-src 'none'; img-src {FILES} data:; style-src {FILES} 'unsafe-inline'; font-src data:; "
+    f"script-src {{scripts}}; base-uri 'none'; form-action 'none'"
 )
 HEAD = re.compile(r"<head>\n?")
 SCRIPT = re.compile(r'<script src="(\w+\.js)"></script>')

@@ -3,7 +3,6 @@
 import html
 import json
 import re
-import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -11,7 +10,8 @@ import pypandoc
 import typst
 
 from vibroimpact_pipeline.environment import SCRATCH
-from vibroimpact_pipeline.report.offline import MATHEMATICS
+from vibroimpact_pipeline.report.mathematics import MATHEMATICS, kept
+from vibroimpact_pipeline.report.mathematics import STYLE as OF_MATHEMATICS
 from vibroimpact_pipeline.report.pages import is_template
 from vibroimpact_pipeline.report.policy import guarded
 
@@ -28,7 +28,7 @@ STYLE = "style.css"
 def write(folder, root, pages, settings: dict, footer: str) -> None:
     """Write the site and its PDF into a folder that has the figures already; the footer is Markdown."""
     folder, sources = Path(folder), Path(root) / "report"
-    shutil.copy(sources / STYLE, folder / STYLE)
+    (folder / STYLE).write_text(OF_MATHEMATICS + (sources / STYLE).read_text(encoding="utf-8"), encoding="utf-8")
     titles = {"site": settings["title"], "footer": footer}
     for page in settings["pages"]:
         text = site_page(page, sources, pages, settings, titles)
@@ -38,7 +38,8 @@ def write(folder, root, pages, settings: dict, footer: str) -> None:
 
 def site_page(page: dict, sources: Path, pages, settings: dict, titles: dict) -> str:
     """One page of the site."""
-    known = {"page": page["name"], "pagetitle": page["title"], "nav": navigation(page, settings), **titles}
+    known = {"page": page["name"], "pagetitle": page["title"], "nav": navigation(page, settings)}
+    known |= titles | {"titles": titles_of(settings)}
     text = convert(pages.markdown(page, "html"), "html", sources, known, "page.html", reader_of(page))
     return guarded(text, lambda name: (sources / name).read_text(encoding="utf-8"))
 
@@ -58,8 +59,9 @@ def navigation(page: dict, settings: dict) -> list[dict]:
 
 def write_document(folder: Path, sources: Path, pages, settings: dict, titles: dict) -> None:
     """All pages as one PDF."""
+    known = {"titles": titles_of(settings)}
     chapters = [
-        convert(pages.markdown(page, "pdf"), "typst", sources, {"page": page["name"]}, reader=reader_of(page))
+        convert(pages.markdown(page, "pdf"), "typst", sources, known | {"page": page["name"]}, reader=reader_of(page))
         for page in settings["pages"]
     ]
     document = (sources / "document.typ").read_text(encoding="utf-8")
@@ -69,6 +71,11 @@ def write_document(folder: Path, sources: Path, pages, settings: dict, titles: d
     for name, text in {**titles, "body": "\n\n".join(chapters)}.items():
         document = document.replace(f"${name}$", text)
     typst.compile(document.encode(), output=folder / PDF, root=folder, ignore_system_fonts=True)
+
+
+def titles_of(settings: dict) -> dict:
+    """What links to pages are called that have no words but the name of a file."""
+    return {page["name"]: page["title"] for page in settings["pages"]}
 
 
 def reader_of(page: dict) -> str:
@@ -92,7 +99,7 @@ def convert(
         if template:
             options += [f"--template={sources / template}", "--toc", "--toc-depth=3"]
         text = pypandoc.convert_text(markdown, target, reader, options)
-    return FORMULA.sub(as_mathml, text) if target == "html" else text
+    return kept(FORMULA.sub(as_mathml, text)) if target == "html" else text
 
 
 def as_mathml(formula: re.Match) -> str:

@@ -1,0 +1,33 @@
+"""How formulas are set: LaTeX becomes MathML, which browsers draw by themselves, in the font that is shipped here.
+
+The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), cut down to the signs of formulas by
+`pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff`.
+"""
+
+import re
+from base64 import b64encode
+from pathlib import Path
+
+from math_core import LatexToMathML
+
+FONT = Path(__file__).with_name("stix_two_math.woff")
+STYLE = f"""\
+@font-face {{
+  font-family: "STIX Two Math";
+  src: url(data:font/woff;base64,{b64encode(FONT.read_bytes()).decode()}) format("woff");
+}}
+math {{ font-family: "STIX Two Math", math, serif; }}
+.kept {{ white-space: nowrap; }}
+math[display="block"] {{ margin: 0.7rem 0; }}
+p:has(> math[display="block"]) {{ overflow-x: auto; overflow-y: hidden; }}
+@media print {{ p:has(> math[display="block"]) {{ overflow: visible; }} }}
+"""
+"""Of every page with formulas; the font is in it, since browsers load none from a disk."""
+MATHEMATICS = LatexToMathML(fancy_error=False)
+MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)', re.DOTALL)
+"""A formula within a line, with the marks before and behind it."""
+
+
+def kept(html: str) -> str:
+    """HTML in which no line ends between a formula and the marks around it, where browsers break."""
+    return MARKED.sub(lambda m: f'<span class="kept">{m[0]}</span>' if m[1] or m[3] else m[0], html)
