@@ -65,6 +65,16 @@ def absorber_of(response, clearance, design):
     }
 
 
+def decay_of(tuned_by):
+    """The figure of free decay, its best absorbers those of the band of a sweep."""
+    return {
+        "method": "free flights in closed form between impacts; linear systems in closed form",
+        "system": REGIMES["decay"]["case"],
+        "settings": keys_of("regimes.decay", "case") | {"band": f"sweeps.{tuned_by}.band"},
+        "config": ["regimes.decay.case"],
+    }
+
+
 PRECISE = [case for case in config["cases"] if exact(case)]
 ABSORBER = ("frequency_response", "clearance", "design")
 OBSERVED = {"observation": "regimes.observation"}
@@ -100,6 +110,7 @@ COMPANIONS = {
     },
     **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
     **({"companion_absorber": absorber_of(*ABSORBER)} if {*ABSORBER} <= {*SWEEPS} else {}),
+    **({"companion_decay": decay_of("clearance")} if "clearance" in SWEEPS else {}),
     "companion_modulation": {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,

@@ -8,14 +8,13 @@ from collections import Counter
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
 
 from vibroimpact.absorbers.tuning import compared
 from vibroimpact.figures.companions.sweep import SYMBOLS, edges
+from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, LINES, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import (
     BLACK,
     DOUBLE_COLUMN,
-    GREY,
     LIGHT_GREY,
     hatch_gaps,
     letter_panel,
@@ -28,24 +27,9 @@ from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIM
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps.grid import LOGARITHMIC, axis
 
-LINES = {
-    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
-    "balls fixed": {"color": GREY, "linestyle": (0, (1, 1.2)), "linewidth": 1.6},
-    "absorbers of the textbook": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
-    "best absorbers": {"color": BLACK, "linestyle": "-", "linewidth": 0.9},
-}
-_DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
 REPEATING, MODULATED = "balls, largest, repeating", "balls, largest, modulated"
-DOTS = {REPEATING: _DOTS, MODULATED: {**_DOTS, "markerfacecolor": "white"}}
+LOOKS = {REPEATING: DOTS, MODULATED: {**DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
-_BEST = {
-    "linestyle": "none",
-    "marker": "*",
-    "markersize": 9,
-    "markeredgewidth": 0.8,
-    "color": "white",
-    "label": "lowest peak",
-}
 _MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": "its margin"}
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
@@ -161,11 +145,11 @@ def draw(tables: dict) -> Figure:
     peaks = summary.loc[list(LINES)].query("quantity == 'peak'")["value"]
     for force, axes in zip(forces, places, strict=False):
         _draw_response(axes, table[(table["panel"] == "response") & (table["f10_hat"] == force)])
-        _logarithmic(axes, "y", LEAST * peaks.min(), MOST * peaks.max())
+        logarithmic(axes, "y", LEAST * peaks.min(), MOST * peaks.max())
         axes.set_title(rf"$\hat f_{{10}} = \hat f_{{20}} = {force:g}$", loc="right", pad=3)
     last = places[len(forces) :]
     _draw_clearance(last[0], table[table["panel"] == "clearance"], summary.loc["balls"])
-    _logarithmic(last[0], "y", LEAST * peaks.min(), MOST * peaks.max())
+    logarithmic(last[0], "y", LEAST * peaks.min(), MOST * peaks.max())
     _draw_design(last[1], select(table, "design", "balls"), summary.loc["balls, best kappa"], peaks["without balls"])
     for axes in last[2:]:
         axes.set_axis_off()
@@ -179,25 +163,19 @@ def draw(tables: dict) -> Figure:
 def _draw_response(axes, rows):
     balls = select(rows, "response", "balls")
     axes.fill_between(balls["sigma_e_hat"], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
-    _draw_lines(axes, rows, "sigma_e_hat")
+    draw_lines(axes, rows, "sigma_e_hat", "ratio")
     repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
-    for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
+    for (name, look), shown in zip(LOOKS.items(), (repeating, ~repeating), strict=True):
         axes.plot(balls["sigma_e_hat"][shown], balls["ratio"][shown], label=name, **look)
     axes.set(xlabel=SYMBOLS["sigma_e_hat"], ylabel="largest $|X_i|\\,/\\,f$")
 
 
-def _draw_lines(axes, rows, x):
-    for name, look in LINES.items():
-        line = rows[rows["series"] == name]
-        axes.plot(line[x], line["ratio"], label=name, **look)
-
-
 def _draw_clearance(axes, rows, best):
     balls = select(rows, "clearance", "balls")
-    _draw_lines(axes, rows, "clearance")
-    axes.plot(balls["clearance"], balls["ratio"], label="balls", **{**_DOTS, "linestyle": "-", "linewidth": 0.6})
+    draw_lines(axes, rows, "clearance", "ratio")
+    axes.plot(balls["clearance"], balls["ratio"], label="balls", **{**DOTS, "linestyle": "-", "linewidth": 0.6})
     _mark(axes, best, best["value"])
-    _logarithmic(axes, "x")
+    logarithmic(axes, "x")
     axes.set(xlabel="clearance $1/f$", ylabel="peak $|X_i|\\,/\\,f$ of the band")
 
 
@@ -208,22 +186,11 @@ def _draw_design(axes, cells, best, darkest):
     mesh = axes.pcolormesh(*sides, square, cmap="Greys", vmin=0.0, vmax=darkest, rasterized=True)
     axes.figure.colorbar(mesh, ax=axes, label="peak $|X_i|\\,/\\,f$ of the band")
     _mark(axes, best, best["kappa"])
-    _logarithmic(axes, "x")
+    logarithmic(axes, "x")
     axes.set(xlabel="clearance $1/f$", ylabel=SYMBOLS["kappa"])
-
-
-def _logarithmic(axes, side, *ends):
-    """A logarithmic axis whose ends, if given, do not depend on what was simulated."""
-    axes.set(**{f"{side}scale": "log"})
-    axis = getattr(axes, f"{side}axis")
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter("{x:g}")
-    axis.set_minor_formatter(NullFormatter())
-    if ends:
-        axes.set(**{f"{side}lim": ends})
 
 
 def _mark(axes, best, height):
     """The optimum, and its margin."""
     axes.plot([best["narrowest"], best["widest"]], [height, height], **_MARGIN)
-    axes.plot(best["clearance"], height, markeredgecolor=BLACK, zorder=4, **_BEST)
+    axes.plot(best["clearance"], height, label="lowest peak", **BEST)
