@@ -1,4 +1,4 @@
-"""Points of the curves that companion_absorber draws, against an integrator that shares nothing with the engine."""
+"""Points of the curves that companion_response and companion_absorber draw, against an integrator that shares nothing with the engine."""
 
 import numpy as np
 import pytest

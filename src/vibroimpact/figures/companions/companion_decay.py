@@ -4,11 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from vibroimpact.absorbers.decay import decay_time
-from vibroimpact.absorbers.tuning import compared
+from vibroimpact.figures.companions.companion_response import linear_systems
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.sweeps.grid import axis
 
 SHORTEST = "shortest"
 MODULES = (1, 2)
@@ -26,8 +25,7 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
     quickest), impulse, cycles (inf: never).
     """
     velocities = np.geomspace(*impulses, values)
-    frequencies = 1.0 + system.epsilon * np.array(axis(**band).values)[[0, -1]]
-    linear = compared(system.with_(f10_hat=1.0, f20_hat=1.0), frequencies)
+    linear = linear_systems(system, (1.0, 1.0), band)
     curves = []
     for module in MODULES:
         panel = f"module {module}"

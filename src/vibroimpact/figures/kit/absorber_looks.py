@@ -13,6 +13,8 @@ LINES = {
 DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
 BEST = {"linestyle": "none", "marker": "*", "markersize": 9, "markeredgewidth": 0.8, "color": "white"}
 BEST |= {"markeredgecolor": BLACK, "zorder": 4}
+LEAST, MOST = 0.8, 1.3
+"""Where axes of displacements per force begin, and how far above the highest line they end."""
 
 
 def draw_lines(axes, rows, x: str, y: str) -> None:
