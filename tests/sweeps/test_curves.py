@@ -1,4 +1,4 @@
-"""Points of the curves that companion_response and companion_absorber draw, against an integrator that shares nothing with the engine."""
+"""Points of the sweeps that figures draw as curves, against an integrator that shares nothing with the engine."""
 
 import numpy as np
 import pytest
