@@ -7,6 +7,7 @@ import pytest
 from matplotlib.lines import Line2D
 
 import vibroimpact as vi
+from absorber_sweeps import BAND, tables_of
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
@@ -54,29 +55,10 @@ def swept():
     return table
 
 
-def absorber_tables():
-    """Small sweeps of the balls, as companion_absorber and companion_response take them."""
-    detunings, forces = axis(["sigma_e_hat"], (-1.0, 1.0), 5), ["f10_hat", "f20_hat"]
-    band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}
-    runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": OBSERVATION}
-    peaks = Asked(("peaks",), band=band, **runs)
-    observed = ("amplitudes", "envelopes", "energy", "regimes")
-    asked = {
-        "response": (
-            [detunings, axis(forces, tuples=[[0.4, 0.4], [1.0, 1.0], [0.0, 1.0]])],
-            Asked(observed, **runs),
-        ),
-        "clearance": ([axis(forces, (0.2, 5.0), 4, "logarithmic")], Asked(("peaks", *observed), band=band, **runs)),
-        "design": ([axis(["kappa"], listed=[0.2, 0.4, 0.65]), axis(forces, (0.2, 3.0), 4, "logarithmic")], peaks),
-    }
-    grids = {name: (Grid(SYSTEMS["equal"], axes), what) for name, (axes, what) in asked.items()}
-    tables = {name: pd.DataFrame(rows_of(grid, what, range(len(grid)))) for name, (grid, what) in grids.items()}
-    return tables | {"band": band, "observation": OBSERVATION, "number": 2, "seed": 1}
-
-
 @pytest.fixture(scope="module")
 def balls():
-    return absorber_tables()
+    asked = {"band": BAND, "observation": OBSERVATION, "number": 2, "seed": 1}
+    return tables_of(SYSTEMS["equal"], OBSERVATION) | asked
 
 
 @pytest.fixture(scope="module")
@@ -319,7 +301,7 @@ def test_a_dot_is_filled_where_most_starts_repeat(tables, figures):
 
 def test_symmetric_responses_are_drawn_in_every_panel_bold_where_stable(tables, figures):
     table = tables["response"]["csv"]
-    assert len(figures["response"].axes) == 4
+    assert len(figures["response"].axes) == 3
     for axes, (_, rows) in zip(figures["response"].axes, table.groupby(["panel", "f10_hat"], sort=False), strict=False):
         for (series, stable), look in companion_response.MARKS.items():
             mine = rows[(rows["series"] == series) & rows["stable"].eq(stable)]

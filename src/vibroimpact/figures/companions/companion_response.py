@@ -3,6 +3,8 @@
 All is per force: |X_i| / f of the box that moves more, f the larger force.
 """
 
+from functools import lru_cache
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -86,8 +88,11 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 def linear_systems(system, pair, band: dict) -> dict:
     """What balls are held against, by name, at forces in this proportion, the larger of them 1."""
-    f10, f20 = (value / max(pair) for value in pair)
-    return compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
+    f10, f20 = (float(value / max(pair)) for value in pair)
+    return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
+
+
+_compared = lru_cache(compared)  # tuned once for all forces in a proportion
 
 
 def frequencies(system, band: dict) -> tuple[float, float]:
