@@ -42,6 +42,7 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`, a panel for each module that is hit."""
     figure = new_figure(DOUBLE_COLUMN, 80.0)
+    figure.get_layout_engine().set(wspace=0.07)
     places = figure.subplots(1, len(MODULES), sharey=True)
     for axes, letter, module in zip(places, "ab", MODULES, strict=True):
         rows = tables["csv"][tables["csv"]["panel"] == f"module {module}"]
