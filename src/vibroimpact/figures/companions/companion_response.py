@@ -114,7 +114,8 @@ def _one_to_one(system, panel, series, table):
         for found in ONE_TO_ONE[series](system.with_(**place)):
             measures = {"ratio": found.largest.max() / force, "impact_share": found.impact_share}
             rows.append({**place, **measures, "stable": found.stable})
-    columns = pd.DataFrame(rows, columns=[*PLACE, "ratio", "impact_share", "stable"])
+    numbers = dict.fromkeys([*PLACE, "ratio", "impact_share"], float)
+    columns = pd.DataFrame(rows, columns=[*numbers, "stable"]).astype(numbers)  # numbers even where there is no row
     return curve(panel, series, **{name: columns[name] for name in columns})
 
 
