@@ -10,11 +10,18 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 import vibroimpact as vi
+from absorber_sweeps import BAND, tables_of
 from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.absorbers.references import fixed_balls, without_balls
-from vibroimpact.figures.companions import companion_absorber, companion_asymmetric, companion_ladder
+from vibroimpact.figures.companions import (
+    companion_absorber,
+    companion_asymmetric,
+    companion_decay,
+    companion_ladder,
+    companion_response,
+)
 from vibroimpact.figures.companions import companion_basins as basins
 from vibroimpact.figures.companions import companion_branches as branches
 from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
@@ -37,6 +44,8 @@ MODULES = {
     "asymmetric": companion_asymmetric,
     "ladder": companion_ladder,
     "absorber": companion_absorber,
+    "response": companion_response,
+    "decay": companion_decay,
 }
 
 
@@ -49,28 +58,10 @@ def swept():
     return table
 
 
-def absorber_tables():
-    """Small sweeps of the balls, as companion_absorber takes them."""
-    detunings, forces = axis(["sigma_e_hat"], (-1.0, 1.0), 5), ["f10_hat", "f20_hat"]
-    band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}
-    runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": OBSERVATION}
-    peaks = Asked(("peaks",), band=band, **runs)
-    asked = {
-        "response": (
-            [detunings, axis(forces, listed=[0.4, 1.0])],
-            Asked(("amplitudes", "envelopes", "regimes"), **runs),
-        ),
-        "clearance": ([axis(forces, (0.2, 5.0), 4, "logarithmic")], peaks),
-        "design": ([axis(["kappa"], listed=[0.2, 0.4, 0.65]), axis(forces, (0.2, 3.0), 4, "logarithmic")], peaks),
-    }
-    grids = {name: (Grid(SYSTEMS["equal"], axes), what) for name, (axes, what) in asked.items()}
-    tables = {name: pd.DataFrame(rows_of(grid, what, range(len(grid)))) for name, (grid, what) in grids.items()}
-    return tables | {"band": band, "observation": OBSERVATION, "number": 2, "seed": 1}
-
-
 @pytest.fixture(scope="module")
 def balls():
-    return absorber_tables()
+    asked = {"band": BAND, "observation": OBSERVATION, "number": 2, "seed": 1}
+    return tables_of(SYSTEMS["equal"], OBSERVATION) | asked
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +79,8 @@ def tables(balls):
         ),
         "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
         "absorber": companion_absorber.compute(SYSTEMS["equal"], **balls),
+        "response": companion_response.compute(SYSTEMS["equal"], balls["response"], balls["clearance"], balls["band"]),
+        "decay": companion_decay.compute(SYSTEMS["equal"], [0.5, 50.0], 9, 0.1, balls["band"]),
         "modulation": modulation.compute(
             SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
         ),
@@ -370,21 +363,57 @@ def test_the_optimum_of_the_balls_is_the_lowest_peak_and_its_margin_where_it_is_
 
 def test_balls_are_held_against_each_linear_system_where_both_were_looked_at(balls, tables):
     summary = tables["absorber"]["summary"]
-    for force, rows in balls["response"].groupby("f10_hat"):
+    for (f10, f20), rows in balls["response"].groupby(["f10_hat", "f20_hat"]):
         for who, build in (("without balls", without_balls), ("balls fixed", fixed_balls)):
             times = []
             for row in rows.itertuples():
-                system = SYSTEMS["equal"].with_(f10_hat=force, f20_hat=force, sigma_e_hat=row.sigma_e_hat)
+                system = SYSTEMS["equal"].with_(f10_hat=f10, f20_hat=f20, sigma_e_hat=row.sigma_e_hat)
                 times.append(max(row.largest_X1, row.largest_X2) / build(system).amplitudes(system.Omega).max())
-            said = summary[(summary["who"] == who) & (summary["f10_hat"] == force)].set_index("quantity")["value"]
+            said = summary[(summary["who"] == who) & (summary["f10_hat"] == f10)].set_index("quantity")["value"]
             assert said["frequencies won"] == np.mean(np.array(times) < 1)
             assert (said["least"], said["greatest"]) == pytest.approx((min(times), max(times)), rel=1e-9)
 
 
 def test_a_dot_is_filled_where_most_starts_repeat(tables, figures):
-    table, axes = tables["absorber"]["csv"], figures["absorber"].axes[0]
-    balls = table[(table["series"] == "balls") & (table["f10_hat"] == 0.4)].dropna(subset="sigma_e_hat")
+    table, axes = tables["response"]["csv"], figures["response"].axes[0]
+    balls = table[(table["series"] == "balls") & (table["panel"] == "frequency") & (table["f10_hat"] == 0.4)]
     shown = {line.get_label(): line.get_xydata() for line in axes.lines}
     repeats = balls["label"].isin(["symmetric", "asymmetric", "other periodic", "one ball idle", "no impacts"])
-    for name, part in ((companion_absorber.REPEATING, balls[repeats]), (companion_absorber.MODULATED, balls[~repeats])):
+    for name, part in ((companion_response.REPEATING, balls[repeats]), (companion_response.MODULATED, balls[~repeats])):
         np.testing.assert_array_equal(shown[name], part[["sigma_e_hat", "ratio"]])
+
+
+def test_symmetric_responses_are_drawn_in_every_panel_bold_where_stable(tables, figures):
+    table = tables["response"]["csv"]
+    *over_frequency, over_force, empty = figures["response"].axes
+    assert (len(over_frequency), len(empty.lines)) == (2, 0)
+    panels = [*over_frequency, over_force]
+    for axes, (_, rows) in zip(panels, table.groupby(["panel", "f10_hat"], sort=False), strict=False):
+        for (series, stable), look in companion_response.MARKS.items():
+            mine = rows[(rows["series"] == series) & rows["stable"].eq(stable)]
+            name = f"{series}, {'stable' if stable else 'unstable'}"
+            (line,) = [line for line in axes.lines if line.get_label() == name]
+            if axes is not over_force:
+                np.testing.assert_array_equal(line.get_xydata(), mine[["sigma_e_hat", "ratio"]])
+            assert line.get_markeredgewidth() == look["markeredgewidth"]
+
+
+def test_what_impacts_take_is_told_for_every_source_and_pair_of_forces(balls, tables):
+    shares = tables["response"]["shares"].set_index(["source", "f10_hat"])
+    assert {source for source, _ in shares.index} == {"balls", "theory", "symmetric orbits"}
+    for force, rows in balls["response"].groupby("f10_hat"):
+        found, expected = shares.loc[("balls", force)], rows["impact_share"]
+        assert found["points"] == 5
+        assert found[["least", "middle", "greatest"]].tolist() == np.quantile(expected, [0, 0.5, 1]).tolist()
+    assert shares["least"].gt(0).all()
+    assert shares["greatest"].lt(1).all()
+
+
+def test_linear_systems_decay_in_the_same_time_after_any_impulse_and_balls_in_their_own(tables):
+    table = tables["decay"]["csv"]
+    for module in (1, 2):
+        mine = table[table["panel"] == f"module {module}"].set_index("series")
+        assert mine.loc["without balls", "cycles"].nunique() == 1
+        balls, shortest = mine.loc["balls"], mine.loc["shortest"]
+        assert shortest["cycles"] == balls["cycles"].min() < mine.loc["without balls", "cycles"].iloc[0]
+        assert balls["cycles"].iloc[0] == pytest.approx(mine.loc["without balls", "cycles"].iloc[0], rel=1e-9)

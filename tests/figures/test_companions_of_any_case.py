@@ -14,8 +14,12 @@ from vibroimpact.figures.companions import (
     companion_epsilon,
     companion_ladder,
     companion_modulation,
+    companion_response,
     force_sweep,
 )
+from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.observations import Asked
+from vibroimpact.sweeps.rows import rows
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
@@ -34,6 +38,18 @@ def test_a_sweep_without_an_orbit_starts_from_rest():
     tables = coexistence.compute_tori(STILL, paths, 2, 400)
     assert tables["tori"]["size"].max() < 1e-3  # boxes alone settle on the period of the force
     assert tables["onsets"]["onset"].isna().all()
+
+
+def test_forces_too_weak_for_a_response_are_drawn_without_one():
+    asked = Asked(("amplitudes", "envelopes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
+    band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 3}
+    forces = axis(["f10_hat", "f20_hat"], listed=[0.05, 0.06])
+    grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])
+    frequency, force = (pd.DataFrame(rows(grid, asked, range(len(grid)))) for grid in grids)
+    tables = companion_response.compute(STILL, frequency, force, band)
+    assert set(tables["shares"]["source"]) == {"balls"}
+    assert set(tables["shares"]["greatest"]) == {0.0}
+    companion_response.draw(tables).draw_without_rendering()
 
 
 @pytest.mark.parametrize("first", ["f10_hat", "f20_hat"])

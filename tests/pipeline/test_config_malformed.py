@@ -169,7 +169,7 @@ UNUSUAL = [
     "regimes.coexistence.lifetimes.values = [0.9]",
     "regimes.confusion.f10_range = [-1.6, 1.6]",
     "sweeps.regime_map = ...",
-    "sweeps.design = ... & sweeps.frequency_response.axes[1].listed = [0.5, 1.0, 2.0]",
+    "sweeps.design = ... & sweeps.frequency_response.axes[1].tuples = [[0.5, 0.5], [1.0, -1.0], [2.0, 0.1]]",
     "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
     "{along: [f20_hat], range: [0, 1], cells: 2}]",
     "regimes.modulation.windows = [1]",

@@ -1,4 +1,4 @@
-"""Points of the curves that companion_absorber draws, against integrators that share nothing with the engine."""
+"""Points of the sweeps that figures draw as curves, against integrators that share nothing with the engine."""
 
 from unittest import mock
 

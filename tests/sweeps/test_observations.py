@@ -20,6 +20,8 @@ OBSERVED = {"cycles": 100, "rounds": 2, "window": 12, "nearness": 0.02, "blocks"
 BAND = {"along": ["sigma_e_hat"], "range": [-0.5, 1.0], "values": 4}
 ASKED = Asked(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
 
+ASKED_FROM_REST = Asked((PEAKS,), starts=1, seed=1, cycles=100, settle=50, band=BAND)
+
 
 @pytest.fixture(scope="module")
 def found():
@@ -52,7 +54,29 @@ def test_a_peak_is_the_largest_of_the_amplitudes_along_its_band(found):
     assert found[1]["peak"] == max(largest.values()) == largest[found[1]["peak_at"]]
     assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along.values() for i in (1, 2))  # of a start, not all
     assert found[1]["peak_unfinished"] == 0
-    assert ASKED.runs == 3 * (3 + 4)
+    assert ASKED.runs == 3 * (4 + 4)
+
+
+def test_one_ball_is_told_where_the_other_never_moves():
+    """Against runs that list their impacts: at small forces no ball meets a wall, at large ones both do."""
+    kinds = set()
+    for force in (0.1, 0.4, 1.5):
+        system = BASE.with_(f10_hat=force, f20_hat=force)
+        row = observed(system, ASKED_FROM_REST)
+        runs = [vi.simulate(system.with_(sigma_e_hat=value), np.zeros(8), 100) for value in (-0.5, 0.0, 0.5, 1.0)]
+        hit = {int(module) for run in runs for module in np.unique(run.events["module"])}
+        assert np.isnan(row["peak_one_ball"]) == (len(hit) != 1)
+        assert len(hit) != 1 or row["peak_one_ball"] == row["peak"]
+        kinds.add(len(hit))
+    assert kinds == {0, 1, 2}
+
+
+def test_the_share_of_impacts_is_that_of_the_certified_runs(found):
+    """Over the observed cycles; each run tells its energy cycle by cycle, the balance of which is closed."""
+    cycles = [vi.simulate(BASE, start, 30).energy.per_cycle[20:] for start in spread_starts(3, 1)]
+    work, impacts = (sum(energy[name].sum() for energy in cycles) for name in ("work", "impacts"))
+    assert found[1]["impact_share"] == pytest.approx(impacts / work, rel=1e-9)
+    assert 0.1 < found[1]["impact_share"] < 1
 
 
 def test_an_envelope_leaves_out_a_twentieth_of_the_cycles_on_either_side(found):

@@ -62,8 +62,22 @@ def map_of(sweep):
     }
 
 
+def response_of(frequency, clearance):
+    """The figure of frequency and force responses, of two sweeps: a clearance is a force."""
+    tables = {"frequency": frequency, "force": clearance}
+    return {
+        "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
+        "system": SWEEPS[frequency]["case"],
+        "settings": {"band": f"sweeps.{clearance}.band"},
+        "config": [key for name in tables.values() for key in sweep_keys(name)],
+        "inputs": {table: table_of(name) for table, name in tables.items()},
+        "before": [step(*STEPS["tile_of_sweep"])],
+        "tables": {"shares": "results/impact_shares.csv"},
+    }
+
+
 def absorber_of(response, clearance, design):
-    """The figure of what the balls are good for, of three sweeps."""
+    """The figure of the best clearance and restitution, of three sweeps."""
     tables = {"response": response, "clearance": clearance, "design": design}
     sweep = f"sweeps.{clearance}"
     return {
@@ -74,6 +88,16 @@ def absorber_of(response, clearance, design):
         "inputs": {table: table_of(name) for table, name in tables.items()},
         "before": [step(*STEPS["tile_of_sweep"])],
         "tables": {"summary": "results/absorber.csv"},
+    }
+
+
+def decay_of(tuned_by):
+    """The figure of free decay, its best absorbers those of the band of a sweep."""
+    return {
+        "method": "free flights in closed form between impacts; linear systems in closed form",
+        "system": REGIMES["decay"]["case"],
+        "settings": keys_of("regimes.decay", "case") | {"band": f"sweeps.{tuned_by}.band"},
+        "config": ["regimes.decay.case"],
     }
 
 
@@ -116,7 +140,9 @@ COMPANIONS = {
         },
     },
     **({"companion_regime_map": map_of("regime_map")} if "regime_map" in SWEEPS else {}),
+    **({"companion_response": response_of(*ABSORBER[:2])} if {*ABSORBER[:2]} <= {*SWEEPS} else {}),
     **({"companion_absorber": absorber_of(*ABSORBER)} if {*ABSORBER} <= {*SWEEPS} else {}),
+    **({"companion_decay": decay_of("clearance")} if "clearance" in SWEEPS else {}),
     "companion_modulation": {
         "method": f"{SIMULATED}; Lyapunov exponents along the linearised flow",
         "systems": True,

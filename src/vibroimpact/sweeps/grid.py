@@ -18,10 +18,14 @@ LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
 
 @dataclass(frozen=True)
 class Axis:
-    """Parameters that move together through values, all dimensionless."""
+    """Parameters that move together through values, all dimensionless; a value is that of all, or has one for each."""
 
     along: tuple[str, ...]
-    values: tuple[float, ...]
+    values: tuple[float | tuple[float, ...], ...]
+
+    def place(self, value) -> dict[str, float]:
+        """The value of each parameter, by name, at one of the values."""
+        return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
 
 
 def axis(
@@ -31,13 +35,16 @@ def axis(
     scale: str = LINEAR,
     listed=None,
     cells: int | None = None,
+    tuples=None,
 ) -> Axis:
     """The axis of `values` values from one end of a range to the other, both included, or of the middles of so many
-    equal `cells` of it, or of those listed.
+    equal `cells` of it, or of those listed; or through `tuples`, a value for each parameter.
 
     Args:
         along: names of parameters of System. scale: one of SPACED, of values.
     """
+    if tuples is not None:
+        return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))
     if listed is None:
         listed = centres(range, cells) if cells else SPACED[scale](*range, values)
     return Axis(tuple(along), tuple(float(value) for value in listed))
@@ -60,7 +67,8 @@ class Grid:
     def place(self, number: int) -> dict[str, float]:
         """The value of every parameter that moves, by name, at a point."""
         places = np.unravel_index(number, self.shape)
-        return {name: axis.values[k] for axis, k in zip(self.axes, places, strict=True) for name in axis.along}
+        at = zip(self.axes, places, strict=True)
+        return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
 
     def system(self, number: int) -> System:
         """The system at a point.

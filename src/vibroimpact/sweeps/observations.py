@@ -14,7 +14,7 @@ from vibroimpact.regimes.modulation import PER_CYCLE, cycle_amplitudes, sampled
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps.grid import Grid, axis
 
-REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS = "regimes", "amplitudes", "envelopes", "peaks"
+REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS, ENERGY = "regimes", "amplitudes", "envelopes", "peaks", "energy"
 FIXED_POINTS, ORBITS = "fixed_points", "orbits"
 FROM_REST = "from_rest"
 AMPLITUDE_COLUMNS = (
@@ -25,12 +25,13 @@ COLUMNS = {
     REGIMES_OF: (*REGIMES, FROM_REST),
     AMPLITUDES: AMPLITUDE_COLUMNS,
     ENVELOPES: ("low_X1", "low_X2", "high_X1", "high_X2"),
-    PEAKS: ("peak", "peak_rms", "peak_at", "peak_unfinished"),
+    PEAKS: ("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"),
+    ENERGY: ("impact_share",),
     FIXED_POINTS: ("fixed_points", "stable_points"),
     ORBITS: ("orbits", "stable_orbits"),
 }
 """The columns of each observation, in their order."""
-SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES)
+SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES, ENERGY)
 """Observations that simulate, from every start; PEAKS does, too, all along its band."""
 LOW, HIGH = 0.05, 0.95
 """An envelope leaves out so much of the cycles below, and above."""
@@ -98,18 +99,36 @@ def _envelopes(system, states, asked):
 
 
 def _peaks(system, states, asked):
-    """Along the band, over all starts and both boxes: the largest |X_i|, the largest root mean square, and where the
-    largest |X_i| is met, as the value of the first parameter.
+    """Along the band, over all starts and both boxes: the largest |X_i|, the largest root mean square, where the
+    largest |X_i| is met, as the value of the first parameter, and the largest |X_i| with one ball (`_one_ball`).
     """
     band = Grid(system, [axis(**asked.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
     runs = ensemble(systems[:, None], states, asked.cycles, settle=asked.settle)
     done = runs["status"] == FINISHED
     if not done.any():
-        return np.nan, np.nan, np.nan, done.size
+        return np.nan, np.nan, np.nan, np.nan, done.size
     largest = np.where(done[..., None], runs["largest"], -np.inf).max(axis=(1, 2))
     rms = np.sqrt(runs["mean_square"][done].max())
-    return largest.max(), rms, band.axes[0].values[largest.argmax()], np.count_nonzero(~done)
+    at = next(iter(band.place(int(largest.argmax())).values()))
+    return largest.max(), rms, at, _one_ball(runs[:, 0]), np.count_nonzero(~done)
+
+
+def _one_ball(runs):
+    """The largest |X_i| of runs from rest, if the same one ball is still there in all of them; else nan.
+
+    A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
+    """
+    still = [not runs["final"][:, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
+    return runs["largest"].max() if sum(still) == 1 else np.nan
+
+
+def _energy(system, states, asked):
+    """What impacts take of the work of the forces, over all starts."""
+    runs = ensemble(system, states, asked.cycles, settle=asked.settle, energy=True)
+    done = runs["energy"][runs["status"] == FINISHED]
+    work = done["work"].sum()
+    return (done["impacts"].sum() / work if work else np.nan,)
 
 
 def _fixed_points(system, states, asked):
@@ -133,6 +152,7 @@ OBSERVATIONS = {
     AMPLITUDES: _amplitudes,
     ENVELOPES: _envelopes,
     PEAKS: _peaks,
+    ENERGY: _energy,
     FIXED_POINTS: _fixed_points,
     ORBITS: _orbits,
 }

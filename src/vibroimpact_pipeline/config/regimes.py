@@ -292,6 +292,20 @@ class Ladder(Section):
         return [*over_forces(self), Change(("fold_range",), None, ["f20_hat"], self.fold_range)]
 
 
+class Decay(Section):
+    """How long an impulse is felt."""
+
+    case: CaseName
+    impulses: Annotated[list[Annotated[float, Field(gt=0, le=1e4)]], Field(min_length=2, max_length=2)] = Field(
+        description="First and last velocity that is given to a box", json_schema_extra=unit("L omega_10")
+    )
+    values: Values = Field(description="Values, evenly on a logarithmic scale")
+    fraction: Annotated[float, Field(ge=1e-6, lt=1)] = Field(description="The part of the energy that is left then")
+
+    def conditions(self):
+        yield from not_ascending("impulses", self.impulses)
+
+
 class Regimes(Section):
     """What the exact system does beside its 1:1 responses."""
 
@@ -304,6 +318,7 @@ class Regimes(Section):
     epsilon: EpsilonLimit
     asymmetric: EpsilonRange
     ladder: Ladder
+    decay: Decay
 
     def conditions(self):
         once, longest = self.observation.cycles, self.observation.longest()

@@ -24,6 +24,7 @@ NEEDED = {
     "amplitudes": _SIMULATED,
     "envelopes": _SIMULATED,
     "peaks": (*_SIMULATED, "band"),
+    "energy": _SIMULATED,
 }
 """What an observation needs to know."""
 
@@ -46,16 +47,30 @@ class Axis(Line):
     listed: Annotated[list[Number], Field(min_length=2, max_length=1000)] = Field(
         default=None, description="The values themselves, instead of all of these"
     )
+    tuples: Annotated[
+        list[Annotated[list[Number], Field(min_length=2, max_length=10)]], Field(min_length=2, max_length=1000)
+    ] = Field(
+        default=None, description="Instead of `listed`: a value for each parameter, the first never twice the same"
+    )
 
     def conditions(self):
         yield from super().conditions()
-        if self.listed is not None:
-            yield from repeated("listed", self.listed)
-            for name in ("range", "values", "cells", "scale"):
-                if getattr(self, name) is not None:
-                    yield Problem((name,), "stands beside `listed`, which says all; leave one of them out")
-        else:
+        stated = next((name for name in ("listed", "tuples") if getattr(self, name) is not None), None)
+        for name in ("range", "values", "cells", "scale", "tuples") if stated else ():
+            if name != stated and getattr(self, name) is not None:
+                yield Problem((name,), f"stands beside `{stated}`, which says all; leave one of them out")
+        if stated is None:
             yield from self._spaced()
+        elif stated == "listed":
+            yield from repeated("listed", self.listed)
+        else:
+            yield from self._tuples()
+
+    def _tuples(self):
+        yield from repeated("tuples", [values[0] for values in self.tuples])
+        for place, values in enumerate(self.tuples):
+            if len(values) != len(self.along):
+                yield Problem(("tuples", place), f"{values} has {len(values)} values for {len(self.along)} parameters")
 
     def _spaced(self):
         number = "values" if self.cells is None else "cells"
@@ -78,14 +93,20 @@ class Axis(Line):
         """The values, in their order."""
         return grid.axis(**self.model_dump(exclude_none=True)).values
 
-    def ends(self) -> dict[float, tuple]:
-        """Least and largest value, each with its place in the axis."""
+    def ends(self) -> dict[float | tuple, tuple]:
+        """Least and largest value, or every tuple, each with its place in the axis."""
+        if self.tuples is not None:
+            return {tuple(values): ("tuples", place) for place, values in enumerate(self.tuples)}
         if self.listed is None:
             return {value: ("range", k) for k, value in enumerate(self.range)}
         return {value: ("listed", self.listed.index(value)) for value in (min(self.listed), max(self.listed))}
 
+    def at(self, value) -> dict[str, float]:
+        """The parameters at a value, or at a tuple."""
+        return grid.Axis(tuple(self.along), ()).place(value)
+
     def number(self) -> int:
-        return len(self.listed or ()) or self.cells or self.values
+        return len(self.listed or self.tuples or ()) or self.cells or self.values
 
 
 class Sweep(Section):
@@ -94,9 +115,9 @@ class Sweep(Section):
     case: CaseName
     axes: Annotated[list[Axis], Field(min_length=1, max_length=2)]
     observe: Annotated[
-        list[Literal["regimes", "amplitudes", "envelopes", "peaks", "fixed_points", "orbits"]],
-        Field(min_length=1, max_length=6),
-    ] = Field(description="What is observed; the first four simulate, from every start")
+        list[Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]],
+        Field(min_length=1, max_length=7),
+    ] = Field(description="What is observed; the first five simulate, from every start")
     starts: Starts = None
     seed: Seed = None
     cycles: Cycles = Field(default=None, description="Length of a run whose amplitudes are observed")
@@ -148,7 +169,7 @@ class Sweep(Section):
         found, axes = {}, self.moving()
         for corner in product(*(axis.ends().items() for axis in axes.values())):
             ends = zip(axes.values(), corner, strict=True)
-            moved = {name: value for axis, (value, _) in ends for name in axis.along}
+            moved = {name: value for axis, (end, _) in ends for name, value in axis.at(end).items()}
             where = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
             for (*name,), what in unsound(parameters | moved):
                 found.setdefault(self._place(corner, name), f"at {where}: {': '.join([*name[:1], what])}")
@@ -164,10 +185,11 @@ class Sweep(Section):
 
 
 FORCES = ("f10_hat", "f20_hat")
+_RESPONSE = ("amplitudes", "envelopes", "energy", "regimes")
 DRAWN = {
     "regime_map": ("companion_regime_map", [FORCES[:1], FORCES[1:]], ("regimes", "fixed_points")),
-    "frequency_response": ("companion_absorber", [("sigma_e_hat",), FORCES], ("amplitudes", "envelopes", "regimes")),
-    "clearance": ("companion_absorber", [FORCES], ("peaks",)),
+    "frequency_response": ("companion_response", [("sigma_e_hat",), FORCES], _RESPONSE),
+    "clearance": ("companion_absorber", [FORCES], ("peaks", *_RESPONSE)),
     "design": ("companion_absorber", [("kappa",), FORCES], ("peaks",)),
 }
 """Sweeps that companion figures draw: which figure, what moves along each axis, and what has to be observed."""
@@ -199,4 +221,4 @@ def _along(axes, along, even):
     """Whether parameters move along axes in this order, and where it has to be `even`, evenly."""
     if [tuple(axis.along) for axis in axes] != along:
         return False
-    return not (even and any(axis.listed or axis.scale == LOGARITHMIC for axis in axes))
+    return not (even and any(axis.listed or axis.tuples or axis.scale == LOGARITHMIC for axis in axes))

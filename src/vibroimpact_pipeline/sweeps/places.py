@@ -14,5 +14,7 @@ def tile_path(sweep: str, number: int, tiles: int) -> Path:
 
 def table_path(sweep: str, axes: list[dict]) -> str:
     """Where the whole table is, of a sweep over axes as the config has them."""
-    points = math.prod(axis.get("cells") or axis.get("values") or len(axis["listed"]) for axis in axes)
+    points = math.prod(
+        axis.get("cells") or axis.get("values") or len(axis.get("listed") or axis["tuples"]) for axis in axes
+    )
     return f"results/sweeps/{sweep}.{'csv' if points <= MOST_IN_CSV else 'parquet'}"

@@ -19,8 +19,9 @@ def announced(name: str, plan: dict) -> str:
 def axis_words(axis: dict) -> str:
     """The axis as the config has it."""
     together = ", ".join(axis["along"])
-    if "listed" in axis:
-        return f"{together}: {show(axis['listed'])}"
+    for stated in ("listed", "tuples"):
+        if stated in axis:
+            return f"{together}: {show(axis[stated])}"
     low, high = axis["range"]
     if "cells" in axis:
         return f"{together}: centres of {axis['cells']} cells from {low:g} to {high:g}"

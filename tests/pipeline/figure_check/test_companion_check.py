@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 import vibroimpact as vi
+from absorber_sweeps import BAND, tables_of
 from chapter import FORCES, PARAMETERS
 from checking import LIMITS, assert_caught, build, copy_pictures
 from lifetimes import LIFETIMES
@@ -18,9 +19,12 @@ from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.figures.companions import (
     companion_10_04,
     companion_10_05,
+    companion_absorber,
     companion_asymmetric,
+    companion_decay,
     companion_horizon,
     companion_ladder,
+    companion_response,
     companion_stability,
 )
 from vibroimpact.figures.companions import companion_basins as basins
@@ -37,6 +41,7 @@ from vibroimpact_pipeline.figure_check import compare as figure_check
 
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 OBSERVATION = {"cycles": 250, "rounds": 3, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 2000}
+BRIEFLY = OBSERVATION | {"cycles": 100, "rounds": 1, "retest": 100}
 START, CYCLES = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5], 60
 BRANCHES = {
     "paths": [{"along": ["f20_hat"], "range": [0.7, 1.2]}],
@@ -70,6 +75,16 @@ def asymmetric(systems):
     return companion_asymmetric.compute(systems, verdicts_of(systems)[1], [0.1, 1e-3], 9, 0.05, 2.5)
 
 
+@lru_cache
+def balls(system):
+    return tables_of(system, BRIEFLY)
+
+
+def response(system):
+    swept = balls(system)
+    return companion_response.compute(system, swept["response"], swept["clearance"], BAND)
+
+
 COMPUTE = {
     "companion_10_04": lambda change: companion_10_04.compute(change(SYSTEMS["equal"]).kappa, 2.5),
     "companion_10_05": lambda change: companion_10_05.compute((0.5, 2.2)),
@@ -83,6 +98,16 @@ COMPUTE = {
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
     "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), "unequal", 15, OBSERVATION),
+    "companion_response": lambda change: response(change(SYSTEMS["equal"])),
+    "companion_absorber": lambda change: companion_absorber.compute(
+        change(SYSTEMS["equal"]),
+        **balls(change(SYSTEMS["equal"])),
+        band=BAND,
+        observation=BRIEFLY,
+        number=2,
+        seed=1,
+    ),
+    "companion_decay": lambda change: companion_decay.compute(change(SYSTEMS["equal"]), [0.5, 50.0], 21, 0.1, BAND),
     "companion_asymmetric": lambda change: asymmetric({"equal": change(SYSTEMS["equal"])}),
     "companion_epsilon": lambda change: epsilon_limit.compute(
         all_systems(change), [0.1, 1e-3], 3, 0.05, {"case": "unequal", "label": "b"}
@@ -101,12 +126,16 @@ MODULES = {
     "companion_regime_map": regime_map,
     "companion_modulation": modulation,
     "companion_basins": basins,
+    "companion_response": companion_response,
+    "companion_absorber": companion_absorber,
+    "companion_decay": companion_decay,
     "companion_asymmetric": companion_asymmetric,
     "companion_epsilon": epsilon_limit,
     "companion_ladder": companion_ladder,
 }
 OF_SYSTEMS = [name for name in MODULES if name != "companion_10_05"]
 CHAOTIC = ["companion_horizon", "companion_branches", "companion_regime_map", "companion_modulation"]
+CHAOTIC += ["companion_response", "companion_absorber"]
 
 
 def unchanged(system):

@@ -32,6 +32,7 @@ PANELS = {
         **{f"high_X{i}": f"box {i}, 95 %" for i in (1, 2)},
     },
     "along the band": {"peak": "largest $|X_i|$", "peak_rms": "root mean square"},
+    "share of the work": {"impact_share": "impacts"},
     "mean ball speed": {"ball_speed_1": "ball 1", "ball_speed_2": "ball 2"},
     "fixed points": {"fixed_points": "all", "stable_points": "stable"},
     "1:1 orbits": {"orbits": "all", "stable_orbits": "stable"},
