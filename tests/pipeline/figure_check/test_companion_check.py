@@ -50,7 +50,6 @@ BRANCHES = {
     "attractors": {"values": 15, "starts": 5, "seed": 1},
     "observation": OBSERVATION,
     "lifetimes": LIFETIMES,
-    "systems": SYSTEMS,
 }
 
 
@@ -92,7 +91,9 @@ COMPUTE = {
         all_systems(change), *verdicts_of(all_systems(change))
     ),
     "companion_horizon": lambda change: companion_horizon.compute(change(SYSTEMS["weak"]), START, truth(), 40),
-    "companion_branches": lambda change: branches.compute(change(SYSTEMS["unequal"]), **BRANCHES),
+    "companion_branches": lambda change: branches.compute(
+        change(SYSTEMS["unequal"]), systems=all_systems(change), **BRANCHES
+    ),
     "companion_regime_map": lambda change: regime_map.compute(mapped(change(SYSTEMS["equal"])), all_systems(change), 5),
     "companion_modulation": lambda change: modulation.compute(
         all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
