@@ -138,14 +138,14 @@ def draw(tables: dict) -> Figure:
     for (pair, mine), axes in zip(panels, places, strict=False):
         _draw_panel(axes, mine, "sigma_e_hat")
         f10, f20 = (f"{value:g}" for value in pair)
-        axes.set_title(rf"$\hat f_{{10}} = {f10}$, $\hat f_{{20}} = {f20}$", loc="right", pad=3)
+        axes.set_title(rf"$\hat f_{{10}} = {f10}$, $\hat f_{{20}} = {f20}$", loc="right", pad=3, fontsize=9.5)
         axes.set_xlabel(SYMBOLS["sigma_e_hat"])
     last = places[len(panels)]
     force = table[table["panel"] == "force"]
     _draw_panel(last, force, "f10_hat")
     logarithmic(last, "x")
     last.set_xlabel(r"$\hat f_{10} = \hat f_{20}$")
-    last.set_title(rf"$\hat\sigma_e = {force['sigma_e_hat'].iloc[0]:g}$", loc="right", pad=3)
+    last.set_title(rf"$\hat\sigma_e = {force['sigma_e_hat'].iloc[0]:g}$", loc="right", pad=3, fontsize=9.5)
     for axes in places[len(panels) + 1 :]:
         axes.set_axis_off()
     linear = table.loc[table["series"] == "without balls", "ratio"].max()
