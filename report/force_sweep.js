@@ -1,9 +1,20 @@
-// The fixed points on the slow invariant manifold, for the value of f20 that the slider stands at.
+// The fixed points on the slow invariant manifold, the exact orbits and their multipliers, for the value of f20 that the
+// slider stands at.
 "use strict";
 
 const WIDTH = 360, HEIGHT = 270, LEFT = 44, BOTTOM = 38, TOP = 10, RIGHT = 10;
 const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
+const ASYMMETRIC = "#1a1a1a", FAR = 1.35;
 const RINGS = { stable: "none", unstable: "3 3", undecided: "1 4" };
+
+const colour = (track) => (track ? COLOURS[(track - 1) % COLOURS.length] : ASYMMETRIC);
+
+function frame(svg) {
+  svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
+  svg.setAttribute("font-size", 13);
+  svg.setAttribute("font-family", "system-ui, sans-serif");
+  shape(svg, "rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
+}
 
 class Plane {
   constructor(svg, module, manifold) {
@@ -12,10 +23,7 @@ class Plane {
     const ends = [Math.max(...all.map(([C]) => C)), 1.05 * Math.max(...all.map(([, B]) => B))];
     this.x = (C) => LEFT + (C / ends[0]) * (WIDTH - LEFT - RIGHT);
     this.y = (B) => HEIGHT - BOTTOM - (B / ends[1]) * (HEIGHT - BOTTOM - TOP);
-    svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
-    svg.setAttribute("font-size", 13);
-    svg.setAttribute("font-family", "system-ui, sans-serif");
-    shape(svg, "rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
+    frame(svg);
     for (let C = 0; C <= ends[0]; C += 0.5) shape(svg, "text", { x: this.x(C), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, C);
     for (let B = 0; B <= ends[1]; B += 0.5) shape(svg, "text", { x: LEFT - 6, y: this.y(B) + 4, "text-anchor": "end" }, B);
     shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, `C${"₁₂"[module]}`);
@@ -35,16 +43,74 @@ class Plane {
     this.layer.replaceChildren();
     let last = -Infinity;
     for (const { label, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
-      const colour = COLOURS[(track - 1) % COLOURS.length], [x, y] = [this.x(C[module]), this.y(B[module])];
-      const fill = verdicts.fast_and_slow === "stable" ? colour : "#fff", side = C[module] < 1 ? -1 : 1;
-      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: colour, "stroke-width": 2, "data-label": label });
+      const hue = colour(track), [x, y] = [this.x(C[module]), this.y(B[module])];
+      const fill = verdicts.fast_and_slow === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
+      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": label });
       if (verdicts.floquet in RINGS) {
-        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: colour, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.floquet], "data-exact": verdicts.floquet });
+        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.floquet], "data-exact": verdicts.floquet });
       }
       const below = x - last > 20;
       last = x;
-      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: colour, "font-weight": 600 }, label);
+      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: hue, "font-weight": 600 }, label);
     }
+  }
+}
+
+// The exact branches over the force, C of module 2, with a line where the slider stands.
+class Branches {
+  constructor(svg, { values, orbits }) {
+    const all = orbits.flatMap((list, index) => list.map((orbit) => ({ ...orbit, value: values[index] })));
+    const [low, high] = [values[0], values.at(-1)], top = 1.05 * Math.max(1, ...all.map(({ C }) => C[1]));
+    this.values = values;
+    this.x = (value) => LEFT + ((value - low) / (high - low)) * (WIDTH - LEFT - RIGHT);
+    const y = (C) => HEIGHT - BOTTOM - (C / top) * (HEIGHT - BOTTOM - TOP);
+    frame(svg);
+    for (let value = Math.ceil(5 * low); value <= 5 * high; value++) shape(svg, "text", { x: this.x(value / 5), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, (value / 5).toFixed(1));
+    for (let C = 0; C <= top; C += 0.5) shape(svg, "text", { x: LEFT - 6, y: y(C) + 4, "text-anchor": "end" }, C);
+    shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, "f̂₂₀");
+    shape(svg, "text", { x: 2, y: TOP + 30, "font-style": "italic" }, "C₂");
+    for (const { track, C, value, floquet } of all) {
+      const stable = floquet === "stable";
+      shape(svg, "circle", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": floquet });
+    }
+    this.cursor = shape(svg, "line", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: "#4a4a4a", "stroke-width": 1.2 });
+  }
+
+  show(index) {
+    for (const end of ["x1", "x2"]) this.cursor.setAttribute(end, this.x(this.values[index]));
+  }
+}
+
+// The multipliers of the exact orbits and the unit circle; those far out stand at the edge, their moduli in the corner.
+class Circle {
+  constructor(svg, { orbits }) {
+    this.orbits = orbits;
+    frame(svg);
+    this.centre = [(LEFT + WIDTH - RIGHT) / 2, (TOP + HEIGHT - BOTTOM) / 2];
+    this.unit = (HEIGHT - BOTTOM - TOP) / 2 / FAR;
+    const [cx, cy] = this.centre;
+    for (const x of [-1, 0, 1]) shape(svg, "text", { x: cx + x * this.unit, y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, x);
+    shape(svg, "text", { x: LEFT + 8, y: TOP + 18 }, "multipliers");
+    shape(svg, "circle", { cx, cy, r: this.unit, fill: "none", stroke: "#1a1a1a", "stroke-width": 1.3 });
+    this.layer = shape(svg, "g", {});
+  }
+
+  show(index, points) {
+    this.layer.replaceChildren();
+    const labels = Object.fromEntries(points.map(({ track, label }) => [track, label])), said = [];
+    for (const { track, floquet, multipliers } of this.orbits[index]) {
+      const far = [];
+      for (const [real, imaginary] of multipliers) {
+        const modulus = Math.hypot(real, imaginary), inside = Math.min(1, (FAR - 0.1) / modulus);
+        const [x, y] = [this.centre[0] + real * inside * this.unit, this.centre[1] - imaginary * inside * this.unit];
+        const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": floquet };
+        if (track) shape(this.layer, "circle", { cx: x, cy: y, r: 3.6, ...style });
+        else shape(this.layer, "rect", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
+          if (inside < 1) far.push(modulus.toPrecision(3));
+      }
+      if (far.length) said.push([`${labels[track] ?? "asymmetric"}: ${far.join(", ")}`, colour(track)]);
+    }
+    said.sort().forEach(([text, fill], n) => shape(this.layer, "text", { x: WIDTH - RIGHT - 6, y: TOP + 18 + 16 * n, "text-anchor": "end", fill }, text));
   }
 }
 
@@ -55,7 +121,10 @@ class ForceSweep {
     this.output = root.querySelector("output");
     this.heads = root.querySelectorAll("th");
     this.rows = root.querySelector("tbody");
-    this.planes = [...root.querySelectorAll("svg")].map((svg, module) => new Plane(svg, module, this.data.manifold));
+    const [first, second, third, fourth] = root.querySelectorAll("svg");
+    this.planes = [first, second].map((svg, module) => new Plane(svg, module, this.data.manifold));
+    this.branches = new Branches(third, this.data);
+    this.circle = new Circle(fourth, this.data);
     this.stations = [...document.querySelectorAll(".station")];
     this.slider.max = this.data.values.length - 1;
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
@@ -76,6 +145,8 @@ class ForceSweep {
     this.slider.setAttribute("aria-valuetext", `${value}, ${points.length} fixed points`);
     this.output.textContent = value;
     this.planes.forEach((plane, module) => plane.show(points, module));
+    this.branches.show(index);
+    this.circle.show(index, points);
     this.rows.replaceChildren(...points.map(({ label, C, B, verdicts }) => {
       const row = document.createElement("tr");
       const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));

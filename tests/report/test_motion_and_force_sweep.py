@@ -6,6 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.figures.companions import animation, force_sweep
 from vibroimpact.system.state import KINDS
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -86,6 +87,29 @@ def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
         assert track["value"].is_unique
         steps = np.abs(np.diff(track[["C1", "C2"]].to_numpy(), axis=0))
         assert steps.max() < 0.06
+
+
+def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(swept):
+    """At 0.817, a Neimark-Sacker bifurcation: there a pair leaves the unit circle. At 1 they are those of a search."""
+    pair = swept["orbits"].query("track == @force_sweep.PAIR")
+    modulus = np.hypot(pair["real"], pair["imag"]).groupby(pair["value"]).max()
+    assert modulus.index.tolist() == swept["points"]["value"].unique().tolist()
+    assert ((modulus < 1) == (modulus.index > 0.817)).all()
+    crossing = pair[(pair["value"] == 0.81) & (np.hypot(pair["real"], pair["imag"]) > 1)]
+    assert (crossing["imag"].abs() > 0.1).tolist() == [True, True]
+    system = vi.System(**SYSTEM, f20_hat=1.0)
+    stable = [orbit for orbit in orbits(system) if orbit.admissible and abs(orbit.multipliers[0]) < 1]
+    (found,) = pair.query("value == 1")[["C1", "C2"]].drop_duplicates().to_numpy()
+    for orbit in stable:
+        np.testing.assert_allclose(found, orbit.C, atol=1e-10)
+    assert len(stable) == 2
+
+
+def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
+    rows = swept["orbits"].query("track != @force_sweep.PAIR")
+    modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
+    verdicts = swept["points"].set_index(["value", "track"])["floquet"]
+    assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()
 
 
 def test_a_point_that_is_new_starts_a_track_of_its_own():

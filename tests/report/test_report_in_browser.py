@@ -235,6 +235,18 @@ def test_the_sentence_of_the_force_is_said(browser, site, value, said):
     browser.page.emulate_media(media="screen")
 
 
+@pytest.mark.parametrize(("value", "outside"), [(0.81, 2), (0.82, 0)])
+def test_the_multipliers_of_the_asymmetric_orbits_cross_the_unit_circle(browser, site, value, outside):
+    """Where the sentence says so, as a pair; those of the symmetric orbits of the points are outside on both sides."""
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("ArrowLeft", times=round(100 * (1 - value)))
+    count = "document.querySelectorAll('[data-force-sweep] svg:nth-child(4) {}').length"
+    assert browser.run(count.format("rect[data-multiplier]")) == 8
+    assert browser.run(count.format('rect[data-multiplier][fill="#fff"]')) == outside
+    assert browser.run(count.format('circle[data-multiplier=unstable][fill="#fff"]')) >= 3
+
+
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
     browser.open(address(site, "fixed_points"))
     browser.run("document.querySelectorAll('[data-force-sweep] button')[1].focus()")

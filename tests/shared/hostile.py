@@ -81,7 +81,9 @@ def results(folder: Path) -> Path:
         "B": [0.1, 0.2],
         "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE},
     }
+    orbit = {"track": 1, "C": [1.0, 1.1], "floquet": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}
     sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
+    sweep |= {"orbits": [[orbit], [orbit]]}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
     moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
     run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}

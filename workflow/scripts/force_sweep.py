@@ -24,7 +24,7 @@ def main(parameters: dict, settings: dict, outputs: dict) -> None:
 
 
 def for_page(found: dict, values: list) -> dict:
-    """What the control shows: both branches of the manifold, and the points at each value."""
+    """What the control shows: both branches of the manifold, the points at each value, and their exact orbits."""
     manifold = {
         series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in found["manifold"].groupby("series")
     }
@@ -34,7 +34,12 @@ def for_page(found: dict, values: list) -> dict:
         said = {name: row[name] for name in VERDICTS}
         place = {"label": row["label"], "track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
         points[row["value"]].append(place | {"verdicts": said})
-    return {"manifold": manifold, "values": values, "points": list(points.values())}
+    orbits = {value: [] for value in values}
+    for (value, track, C1, C2), rows in found["orbits"].groupby(["value", "track", "C1", "C2"]):
+        place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "floquet": rows["floquet"].iloc[0]}
+        orbits[value].append(place | {"multipliers": rows[["real", "imag"]].round(4).to_numpy().tolist()})
+    lists = {"points": list(points.values()), "orbits": list(orbits.values())}
+    return {"manifold": manifold, "values": values, **lists}
 
 
 if "snakemake" in globals():

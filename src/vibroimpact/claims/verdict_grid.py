@@ -36,9 +36,14 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
 
-def exact_verdicts(system, points):
-    """What is true of the orbit of each fixed point, by their C (n, 2): "admissible" and "floquet", as in `compute`."""
+def exact_orbits(system, points):
+    """The Orbit of each fixed point, by their C (n, 2), None where there is none."""
     roots = symmetric_solutions(system)
     for partner in partners(points, roots[:, 2:]):
-        orbit = None if partner is None else symmetric_orbit(system, roots[partner])
+        yield None if partner is None else symmetric_orbit(system, roots[partner])
+
+
+def exact_verdicts(system, points):
+    """What is true of the orbit of each fixed point, by their C (n, 2): "admissible" and "floquet", as in `compute`."""
+    for orbit in exact_orbits(system, points):
         yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, "floquet": floquet(orbit)}

@@ -5,10 +5,13 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import linear_sum_assignment
 
-from vibroimpact.claims.verdict_grid import exact_verdicts
+from vibroimpact.claims.verdict_grid import exact_orbits
+from vibroimpact.claims.verdict_table import NO_ORBIT
+from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import join
+from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
 from vibroimpact.theory.fixed_points.labels import labels
@@ -18,6 +21,8 @@ LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GR
 """Colour, line and marker of each track."""
 EVERY = 6
 """Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
+PAIR = 0
+"""Track of the asymmetric orbits, which belong to no fixed point."""
 VERDICTS = (*CRITERIA, "fast_and_slow", "floquet")
 
 
@@ -30,26 +35,44 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
 
     Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
     C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
-    both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "manifold":
-    columns series, C, B as in figure 10.4.
+    both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "orbits": a
+    row per multiplier of each exact orbit, columns value, track (that of its fixed point; PAIR of the stable asymmetric
+    orbits and what becomes of them), C1, C2, floquet, real, imag; "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
-    names = []
+    names, multipliers = [], []
     for value, system in systems.items():
         points = fixed_points(system)
         now = np.array([point.C for point in points]).reshape(-1, 2)
         names, tracks = _continued(names, last, now, tracks)
         last = now
-        exact = exact_verdicts(system, now) if points else ()
-        for track, point, label, true in zip(names, points, labels(system, points), exact, strict=True):
+        exact = exact_orbits(system, now) if points else ()
+        for track, point, label, orbit in zip(names, points, labels(system, points), exact, strict=True):
             says = of_fixed_point(system, point)
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
             row |= {"B2": point.B[1], "label": label, **says, "fast_and_slow": fast_and_slow(says)}
-            rows.append(row | {"floquet": true["floquet"]})
+            rows.append(row | {"floquet": floquet(orbit) if orbit else NO_ORBIT})
+            multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
+    for value, orbit in followed(systems):
+        multipliers += _multipliers(value, PAIR, orbit)
     points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
     end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
     kappa = next(iter(systems.values())).kappa
-    return {"points": points, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
+    orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", "floquet", "real", "imag"])
+    return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
+
+
+def _draw_pair(axes, orbits, C):
+    pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
+    stable = pair["floquet"] == STABLE
+    for shown, grey, name in ((stable, "0.6", "asymmetric, stable"), (~stable, "0.85", "asymmetric, unstable")):
+        dots = {"color": grey, "linestyle": "none", "marker": "o", "markersize": 3.5}
+        axes.plot(pair["value"][shown], pair[C][shown], label=name, **dots)
+
+
+def _multipliers(value, track, orbit):
+    place = value, track, *orbit.C, floquet(orbit)
+    return [(*place, multiplier.real, multiplier.imag) for multiplier in orbit.multipliers]
 
 
 def _continued(names, last, now, tracks):
@@ -66,10 +89,12 @@ def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
     """C_1 and C_2 of each track over the parameter, which `name` names as mathematics.
 
     Filled markers: stable by both time scales; in a ring: its exact orbit is stable. Letters: where the label changes.
+    Broad and pale: exact asymmetric orbits, darker where they are stable.
     """
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     points = tables["points"]
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
+        _draw_pair(axes, tables["orbits"], f"C{module}")
         for track, rows in points.groupby("track"):
             colour, line, marker = LOOKS[(track - 1) % len(LOOKS)]
             axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line)
@@ -87,4 +112,6 @@ def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
         if len(points):
             axes.set_xlim(points["value"].min(), points["value"].max())
         letter_panel(axes, letter)
+    if (tables["orbits"]["track"] == PAIR).any():
+        figure.axes[0].legend(loc="upper left", fontsize=8)
     return figure
