@@ -134,7 +134,7 @@ def test_what_cannot_be_read_is_damaged_and_what_cannot_be_removed_is_said(drawn
     def refuse(path, **_):
         raise OSError(errno.EIO, "Input/output error", str(path))
 
-    monkeypatch.setattr(checksums, "_digest", refuse)
+    monkeypatch.setattr(checksums, "digest_of", refuse)
     assert TABLE in checksums.damaged([TABLE])
     monkeypatch.setattr(Path, "unlink", refuse)
     with pytest.raises(OSError, match="Input/output error"):

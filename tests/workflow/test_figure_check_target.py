@@ -12,7 +12,7 @@ from vibroimpact_pipeline.figure_check.compare import check
 from vibroimpact_pipeline.provenance.verify import embedded
 
 COMPANIONS = ["10_04", "10_05", "stability", "horizon", "branches", "regime_map", "modulation", "basins", "epsilon"]
-COMPANIONS += ["asymmetric", "10_08", "ladder", "absorber", "response", "decay"]
+COMPANIONS += ["asymmetric", "10_08", "10_11", "ladder", "absorber", "response", "decay"]
 FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)] + [f"companion_{name}" for name in COMPANIONS]
 FIGURES += ["machines"]
 CHARTS = ["work_precision", "hazards"]

@@ -16,10 +16,14 @@ def refused(tree, *arguments):
 @pytest.mark.parametrize(
     ("old", "new", "line"),
     [
-        ("kappa: 0.65", "kappa: 1.2", "config/config.yaml: system.kappa: 1.2 is not below 1"),
-        ("kappa: 0.65", "kapa: 0.65", "config/config.yaml: system.kapa: unknown key, did you mean 'kappa'?"),
-        ("kappa: 0.65", "kappa: 0.65\n  kappa: 0.7", "config/config.yaml: line 8, column 3: key 'kappa' given twice"),
-        ("kappa: 0.65", "kappa: [0.65", "config/config.yaml: line 8, column 14: expected ',' or ']', but got ':'"),
+        ("  kappa: 0.65", "  kappa: 1.2", "config/config.yaml: system.kappa: 1.2 is not below 1"),
+        ("  kappa: 0.65", "  kapa: 0.65", "config/config.yaml: system.kapa: unknown key, did you mean 'kappa'?"),
+        (
+            "  kappa: 0.65",
+            "  kappa: 0.65\n  kappa: 0.7",
+            "config/config.yaml: line 8, column 3: key 'kappa' given twice",
+        ),
+        ("  kappa: 0.65", "  kappa: [0.65", "config/config.yaml: line 8, column 14: expected ',' or ']', but got ':'"),
         (
             "sigma20_hat: 0.5",
             "sigma20_hat: -20",

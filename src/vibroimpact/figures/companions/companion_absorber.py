@@ -90,7 +90,7 @@ def _optimum(system, who, table, observation, states):
         "quantity": "peak",
         "who": who,
         "value": best["ratio"],
-        **{name: getattr(there, name) for name in ("kappa", "f10_hat", "sigma_e_hat")},
+        **{name: getattr(there, name) for name in ("kappa", "f10_hat", "f20_hat", "sigma_e_hat")},
         "clearance": best["clearance"],
         "narrowest": beside["clearance"].iloc[first],
         "widest": beside["clearance"].iloc[last],
