@@ -27,6 +27,7 @@ rule compare_figures:
         "results/logs/compare_figures.log",
     benchmark:
         "results/benchmarks/compare_figures.tsv"
+    threads: ALL_CORES
     script:
         "../scripts/compare_figures.py"
 

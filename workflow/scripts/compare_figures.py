@@ -13,10 +13,10 @@ from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.figure_check.verdicts import lines
 
 
-def main(figures, columns: dict, reference, new, outputs: dict) -> None:
+def main(figures, columns: dict, reference, new, outputs: dict, processes: int = 1) -> None:
     """Compare, and write each of the outputs: page, verdicts, junit, summary."""
     limits = tolerances(columns)
-    found = check_all(figures, reference, new, limits)
+    found = check_all(figures, reference, new, limits, processes)
     print(*lines(found), sep="\n")
     written = {
         "page": page(found, reference, new, limits),
@@ -33,4 +33,4 @@ if "snakemake" in globals():
     with running(snakemake):
         params, outputs = snakemake.params, dict(snakemake.output.items())
         new = Path(outputs["page"]).parents[1] / "figures"
-        main(params.figures, params.columns, root_of(snakemake) / "figures", new, outputs)
+        main(params.figures, params.columns, root_of(snakemake) / "figures", new, outputs, snakemake.threads)
