@@ -16,7 +16,17 @@ NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report", "api", "animations", "force_sweep", "figure_check", "*_full*", "confusion*", "ladder_grid*", "figure.*"
+    "report",
+    "api",
+    "animations",
+    "force_sweep",
+    "figure_check",
+    "*_full*",
+    "confusion*",
+    "ladder_grid*",
+    "figure.*",
+    "benchmark.csv",
+    "archive",
 )
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
