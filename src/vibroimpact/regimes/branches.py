@@ -165,7 +165,8 @@ def _passes(branch, path, p, root):
         if p0 != p1 and min(p0, p1) <= p <= max(p0, p1):
             chord = x1 - x0
             x = _polished(branch.family, path(p), x0 + (p - p0) / (p1 - p0) * chord)
-            if np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) + _SAME and _same(branch.family, path(p), x, root):
+            near = np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) + _SAME
+            if near and same_root(branch.family, path(p), x, root):
                 return True
     return False
 
@@ -178,8 +179,8 @@ def _polished(family, system, x):
     return x
 
 
-def _same(family, system, x, root):
-    """Whether two roots are one, times compared on their circle."""
+def same_root(family, system, x, root) -> bool:
+    """Whether two roots of a family are one, times compared on their circle."""
     gap, turn = x - root, family.turn(system)
     gap[family.angles] -= turn * np.rint(gap[family.angles] / turn)
     return bool(np.abs(gap).max() < _SAME)

@@ -6,6 +6,7 @@ import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.regimes.branches import same_root
 from vibroimpact.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
@@ -23,17 +24,17 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
     Args:
         systems: value of the parameter (ascending) -> system.
     """
-    values, seen = list(systems), {}
+    values, found = list(systems), {value: [] for value in systems}
     for part in SEARCHED:
         middle = int(part * (len(values) - 1))
-        for x in _stable(systems[values[middle]]):
-            if not _known(x, seen.get(middle, ()), systems[values[middle]]):
-                for way in (range(middle, len(values)), range(middle - 1, -1, -1)):
-                    for k, root in _along([systems[values[j]] for j in way], way, x):
-                        seen.setdefault(k, []).append(root)
-    for k in sorted(seen):
-        for root in seen[k]:
-            yield values[k], AsymmetricOrbits.member(systems[values[k]], root)
+        system = systems[values[middle]]
+        for x in _stable(system):
+            if not _known(x, [root for root, _ in found[values[middle]]], system):
+                for way in (values[middle:], values[:middle][::-1]):
+                    for value, root, orbit in _along(way, systems, x):
+                        found[value].append((root, orbit))
+    for value, there in found.items():
+        yield from ((value, orbit) for _, orbit in there)
 
 
 def _stable(system):
@@ -48,22 +49,18 @@ def _stable(system):
 
 def _known(x, roots, system):
     """Whether a root or its mirror image is among others."""
-    for image in AsymmetricOrbits.images(system, x):
-        for root in roots:
-            gap = np.append((image - root)[:4] + system.period / 2, (image - root)[4:])
-            gap[:4] = gap[:4] % system.period - system.period / 2
-            if np.abs(gap).max() < NEAR:
-                return True
-    return False
+    images = AsymmetricOrbits.images(system, x)
+    return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
 
 
-def _along(systems, numbers, x):
-    """The root at each system in turn, next to the one before, while it is a motion."""
-    for number, system in zip(numbers, systems, strict=True):
-        found = newton(AsymmetricConditions(system), x[None])
+def _along(way, systems, x):
+    """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
+    for value in way:
+        found = newton(AsymmetricConditions(systems[value]), x[None])
         if not len(found) or np.abs(found[0] - x).max() > NEAR:
             return
         x = found[0]
-        if not AsymmetricOrbits.member(system, x).admissible:
+        orbit = AsymmetricOrbits.member(systems[value], x)
+        if not orbit.admissible:
             return
-        yield number, x
+        yield value, x, orbit
