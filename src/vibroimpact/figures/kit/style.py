@@ -7,8 +7,9 @@ from pathlib import Path
 import matplotlib.style
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.artists import describe, drawn_with
+from vibroimpact.figures.kit.artists import describe
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.versions import drawn_with
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
