@@ -64,7 +64,8 @@ def _over(image, colour):
 def squares(picture: np.ndarray, size: int) -> np.ndarray:
     """Mean of each square of size by size pixels, 0 black to 1 white; what is left over at the edges is white."""
     filled = _filled(picture, size, 255)
-    rows = sum(filled[row::size].astype(np.float32) for row in range(size))
+    kind = np.uint16 if picture.dtype == np.uint8 else np.float32  # has room for the sum of a square of 16 by 16 bytes
+    rows = sum(filled[row::size].astype(kind) for row in range(size))
     return sum(rows[:, column::size] for column in range(size)) / np.float32(255 * size * size)
 
 
