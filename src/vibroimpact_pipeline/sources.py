@@ -31,6 +31,7 @@ class Sources:
     def __init__(self):
         self._graph = grimp.build_graph(*PACKAGES, include_external_packages=True, cache_dir=None)
         self._roots = {name: Path(find_spec(name).origin).parent for name in PACKAGES}
+        self._read_modules: dict[str, dict[Path, bytes]] = {}
         self.stamps: dict[str, Stamp] = {}
         """Of every file that went into a fingerprint, from just before it was first read."""
         self.files: dict[str, list[str]] = {}
@@ -59,8 +60,8 @@ class Sources:
             used |= set(vibroimpact._PUBLIC.values())
         for name in self.modules_used(used):
             digest.update(name.encode())
-            for path in self._files(name):
-                digest.update(path.name.encode() + self._read(path))
+            for path, content in self._contents(name).items():
+                digest.update(path.name.encode() + content)
                 read.append(path)
         fingerprint = digest.hexdigest()[:16]
         self.files[fingerprint] = [str(path) for path in read]
@@ -106,6 +107,12 @@ class Sources:
     def _read(self, path):
         self.stamps.setdefault(str(path), stamp(path))
         return path.read_bytes()
+
+    def _contents(self, name) -> dict[Path, bytes]:
+        """What the files of a module hold, each read once: many rules depend on it."""
+        if name not in self._read_modules:
+            self._read_modules[name] = {path: self._read(path) for path in self._files(name)}
+        return self._read_modules[name]
 
     def _files(self, name):
         """The file of a module; for a package also the data files beside it, such as a style sheet."""

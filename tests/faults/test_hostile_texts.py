@@ -18,6 +18,7 @@ from pipeline_trees import ROOT
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline.figure_check.compare import tolerances
 from vibroimpact_pipeline.figure_check.page import page as check_page
+from vibroimpact_pipeline.figure_check.page import shown
 from vibroimpact_pipeline.report import api, offline
 from vibroimpact_pipeline.report.pages import Pages, anchor, attribute, data
 from vibroimpact_pipeline.report.policy import guarded
@@ -121,7 +122,7 @@ def figure_check(folder):
         "artists": {"distance": 1.0, "limit": 2.0},
         "picture": {"status": "not comparable", **drawn},
     }
-    return check_page([verdict], folder, folder, tolerances({}))
+    return check_page([verdict], {HOSTILE: shown(HOSTILE, folder, folder)}, tolerances({}))
 
 
 def library(folder):

@@ -4,7 +4,8 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from PIL import Image
+from matplotlib.figure import Figure
+from PIL import Image, ImageChops
 
 from vibroimpact.figures.kit import style, tables
 from vibroimpact.figures.kit.files import replacing
@@ -39,6 +40,19 @@ def test_png_has_the_printed_width_at_600_dpi(scenes, tmp_path):
     picture = Image.open(tmp_path / "figure.png")
     assert picture.size[0] == int(84 / 25.4 * 600)
     assert picture.info["dpi"] == pytest.approx((600, 600), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("colour", "background", "mode"), [("0.3", "white", "L"), ("tab:red", "white", "RGB"), ("0.3", "none", "RGBA")]
+)
+def test_png_has_the_pixels_of_matplotlib_in_no_more_channels_than_needed(tmp_path, colour, background, mode):
+    figure = Figure(facecolor=background)
+    figure.add_subplot(facecolor=background).plot([1, 3, 2], color=colour)
+    for name, backend in (("own", "module://vibroimpact.figures.kit.plain_png"), ("its", "agg")):
+        figure.savefig(tmp_path / name, format="png", facecolor=background, backend=backend)
+    own, its = (Image.open(tmp_path / name) for name in ("own", "its"))
+    assert own.mode == mode
+    assert ImageChops.difference(own.convert("RGBA"), its).getbbox(alpha_only=False) is None
 
 
 def test_table_read_back_is_equal_and_gives_the_same_picture(scenes, tmp_path, name_with_table):

@@ -6,6 +6,7 @@ from pipeline_trees import ROOT
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.data_dictionary import compared, read
 from vibroimpact_pipeline.figure_check.compare import tolerances
+from vibroimpact_pipeline.figure_check.page import page, shown
 
 PICTURES = "png", "pdf", "svg"
 CARDS, _ = read(ROOT)
@@ -25,6 +26,10 @@ def build(folder, name, table, figure, pictures=True):
 def copy_pictures(name, source, folder):
     for kind in PICTURES:
         shutil.copy(source / f"{name}.{kind}", folder)
+
+
+def page_of(verdicts, reference, new):
+    return page(verdicts, {each["figure"]: shown(each["figure"], reference, new) for each in verdicts}, LIMITS)
 
 
 def assert_caught(verdict, by):

@@ -39,8 +39,10 @@ if os.path.exists(sys.executable):
     # Snakemake puts it into the command of each job as it is, which a space in its path would break.
     sys.executable = shlex.quote(sys.executable)
 from vibroimpact_pipeline import build_directory, left_jobs, slurm_plugin
+from vibroimpact_pipeline.quick_end import end_quickly
 
 if workflow.is_main_process:
+    end_quickly()
     demand(build_directory.check_access)
     BUILD_LOCK = demand(build_directory.lock)
     if BUILD_LOCK and workflow.modifier.is_main_snakefile():

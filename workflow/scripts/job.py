@@ -9,6 +9,7 @@ from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.integrity import cases, checksums, compiled
 from vibroimpact_pipeline.integrity.code import stamps_of
 from vibroimpact_pipeline.integrity.stamps import Changed, Stamp, stamps, unchanged
+from vibroimpact_pipeline.quick_end import end_quickly
 
 
 @contextmanager
@@ -20,6 +21,7 @@ def running(job):
 
     At the end its outputs go on record.
     """
+    end_quickly()
     with ExitStack() as stack:
         if job.log:
             stack.enter_context(logging_to(job.log[0]))

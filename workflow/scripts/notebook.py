@@ -16,6 +16,7 @@ from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.environment import SCRATCH
 from vibroimpact_pipeline.provenance.record import recorded
+from vibroimpact_pipeline.quick_end import OF_KERNEL
 from vibroimpact_pipeline.report.offline import page
 
 PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
@@ -46,13 +47,14 @@ def execute(notebook, executed, parameters: dict):
     with TemporaryDirectory(prefix=SCRATCH) as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
         sockets = {"transport": "ipc", "ip": f"@{SCRATCH}{uuid4()}", "connection_file": f"{folder}/kernel.json"}
+        start = {"extra_arguments": [f"--IPKernelApp.exec_lines={OF_KERNEL}"]}
         return papermill.execute_notebook(
             str(notebook),
             str(executed),
             parameters,
             kernel_name="python3",
             progress_bar=False,
-            config=Config({"KernelManager": sockets}),
+            config=Config({"KernelManager": sockets, "NotebookClient": start}),
         )
 
 

@@ -7,9 +7,7 @@ large, but the reference was drawn by other versions of Matplotlib or FreeType, 
 import json
 import math
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 
 import yaml
@@ -48,14 +46,14 @@ def files_of(figure: str, folder) -> dict[str, Path]:
     return {path.name: path for path in found}
 
 
-def check_all(figures, reference, new, limits: dict, processes: int = 1) -> list[dict]:
+def check_all(figures, reference, new, limits: dict) -> list[dict]:
     """Verdicts on the given figures and on all others that have a reference, by name; see `check`."""
-    names = sorted({*figures} | figures_in(reference))
-    one = partial(check, reference=reference, new=new, limits=limits)
-    if processes == 1:
-        return list(map(one, names))
-    with ProcessPoolExecutor(processes) as pool:
-        return list(pool.map(one, names))
+    return [check(figure, reference, new, limits) for figure in all_figures(figures, reference)]
+
+
+def all_figures(figures, reference) -> list[str]:
+    """The given figures and all others that have a reference, by name."""
+    return sorted({*figures} | figures_in(reference))
 
 
 def check(figure: str, reference, new, limits: dict) -> dict:

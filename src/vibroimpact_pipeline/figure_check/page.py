@@ -19,8 +19,11 @@ SHRINK = 2
 """The page shows squares of 2 by 2 pixels as one: 300 dots per inch of the printed figure."""
 
 
-def page(verdicts: list[dict], reference, new, limits: dict) -> str:
-    """The page for the verdicts of `figure_check.check_all` on the same folders, what is farthest off first."""
+def page(verdicts: list[dict], addresses: dict[str, dict], limits: dict) -> str:
+    """The page for verdicts of the figure check, what is farthest off first.
+
+    addresses: of the pictures of each figure, see `shown`.
+    """
     template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(
         TEMPLATE.read_text(encoding="utf-8")
     )
@@ -32,7 +35,7 @@ def page(verdicts: list[dict], reference, new, limits: dict) -> str:
             other_versions=OTHER_VERSIONS,
             files=WHAT,
             said=lines(verdicts),
-            pictures={verdict["figure"]: _pictures(verdict["figure"], reference, new) for verdict in verdicts},
+            pictures=addresses,
             largest={verdict["figure"]: largest(verdict) for verdict in verdicts},
             limits=limits,
             units=UNITS,
@@ -40,8 +43,11 @@ def page(verdicts: list[dict], reference, new, limits: dict) -> str:
     )
 
 
-def _pictures(figure, reference, new):
-    """The pictures there are, as data: addresses, by what they show; no difference where no pixel differs."""
+def shown(figure: str, reference, new) -> dict[str, str]:
+    """The pictures there are of a figure, as data: addresses, by what they show; no difference where no pixel differs.
+
+    reference, new: folders, as of `compare.check`.
+    """
     found = {}
     for name, folder in (("reference", reference), ("new", new)):
         try:
@@ -50,10 +56,10 @@ def _pictures(figure, reference, new):
             continue  # the verdict says so, whatever the library has raised
     if len(found) == 2 and np.array_equal(*found.values()):
         return dict.fromkeys(found, _address(pictures.smaller(found["new"], SHRINK)))
-    shown = {name: _address(pictures.smaller(picture, SHRINK)) for name, picture in found.items()}
+    addresses = {name: _address(pictures.smaller(picture, SHRINK)) for name, picture in found.items()}
     if len(found) == 2 and found["reference"].shape[:2] == found["new"].shape[:2]:
-        shown["difference"] = _address(pictures.overlay(found["reference"], found["new"], SHRINK))
-    return shown
+        addresses["difference"] = _address(pictures.overlay(found["reference"], found["new"], SHRINK))
+    return addresses
 
 
 def _address(picture):

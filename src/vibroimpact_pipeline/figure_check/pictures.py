@@ -5,6 +5,8 @@ largest over the channels, so that a red letter is as far from a black one as a 
 """
 
 import io
+from functools import lru_cache, reduce
+from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageChops
@@ -25,27 +27,45 @@ BEHIND = (255, 0, 255)
 
 
 def colours(path) -> np.ndarray:
-    """A PNG file, or the content of one, as a picture."""
-    with Image.open(path) as image:
+    """A PNG file as a picture that cannot be written to: who looks at the same file again gets the same one."""
+    return _decoded(Path(path).read_bytes())
+
+
+@lru_cache(maxsize=2)
+def _decoded(content):
+    """By what the file holds, not by its name: those of a figure and of its reference."""
+    picture = of_png(content)
+    picture.flags.writeable = False
+    return picture
+
+
+def of_png(content: bytes) -> np.ndarray:
+    with Image.open(io.BytesIO(content)) as image:
         return of_image(image)
 
 
 def of_image(image: Image.Image) -> np.ndarray:
     if image.mode == "L":
         return np.asarray(image)[..., None]
-    seen = image.convert("RGBA")
-    if seen.getchannel("A").getextrema() != (255, 255):
-        seen = Image.alpha_composite(Image.new("RGBA", seen.size, BEHIND), seen)
-    red, green, blue, _ = seen.split()
+    seen = _over(image, BEHIND) if image.has_transparency_data else image.convert("RGB")
+    red, green, blue = seen.split()
     if all(ImageChops.difference(red, other).getbbox() is None for other in (green, blue)):
         return np.asarray(red)[..., None]
-    return np.asarray(seen.convert("RGB"))
+    return np.asarray(seen)
+
+
+def _over(image, colour):
+    seen = image.convert("RGBA")
+    if seen.getchannel("A").getextrema() != (255, 255):
+        seen = Image.alpha_composite(Image.new("RGBA", seen.size, colour), seen)
+    return seen.convert("RGB")
 
 
 def squares(picture: np.ndarray, size: int) -> np.ndarray:
     """Mean of each square of size by size pixels, 0 black to 1 white; what is left over at the edges is white."""
     filled = _filled(picture, size, 255)
-    rows = sum(filled[row::size].astype(np.float32) for row in range(size))
+    kind = np.uint16 if picture.dtype == np.uint8 else np.float32  # has room for the sum of a square of 16 by 16 bytes
+    rows = sum(filled[row::size].astype(kind) for row in range(size))
     return sum(rows[:, column::size] for column in range(size)) / np.float32(255 * size * size)
 
 
@@ -62,14 +82,14 @@ def _filled(picture, size, value):
 
 def change(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
     """Change (height, width) of the mean of each square, 0 to 1, between squares of two pictures of one shape."""
-    return np.abs(new - reference).max(axis=-1)
+    return _over_channels(np.abs(new - reference))
 
 
 def wide_change(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
     """Change of each wide square, in which lines weigh little and a background weighs much."""
     filled = _filled(new - reference, WIDE, 0.0)
     rows = sum(filled[row::WIDE] for row in range(WIDE))
-    return np.abs(sum(rows[:, column::WIDE] for column in range(WIDE))).max(axis=-1) / WIDE**2
+    return _over_channels(np.abs(sum(rows[:, column::WIDE] for column in range(WIDE)))) / WIDE**2
 
 
 def mean_change(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
@@ -90,7 +110,12 @@ def near_change(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
         for one, other in ((reference, new), (new, reference))
         for part in (one - maximum_filter(other, reach), minimum_filter(other, reach) - one)
     ]
-    return np.maximum.reduce(outside).max(axis=-1)
+    return _over_channels(reduce(np.maximum, outside))
+
+
+def _over_channels(changes):
+    """The largest; where there is one channel, without the search for it, which takes long."""
+    return changes[..., 0] if changes.shape[-1] == 1 else changes.max(axis=-1)
 
 
 def largest(changes: np.ndarray) -> float:

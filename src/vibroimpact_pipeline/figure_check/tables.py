@@ -30,10 +30,9 @@ class Rules:
         kinds = {name: _kind(compared, series) for name, compared in self.columns.items()}
         return {name: kind for name, kind in kinds.items() if kind and name in part and _given(part[name]).any()}
 
-    def is_sample(self, part: pd.DataFrame, series) -> bool:
-        """Whether a series is a sample, in which no row has its counterpart."""
-        kinds = self.of(part, series).values()
-        return bool(kinds) and all("distribution" in self.limits[kind] for kind in kinds)
+    def are_of_a_sample(self, kinds: dict[str, str]) -> bool:
+        """Whether a series with columns of these kinds is a sample, in which no row has its counterpart."""
+        return bool(kinds) and all("distribution" in self.limits[kind] for kind in kinds.values())
 
 
 def _kind(compared, series) -> str | None:
@@ -61,12 +60,13 @@ def differences_in_structure(reference: pd.DataFrame, new: pd.DataFrame, rules: 
     """What keeps two tables from being compared: other columns, other rows, other blanks; one line each."""
     if list(reference.columns) != list(new.columns):
         return [f"columns {', '.join(new.columns)} instead of {', '.join(reference.columns)}"]
-    old_parts, new_parts = _by_series(reference), _by_series(new)
+    old_parts, new_parts, texts = _by_series(reference), _by_series(new), _texts(reference)
     found = []
     for series in old_parts | new_parts:
         old, fresh = (parts.get(series, reference.iloc[:0]) for parts in (old_parts, new_parts))
-        if not (rules.is_sample(old, series[-1]) and rules.is_sample(fresh, series[-1])):
-            found += _differences(old, fresh, [name for name in _texts(old) if name not in rules.of(old, series[-1])])
+        kinds, fresh_kinds = (rules.of(part, series[-1]) for part in (old, fresh))
+        if not (rules.are_of_a_sample(kinds) and rules.are_of_a_sample(fresh_kinds)):
+            found += _differences(old, fresh, [name for name in texts if name not in kinds])
     return found or ["the same series in another order"] * (list(old_parts) != list(new_parts))
 
 
@@ -88,17 +88,17 @@ def _differences(old, new, texts):
 
 def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[Distance]:
     """Distance of each column between tables of the same structure, by the measures of its kind."""
-    new_parts, farthest = _by_series(new), {}
+    new_parts, numbers, farthest = _by_series(new), numeric_columns(reference), {}
     scales = {column: _scales(reference, column) for column in reference}
     for series, old in _by_series(reference).items():
         fresh, kinds = new_parts[series], rules.of(old, series[-1])
-        unruled = [name for name in numeric_columns(old) if name not in kinds and old[name].notna().any()]
+        unruled = [name for name in numbers if name not in kinds and old[name].notna().any()]
         for column, kind in [*kinds.items(), *((name, None) for name in unruled)]:
             for measure, limit in rules.limits.get(kind, {"largest": None}).items():
                 far, row = MEASURES[measure](old[column], fresh[column], scales[column][old.index])
-                found = Distance(column, kind, measure, limit, far, *_entry(old, fresh, column, row, series))
-                before = farthest.setdefault((column, kind, measure), found)
-                farthest[column, kind, measure] = found if far > before.distance else before
+                key = column, kind, measure
+                if key not in farthest or far > farthest[key].distance:
+                    farthest[key] = Distance(*key, limit, far, *_entry(old, fresh, column, row, series))
     return list(farthest.values())
 
 
@@ -224,7 +224,8 @@ def _texts(table):
 
 
 def _given(values):
-    return values.notna() & (values != "")
+    there = values.notna()
+    return there if pd.api.types.is_numeric_dtype(values) else there & (values != "")
 
 
 def _by_series(table):
@@ -256,4 +257,4 @@ def _scales(reference, name):
 
 def _names(table, texts):
     """The text of each row, for example "a1, SIM stable"."""
-    return [", ".join(map(str, row)) for row in table[texts].itertuples(index=False)]
+    return [", ".join(map(str, row)) for row in table[texts].itertuples(index=False, name=None)]

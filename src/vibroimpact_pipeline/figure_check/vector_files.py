@@ -1,6 +1,5 @@
 """The PDF and the SVG of a figure, as libraries draw them that share no code with Matplotlib; letters of the PDF."""
 
-import io
 import unicodedata
 from collections import Counter
 from functools import lru_cache
@@ -36,7 +35,7 @@ def drawn_pdf(path) -> np.ndarray:
 def drawn_svg(path) -> np.ndarray:
     """An SVG as a picture; what is transparent is seen as in a PNG."""
     drawn = resvg_py.svg_to_bytes(svg_path=str(path), dpi=CSS_DOTS, zoom=DOTS / CSS_DOTS, skip_system_fonts=True)
-    return pictures.colours(io.BytesIO(drawn))
+    return pictures.of_png(drawn)
 
 
 DRAWN = {"pdf": drawn_pdf, "svg": drawn_svg}

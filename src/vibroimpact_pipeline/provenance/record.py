@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy
 
-from vibroimpact.figures.kit.artists import drawn_with
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.versions import drawn_with
 from vibroimpact_pipeline.checkout import root_of
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.integrity.checksums import digest_of

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
-from checking import LIMITS, assert_caught
+from checking import LIMITS, assert_caught, page_of
 from vibroimpact.figures.kit import manifold, style
 from vibroimpact_pipeline.figure_check import compare as figure_check
-from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.figure_check.verdicts import by_distance, has_failed, largest, lines
 
 WITH_POINTS = ["fig10_06", "fig10_07", "fig10_10"]
@@ -214,7 +213,7 @@ def test_a_figure_that_has_drifted_can_be_accepted_from_its_place(reference, dis
     verdict = figure_check.check("fig10_04", reference, reference, LIMITS)
     drifted = verdict | {"artists": {"distance": distance, "limit": 1.0}}
     assert drifted["status"] == "passed"
-    html = page([drifted], reference, reference, LIMITS)
+    html = page_of([drifted], reference, reference)
     assert html.count("make accept REASON=&#34;why&#34; FIGURES=&#34;fig10_04&#34;") == commands
 
 
@@ -223,7 +222,7 @@ def test_the_page_shows_all_and_fetches_nothing(reference, tmp_path):
     shutil.copy(reference / "fig10_04.png", tmp_path / "new/fig10_05.png")
     (tmp_path / "new/fig10_03.png").write_bytes(b"")
     verdicts = figure_check.check_all([], reference, tmp_path / "new", LIMITS)
-    html = page(verdicts, reference, tmp_path / "new", LIMITS)
+    html = page_of(verdicts, reference, tmp_path / "new")
     assert html.count("<img ") == 2 * len(verdicts)  # one has no new picture, one has a difference, too
     assert html.count("No pixel differs") == len(verdicts) - 2
     assert html.count("alt=") == html.count("<img ")

@@ -7,10 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from checking import LIMITS, assert_caught
+from checking import LIMITS, assert_caught, page_of
 from vibroimpact.figures.kit import tables
 from vibroimpact_pipeline.figure_check.compare import check, check_all
-from vibroimpact_pipeline.figure_check.page import page
 
 
 @pytest.fixture
@@ -97,7 +96,7 @@ def test_json_that_describes_no_figure_fails_its_figure_alone_and_the_page_shows
             (folder / "fig10_04.artists.json").write_text(content)
     verdicts = check_all([], reference, new, LIMITS)
     assert [verdict["status"] for verdict in verdicts] == ["failed", "passed"]
-    assert "fig10_05" in page(verdicts, reference, new, LIMITS)
+    assert "fig10_05" in page_of(verdicts, reference, new)
 
 
 def test_without_any_reference_every_figure_fails_by_name(both, tmp_path):

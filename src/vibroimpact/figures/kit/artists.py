@@ -4,9 +4,7 @@ Positions are fractions of their axes, widths and sizes points, colours hexadeci
 from the size of letters are left out: they differ between versions of FreeType.
 """
 
-import matplotlib
 import numpy as np
-from matplotlib import ft2font
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import Collection
@@ -17,11 +15,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
-
-
-def drawn_with() -> dict[str, str]:
-    """Versions that decide on pixels."""
-    return {"matplotlib": matplotlib.__version__, "freetype": ft2font.__freetype_version__}
 
 
 def describe(figure: Figure) -> dict:

@@ -7,8 +7,9 @@ from pathlib import Path
 import matplotlib.style
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.artists import describe, drawn_with
+from vibroimpact.figures.kit.artists import describe
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.versions import drawn_with
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
@@ -23,7 +24,10 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
-_BACKENDS = {"svg": "module://vibroimpact.figures.kit.searchable_svg"}
+_BACKENDS = {
+    "png": "module://vibroimpact.figures.kit.plain_png",
+    "svg": "module://vibroimpact.figures.kit.searchable_svg",
+}
 PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
 """The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
 
@@ -77,7 +81,7 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
         with replacing(outputs[kind]) as path:
             figure.savefig(path, format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
-        figure.set_layout_engine("none")  # one layout for all files, and not computed again for each
+        figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
     if "artists" in outputs:
         with replacing(outputs["artists"]) as path:
             content = {"drawn with": drawn_with(), **describe(figure)}
