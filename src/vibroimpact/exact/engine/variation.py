@@ -19,14 +19,15 @@ from vibroimpact.system.state import IMPACT, STICK
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 
 @compiled
-def jacobian(flow, flights, events):
-    """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (replayed)
-    and its events (`event_log`).
+def carried(flow, flights, events, total):
+    """Perturbations (8, k) of the first state as they are in the final one, in [boxes, balls], from the flights of a run
+    (replayed) and its events (`event_log`).
     """
-    total, matrix = np.eye(8), np.empty((8, 8))
+    matrix = np.empty((8, 8))
     for n in range(len(flights)):
         if flights[n, LENGTH] > 0.0:
             fill_flight(flow, flights[n], matrix)
