@@ -99,6 +99,20 @@ def test_failed_and_missing_methods_keep_their_rows():
     ]
 
 
+@pytest.mark.parametrize(("compiles", "settings"), [(False, [1, 1, 2]), (True, [1, 2, 1, 2])])
+def test_what_is_compiled_is_compiled_before_anything_is_timed(compiles, settings):
+    class Noting(Refusing):
+        compiles_settings = compiles
+
+        def run(self, system, state, cycles, tau0, setting, limit=None):
+            seen.append(setting)
+            return super().run(system, state, cycles, tau0, setting, limit)
+
+    seen = []
+    measure(PROBLEM, [Noting()], seconds=0.0)
+    assert seen == settings
+
+
 def test_the_short_form_keeps_the_finest_setting():
     euler = next(method for method in METHODS if method.name == "Moreau-Jean")
     settings = [row["setting"] for row in measure(PROBLEM, [euler], seconds=0.0, short=True)]
@@ -132,6 +146,30 @@ def test_the_comparison_takes_the_most_accurate_heyoka_and_the_fastest_sufficien
     ]
     compared = benchmark.comparison(rows, unavoidable=1e-16)
     assert [*compared.values()] == pytest.approx([0.5, 10.0, 1200.0, 10.0])
+
+
+def points(problem, method, *entries, outcome="finished", reason=""):
+    """Rows of `measure` from (setting, error of the state, error of the times, time per cycle)."""
+    names = "setting", "error_state", "error_time", "seconds_per_cycle"
+    same = {"problem": problem, "method": method, "outcome": outcome, "reason": reason}
+    return [same | dict(zip(names, entry, strict=True)) for entry in entries]
+
+
+def test_in_every_panel_heyoka_is_met_where_it_is_accurate_and_where_it_is_fastest():
+    rows = [
+        *points("one", "this engine", ("float64", 1e-15, 1e-15, 1e-6)),
+        *points("one", "heyoka", ("0.01", 1e-2, 1e-4, 1e-6), ("0.001", 1e-4, 1e-5, 5e-6), ("1e-06", 1e-7, 2e-6, 4e-6)),
+        *points("one", "heyoka", ("1e-08", 1e-9, 1e-6, 9e-6)),
+        *points("one", "DOP853", ("0.001", 1e-9, 1e-9, 1e-9)),
+        *points("two", "this engine", ("float64", 1e-15, 1e-15, 2e-6)),
+        *points("two", "heyoka", ("", None, None, None), outcome="unavailable", reason="no build"),
+    ]
+    table = {row["panel"]: row for row in benchmark.panels(rows)}
+    chosen = {letter: (row["tolerance at 1e-06"], row["tolerance at its fastest"]) for letter, row in table.items()}
+    assert chosen == {"a": ("1e-06", "1e-06"), "b": ("", ""), "c": ("1e-08", "0.01"), "d": ("", "")}
+    ratios = [(row["at 1e-06"], row["at its fastest"]) for row in table.values()]
+    np.testing.assert_allclose(ratios, [(4, 4), (np.nan, np.nan), (9, 1), (np.nan, np.nan)])
+    assert [row["says"] for row in table.values()] == ["", "heyoka: no build"] * 2
 
 
 def row(method, time, error, ratio):

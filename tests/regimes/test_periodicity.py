@@ -56,6 +56,14 @@ def test_a_drifting_motion_does_not_repeat():
     assert distance_after(drifting, PER_CYCLE, 6) == pytest.approx(0.005, rel=0.01)
 
 
+def test_what_is_only_back_where_it_began_does_not_repeat():
+    """Every period is tried in full: at its beginning the motion is back after 2 and after 3, and goes on otherwise."""
+    motion = waves(12, 1, 0, 0.1)
+    motion[2 * PER_CYCLE] = motion[0]
+    assert repeats_after(motion, PER_CYCLE, 1e-9) is None
+    assert repeats_after(waves(12, 1, 0, 0.1), PER_CYCLE, 1e-9) == 3
+
+
 def test_distance_needs_the_cycles_in_the_window():
     with pytest.raises(ValueError, match="cycles"):
         distance_after(waves(3, 1.0), PER_CYCLE, 4)

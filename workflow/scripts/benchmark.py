@@ -16,7 +16,8 @@ SECONDS, STARTS = 0.5, 1_000_000
 
 def main(config: dict, output) -> None:
     from problems import problem_of
-    from vibroimpact.accuracy.benchmark import comparison, measure, unavoidable_error
+    from vibroimpact.accuracy import work_precision
+    from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
     from vibroimpact.accuracy.throughput import throughput
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.rivals import METHODS
@@ -26,7 +27,17 @@ def main(config: dict, output) -> None:
     rows = measure(problem, METHODS, SECONDS)
     table = pd.DataFrame(rows)
     found = comparison(rows, unavoidable_error(problem)) | throughput(problem.system, STARTS)
+    raced = [method for method in METHODS if method.name in (OURS, TAYLOR)]
+    chart = [
+        row
+        for name, entry in config["accuracy"]["problems"].items()
+        for row in work_precision.measure(
+            problem_of(name, case_parameters(config, entry["case"]), entry), raced, SECONDS
+        )
+    ]
+    table_of_panels = pd.DataFrame(panels(chart)).to_string(index=False, float_format="{:.3g}".format)
     compared = [f"{name}: {value:.3g}" for name, value in found.items()]
+    compared += ["times faster than heyoka in the panels of the work-precision chart", *table_of_panels.splitlines()]
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
     print(table.to_string(index=False, float_format="{:.3g}".format))
     print(*compared, footer, sep="\n")

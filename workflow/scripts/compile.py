@@ -1,6 +1,9 @@
 """Compile the engine and its rivals into the cache of the checkout, so that the first build does not have to."""
 
+import pkgutil
 from concurrent.futures import ProcessPoolExecutor
+from importlib import import_module
+from pathlib import Path
 
 from vibroimpact_pipeline.checkout import ROOT
 from vibroimpact_pipeline.environment import prepare
@@ -8,6 +11,9 @@ from vibroimpact_pipeline.integrity import compiled
 from vibroimpact_pipeline.sources import Sources
 
 # Numba reads the environment when it is imported, so what needs it is imported after `prepare`.
+
+NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
+"""What jobs import by a name that no import statement has."""
 
 
 def beforehand():
@@ -50,6 +56,17 @@ def rivals(system, start):
             method.run(system, start, 1, 0.0, method.ladder[0])
 
 
+def imports(*_):
+    """All that jobs import, of which Python keeps compiled code as well, and Matplotlib its list of fonts."""
+    import vibroimpact
+
+    scripts = (script.stem for script in Path(__file__).parent.glob("*.py"))
+    library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))
+    for name in (*scripts, *library, *NAMED):
+        if not name.endswith("__main__"):
+            import_module(name)
+
+
 if __name__ == "__main__":
     sources = Sources()
     prepare(ROOT, sources)
@@ -60,5 +77,5 @@ if __name__ == "__main__":
     with compiled.from_unchanged(sources.stamps, ROOT), ProcessPoolExecutor(initializer=beforehand) as pool:
         first, *others = [pool.submit(work, *given) for work in (engine, certificate, rivals)]
         first.result()
-        for done in [pool.submit(ensembles, *given), *others]:
+        for done in [pool.submit(ensembles, *given), pool.submit(imports), *others]:
             done.result()

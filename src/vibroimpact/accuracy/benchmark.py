@@ -1,6 +1,7 @@
 """Speed as ratios in one run: time per impact of every method on the same motion, with its error."""
 
 from fractions import Fraction
+from string import ascii_lowercase
 
 import numpy as np
 
@@ -9,6 +10,10 @@ from vibroimpact.accuracy.work_precision import Problem, climb
 
 OURS, TAYLOR, EXPLICIT = "this engine", "heyoka", "DOP853"
 EXPLICIT_ACCURACY = 1e-8
+PANELS = {"error_state": "final state", "error_time": "impact times"}
+"""Rows of the work-precision chart."""
+ACCURATE, USEFUL = 1e-6, 1e-3
+"""Errors at which the rival is met in every panel."""
 SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
@@ -16,7 +21,7 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     """One row per method and setting: time per impact [us], ratio to ours, errors, over one motion on one core.
 
     Args:
-        seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
+        seconds: how long each setting is repeated, as in `work_precision.measure`.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles).run
     per_impact = 1e6 * problem.cycles / len(reference.events)
@@ -61,6 +66,39 @@ def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
         **{f"times faster than {rival}": row["ratio"] for rival, row in times.items() if row},
         f"error over the unavoidable {unavoidable:.2g}": ours["error_state"] / unavoidable,
     }
+
+
+def panels(rows: list[dict]) -> list[dict]:
+    """How many times faster than heyoka we are in every panel of the chart, from the rows of `work_precision.measure`.
+
+    heyoka at the coarsest tolerance whose error in the panel is at most ACCURATE, and at its fastest one with an error
+    below USEFUL; nan, with a word on why in "says", where there is none.
+    """
+    problems = dict.fromkeys(row["problem"] for row in rows)
+    places = [(error, problem) for error in PANELS for problem in problems]
+    return [
+        {"panel": letter, "problem": problem, "error of": PANELS[error]}
+        | _against_taylor([row for row in rows if row["problem"] == problem], error)
+        for letter, (error, problem) in zip(ascii_lowercase, places, strict=False)
+    ]
+
+
+def _against_taylor(rows, error):
+    """The ratios of one panel, and the tolerances that they are for."""
+    (ours,) = (row for row in rows if row["method"] == OURS)
+    rivals = [row for row in rows if row["method"] == TAYLOR]
+    finished = [row for row in rivals if row["outcome"] == "finished"]
+    useful = [row for row in finished if row[error] < USEFUL]
+    met = {
+        f"at {ACCURATE:g}": next((row for row in finished if row[error] <= ACCURATE), None),
+        "at its fastest": min(useful, key=lambda row: row["seconds_per_cycle"], default=None),
+    }
+    found = {"us per cycle": 1e6 * ours["seconds_per_cycle"]}
+    for name, row in met.items():
+        found[name] = row["seconds_per_cycle"] / ours["seconds_per_cycle"] if row else np.nan
+        found[f"tolerance {name}"] = row["setting"] if row else ""
+    missing = next((row["reason"] for row in rivals if row["outcome"] == "unavailable"), "no such run")
+    return found | {"says": "" if all(met.values()) else f"heyoka: {missing}"}
 
 
 def _of(rows, method):

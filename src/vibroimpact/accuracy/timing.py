@@ -7,18 +7,24 @@ from importlib.metadata import PackageNotFoundError, version
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
-def shortest_time(work, seconds: float, most: int = 200) -> float:
-    """Seconds of the fastest of several calls of `work`: as many as fit in `seconds`, at least one and at most `most`.
+def timed(work, seconds: float, most: int = 200) -> tuple:
+    """What `work` gives, and the seconds of the fastest of several calls of it.
 
-    Whatever is done only once (compilation, tables) must have been done by a call before.
+    There are as many as fit in `seconds`, at least one and at most `most`. Whatever is done only once (compilation,
+    tables) must have been done by a call before.
     """
     best, spent, calls = float("inf"), 0.0, 0
     while calls == 0 or (spent < seconds and calls < most):
         start = time.perf_counter()
-        work()
+        given = work()
         elapsed = time.perf_counter() - start
         best, spent, calls = min(best, elapsed), spent + elapsed, calls + 1
-    return best
+    return given, best
+
+
+def shortest_time(work, seconds: float, most: int = 200) -> float:
+    """The seconds of `timed`."""
+    return timed(work, seconds, most)[1]
 
 
 def versions() -> dict[str, str]:

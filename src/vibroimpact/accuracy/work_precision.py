@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.accuracy.timing import shortest_time
+from vibroimpact.accuracy.timing import timed
 from vibroimpact.rivals.protocol import Method, RivalRun
 from vibroimpact.system import System
 
@@ -28,7 +28,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
     """One row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
 
     Args:
-        seconds: how long each setting is repeated; the first call (compilation) is left out of the time.
+        seconds: how long each setting is repeated, after what is compiled at a first call has been compiled.
         short: every second setting of each ladder only.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles).run
@@ -44,10 +44,11 @@ def climb(problem: Problem, method: Method, ladder, reference, seconds: float) -
     missing = method.available()
     if missing:
         return [_row(problem, method, None, outcome="unavailable", reason=missing)]
+    for setting in ladder if method.compiles_settings else ladder[:1]:
+        _run(problem, method, setting)
     rows, points = [], []
     for setting in ladder:
-        run = _run(problem, method, setting)
-        time = shortest_time(lambda setting=setting: _run(problem, method, setting), seconds)
+        run, time = timed(lambda setting=setting: _run(problem, method, setting), seconds)
         errors = compare(run, reference, problem.system.period)
         if run.failure is None and errors.missed == errors.spurious == 0:
             points.append((method.scale(setting, run), errors.final))

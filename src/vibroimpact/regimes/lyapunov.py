@@ -7,10 +7,12 @@ space has one exponent more, 0, and its attractor one dimension more.
 """
 
 from dataclasses import dataclass
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from scipy.linalg.lapack import dgeqrf, dorgqr
 
 from vibroimpact.exact.engine.replay import FORCING, WALLS
 from vibroimpact.exact.engine.simulation import simulate
@@ -47,10 +49,10 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     """
     if blocks < 2:
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
-    growths = [logs[0] for _, logs in _carried(system, state, discarded + blocks, cycles, 1)]
-    if -np.inf in growths:
+    factors = np.array([factor for _, (factor,) in _carried(system, state, discarded + blocks, cycles, 1)])
+    if not factors.all():
         raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
-    rates = np.array(growths[discarded:]) / cycles
+    rates = np.log(factors[discarded:]) / cycles
     return Exponent(float(rates.mean()), float(rates.std(ddof=1) / np.sqrt(blocks)))
 
 
@@ -97,8 +99,12 @@ class Spectrum:
 
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
     """All Lyapunov exponents over so many forcing cycles after others, from a state as for `largest_exponent`."""
-    pairs = [(logs, contraction(run)) for run, logs in _carried(system, state, discarded + cycles, 1, SIZE)][discarded:]
-    growth, volume = (np.array(column) for column in zip(*pairs, strict=True))
+    runs, factors = zip(*islice(_carried(system, state, discarded + cycles, 1, SIZE), discarded, None), strict=True)
+    left = SIZE - 2 * np.array([_stuck(run) for run in runs])
+    with np.errstate(divide="ignore"):
+        growth = np.log(factors)
+    growth[np.arange(SIZE) >= left[:, None]] = -np.inf  # in floats, rounding
+    volume = np.array([contraction(run) for run in runs])
     return Spectrum(growth[:, np.argsort(-growth.mean(axis=0), kind="stable")], volume)
 
 
@@ -131,19 +137,17 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _carried(system, state, blocks, cycles, directions):
-    """Run and growth (directions,) of each block of cycles."""
+    """Run and factors of growth (directions,) of each block of cycles."""
     frame = _FRAME[:, :directions]
     for _ in range(blocks):
         run = simulate(system, state, cycles)
-        frame, upper = np.linalg.qr(run.jacobian @ frame)
-        with np.errstate(divide="ignore"):
-            logs = np.log(np.abs(np.diag(upper)))
-        logs[SIZE - 2 * _stuck(run) :] = -np.inf  # in floats, rounding
-        state = run.final
-        yield run, logs
+        # as `np.linalg.qr` does it, which takes longer to prepare than a cycle takes
+        upper, reflections, *_ = dgeqrf(run.carry(frame))
+        frame, state = dorgqr(upper, reflections)[0], run.final
+        yield run, np.abs(upper.diagonal())
 
 
 def _stuck(run):
     """Most balls that stick at one time."""
     _, flights, _ = run.course
-    return int(np.count_nonzero(flights[:, WALLS:FORCING], axis=1).max())
+    return int(np.abs(flights[:, WALLS:FORCING]).sum(axis=1).max())

@@ -51,9 +51,11 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     Args:
         displacements, per_cycle: as in `distance_after`.
     """
+    displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
-    candidates = range(1, longest + 1)
-    return next((n for n in candidates if distance_after(displacements, per_cycle, n) <= tolerance), None)
+    later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
+    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # at the start at least
+    return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:

@@ -55,15 +55,13 @@ def _rounds(system, states, observation):
     """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), np.asarray(states)
-    for _ in range(observation.rounds):
-        before, now = now, finals(system, now, observation.cycles)
+    for _ in range(observation.rounds - 1):
+        now = finals(system, now, observation.cycles)
         for place, state in zip(waiting, now, strict=True):
             found[place] = observe(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
-        waiting, before, now = waiting[passing], before[passing], now[passing]
-        if not len(waiting):
-            break
-    for place, state in zip(waiting, before, strict=True):
+        waiting, now = waiting[passing], now[passing]
+    for place, state in zip(waiting, now, strict=True):  # the last round, with the events that a name needs
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
             found[place] = _later(system, found[place], observation)

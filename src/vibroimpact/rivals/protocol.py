@@ -43,7 +43,8 @@ class Method(ABC):
 
     name, family: as printed; ladder: settings from coarse to fine, all of one kind (`knob` says which); careful: the
     one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
-    expects, or None; limit: steps after which a run is given up, what can be done in roughly half a minute.
+    expects, or None; limit: steps after which a run is given up, what can be done in roughly half a minute;
+    compiles_settings: whether each setting has code of its own, compiled when it is first run.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Method(ABC):
     careful: float | int | str
     limit: int = 100_000
     order: float | None = None
+    compiles_settings: bool = False
 
     def available(self) -> str | None:
         """None, or why the method cannot run on this machine."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from decimal import Decimal
 from fractions import Fraction
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
@@ -114,12 +114,12 @@ class Flow:
             largest = largest.max(abs(weight * entry))
         return largest.upper()
 
-    def series(self, vector) -> tuple[list, list]:
-        """Coefficients of X1 and of X2 as lists of balls, from the six entries of s."""
+    def series(self, vector) -> tuple[arb_poly, arb_poly]:
+        """X1 and X2 as power series, from the six entries of s."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())
-        return [*entries[: self.terms], tail], [*entries[self.terms :], tail]
+        return arb_poly([*entries[: self.terms], tail]), arb_poly([*entries[self.terms :], tail])
 
 
 def _rate_matrix(system: ExactSystem, stuck):

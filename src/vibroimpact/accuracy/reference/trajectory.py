@@ -155,17 +155,21 @@ class Trajectory:
 
     def _advance(self, series, step, arriving):
         walls = {candidate.module: candidate.wall for candidate in arriving}
-        motion = [arb_poly(coefficients) for coefficients in series]
-        box = [p(step) for p in motion] + [p.derivative()(step) for p in motion]
+        box = [p(step) for p in series] + [p.derivative()(step) for p in series]
         for i, ball in enumerate(self.balls):
             if ball.stuck:
                 continue
-            relative = _relative(ball, series[i])
-            ball.gap = arb(walls[i]) if i in walls else self._point(arb_poly(relative)(step))
-            ball.rate = self._point(arb_poly(relative).derivative()(step))
+            place, speed = self._free(i, step)
+            ball.gap = arb(walls[i]) if i in walls else self._point(box[i] - place)
+            ball.rate = self._point(box[2 + i] - speed)
             ball.wall, ball.order = walls.get(i, 0), 0
         self.box = [self._point(value) for value in box]
         self.tau = self._point(self.tau + step)
+
+    def _free(self, i, t):
+        """Y and Y' of a ball in free flight, after a time t."""
+        speed = self.box[2 + i] - self.balls[i].rate
+        return self.box[i] - self.balls[i].gap + speed * t, speed
 
     def _sample(self, series, step):
         """Record the samples strictly before the end of the flight."""
@@ -173,16 +177,15 @@ class Trajectory:
         if not (self.pending and self.pending[-1] < stop):
             return
         with ctx.workprec(SEARCH_BITS):
-            motion = [arb_poly(coefficients) for coefficients in series]
-            speed = [p.derivative() for p in motion]
-            gaps = [_relative(ball, coefficients) for ball, coefficients in zip(self.balls, series, strict=True)]
-            gap = [arb_poly(coefficients) for coefficients in gaps]
-            rate = [p.derivative() for p in gap]
+            speeds = [p.derivative() for p in series]
             while self.pending and self.pending[-1] < stop:
                 t = (self.pending.pop() - self.tau).mid()
-                state = [value for i in range(2) for value in (motion[i](t), motion[i](t) - gap[i](t))]
-                state += [value for i in range(2) for value in (speed[i](t), speed[i](t) - rate[i](t))]
-                self.samples.append(state)
+                places, rates = [], []
+                for i, ball in enumerate(self.balls):
+                    x, v = series[i](t), speeds[i](t)
+                    y, u = (x - ball.gap, v) if ball.stuck else self._free(i, t)
+                    places, rates = [*places, x, y], [*rates, v, u]
+                self.samples.append(places + rates)
 
     # -- the next event ----------------------------------------------------------------------------------
 
@@ -220,11 +223,13 @@ class Trajectory:
         module, wall = key
         ball = self.balls[module]
         if ball.stuck:
-            return arb_poly(_force(ball, series[module])[ball.order :])
+            return _force(ball, series[module]).right_shift(ball.order)
         relative = _relative(ball, series[module])
+        distance = -relative if wall > 0 else relative
         if ball.wall == wall:
-            return arb_poly([-wall * value for value in relative[ball.order :]])
-        return arb_poly([1 - wall * relative[0], *(-wall * value for value in relative[1:])])
+            return distance.right_shift(ball.order)
+        distance[0] = 1 + distance[0]
+        return distance
 
     # -- events ------------------------------------------------------------------------------------------
 
@@ -268,7 +273,7 @@ class Trajectory:
             if not ball.stuck:
                 continue
             series = self._flow(self.bits + GUARD_BITS).series(self._vector())
-            force = _force(ball, series[module])
+            force = _force(ball, series[module]).coeffs()
             ball.order = next((k for k, value in enumerate(force) if abs(value) > self.tolerance), None)
             if ball.order is None or force[ball.order] > 0:
                 continue
@@ -340,15 +345,15 @@ class Trajectory:
 
 
 def _relative(ball, motion):
-    """Taylor coefficients of W = X - Y: those of X from the second order on, the ball flying freely."""
-    if ball.stuck:
-        return [ball.gap]
-    return [ball.gap, ball.rate, *motion[2:]]
+    """W = X - Y of a ball in free flight as a power series: that of X from the second order on."""
+    relative = arb_poly(motion)
+    relative[0], relative[1] = ball.gap, ball.rate
+    return relative
 
 
 def _force(ball, motion):
-    """Taylor coefficients of w X'', the acceleration that wall w gives a ball that rests on it."""
-    return [ball.wall * (k + 2) * (k + 1) * value for k, value in enumerate(motion[2:])]
+    """w X'' as a power series, the acceleration that wall w gives a ball that rests on it."""
+    return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):

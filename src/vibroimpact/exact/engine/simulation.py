@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.request import NO_TIMES, checked_state, checked_times, checked_window
-from vibroimpact.exact.engine.variation import PUBLIC_ORDER, jacobian
+from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals
 from vibroimpact.system.glance import Glance, brief
@@ -79,7 +79,11 @@ class Run(Glance):
     @cached_property
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
-        return jacobian(*self.course)[np.ix_(PUBLIC_ORDER, PUBLIC_ORDER)]
+        return self.carry(np.eye(8))
+
+    def carry(self, perturbations: np.ndarray) -> np.ndarray:
+        """Perturbations (8, k) of the start as they are in the final state, to first order."""
+        return carried(*self.course, perturbations[INNER_ORDER])[PUBLIC_ORDER]
 
     @cached_property
     def certificate(self) -> Certificate:

@@ -19,22 +19,37 @@ from vibroimpact.system.state import IMPACT, STICK
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 
 @compiled
-def jacobian(flow, flights, events):
-    """Derivative (8, 8) of the final state by the first one, in [boxes, balls], from the flights of a run (replayed)
-    and its events (`event_log`).
+def carried(flow, flights, events, total):
+    """Perturbations (8, k) of the first state of a run as they are in the final one, in [boxes, balls].
+
+    From the run's flights (replayed) and its events (`event_log`); what is given is overwritten.
     """
-    total, matrix = np.eye(8), np.empty((8, 8))
+    matrix, later = np.empty((8, 8)), np.empty_like(total)
     for n in range(len(flights)):
         if flights[n, LENGTH] > 0.0:
             fill_flight(flow, flights[n], matrix)
-            total = matrix @ total
+            _fill_product(matrix, total, later)
+            total, later = later, total
         if n < len(events):
             fill_event(flow.coefficients, flights, events, n, matrix)
-            total = matrix @ total
+            _fill_product(matrix, total, later)
+            total, later = later, total
     return total
+
+
+@inlined
+def _fill_product(matrix, vectors, product):
+    """Fill the product with (8, k) vectors; so small a one takes BLAS longer to prepare than to compute."""
+    for row in range(8):
+        for column in range(vectors.shape[1]):
+            total = 0.0
+            for k in range(8):
+                total += matrix[row, k] * vectors[k, column]
+            product[row, column] = total
 
 
 @compiled

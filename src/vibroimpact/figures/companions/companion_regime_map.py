@@ -77,9 +77,9 @@ def _borders(system, cells):
         square = _square(cells, series.replace(" ", "_"))
 
         @cache
-        def crossing(a, b, which=which):
+        def crossing(first, second, which=which):
+            (a, start), (b, _) = first, second
             low, high = np.array(a), np.array(b)
-            start = counts(*a)[which]
             for _ in range(HALVINGS):
                 middle = (low + high) / 2
                 low, high = (middle, high) if counts(*middle)[which] == start else (low, middle)
@@ -104,7 +104,7 @@ def _squares(cells, square):
 def _pieces(corners, crossing):
     """The border within a square: from side to side, or from each side to the middle where three or four parts meet."""
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
-    ends = [crossing(first[0], second[0]) for first, second in sides]
+    ends = [crossing(first, second) for first, second in sides]
     if len(ends) == 2:
         return [ends]
     middle = tuple(np.mean(ends, axis=0)) if ends else None

@@ -3,7 +3,8 @@
 
 def smallest_visible_error(figure) -> float:
     """The smallest error that the lines of a figure can show, as a share of an axis: half the thinnest line's width."""
-    figure.draw_without_rendering()
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
     shares = []
     for axes in figure.axes:
         widths = [line.get_linewidth() for line in axes.lines if line.get_linestyle() != "None"]
