@@ -12,8 +12,10 @@ from functools import partial
 from vibroimpact.exact.engine.code_cache import kept
 
 _alike = partial(kept, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
+_counts_nothing = partial(_alike, _nrt=False)
 compiled = _alike(fastmath={"contract"}, forceinline=False)
-inlined = _alike(fastmath={"contract"}, forceinline=True)
-unfolded = _alike(fastmath={"contract"}, forceinline=True, inline="always")
-literal = _alike(forceinline=True)
+loop = _counts_nothing(fastmath={"contract"}, forceinline=False, no_cpython_wrapper=True)
+inlined = _counts_nothing(fastmath={"contract"}, forceinline=True)
+unfolded = _counts_nothing(fastmath={"contract"}, forceinline=True, inline="always")
+literal = _counts_nothing(forceinline=True)
 """Inlined, every operation rounded as it is written: for sums that catch their own rounding."""
