@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
+from vibroimpact.exact.engine.vectors import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
@@ -57,6 +58,7 @@ class Flow(NamedTuple):
 
     coefficients: Coefficients
     propagators: np.ndarray
+    series: np.ndarray
     rotations: np.ndarray
     spacing: float
     density: float
@@ -71,7 +73,8 @@ def flow_of(system) -> Flow:
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    propagators = _powers(np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES]), spacing, count)
+    rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
+    propagators = _powers(rates, spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -92,6 +95,7 @@ def flow_of(system) -> Flow:
     return Flow(
         coefficients,
         propagators,
+        _series(rates, propagators, rotations),
         rotations,
         spacing,
         1.0 / spacing,
@@ -114,6 +118,28 @@ def _powers(rates, spacing, count):
         table = np.concatenate([table, table[:, : count - made] @ step[:, None]], axis=1)
         step = step @ step
     return table.astype(float)
+
+
+def _series(rates, propagators, rotations):
+    """Taylor coefficients of both boxes, X_i^(k) / k! at place 8 i + k, at the times of the table, by the states of its start: (4, n, 6, 16)."""
+    phase = np.zeros((len(rotations), 2, 6))
+    cosine, sine = rotations.T
+    phase[:, 0, 4], phase[:, 0, 5], phase[:, 1, 4], phase[:, 1, 5] = cosine, sine, -sine, cosine
+    table = np.empty((*propagators.shape[:2], 6, 16))
+    for mode, rate in enumerate(rates):
+        there = np.concatenate([propagators[mode], phase], axis=1)  # (n, 6, 6)
+        term = np.eye(6, dtype=np.longdouble)
+        for k in range(8):
+            table[mode, :, :, k::8] = np.swapaxes(term[:2].astype(float) @ there, 1, 2)
+            term = rate @ term / (k + 1)
+    table[:, :, :, 0::8], table[:, :, :, 1::8] = (np.swapaxes(propagators[:, :, k:k+2], 2, 3) for k in (0, 2))
+    return table
+
+
+@inlined
+def jet_at(flow, mode, boxes, sine, cosine, j):
+    """`jet` at the j-th time of the table, j * flow.spacing."""
+    return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
 @inlined
