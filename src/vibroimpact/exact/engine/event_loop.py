@@ -22,7 +22,7 @@ from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.engine.motion import Motion, glide
-from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
+from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
 FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED, FULL = range(6)
 FAILURES = {
@@ -82,8 +82,7 @@ def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
     status = FINISHED
     while True:
-        sine, cosine = math.sin(phase), math.cos(phase)
-        sine, cosine = sine + cosine * tail, cosine - sine * tail
+        sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.ledger[EVENTS])
         if noted + MOST_AT_ONCE > len(log.rows):
             return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), FULL

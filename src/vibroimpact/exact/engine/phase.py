@@ -79,6 +79,34 @@ def _fused(_, a, b, c):
     return signature, lambda context, builder, signature, arguments: builder.fma(*arguments)
 
 
+QUARTER = 0.5 * math.pi
+QUARTER_TAIL = 6.123233995736766e-17  # pi / 2 - float(pi / 2)
+_SINE = -1.66666666666666324348e-01, 8.33333333332248946124e-03, -1.98412698298579493134e-04, 2.75573137070700676789e-06, -2.50507602534068634195e-08, 1.58969099521155010221e-10
+_COSINE = 4.16666666666666019037e-02, -1.38888888888741095749e-03, 2.48015872894767294178e-05, -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.13596475577881948265e-11
+
+
+@literal
+def sine_and_cosine(phase, tail):
+    """Sine and cosine of a phase in [0, 7) and what it leaves out."""
+    turns = math.floor(phase * (1.0 / QUARTER) + 0.5)
+    x = _fused(-turns, QUARTER, phase)
+    y = tail - turns * QUARTER_TAIL
+    z = x * x
+    w = z * z
+    s = _fused(w, _fused(z, _SINE[5], _SINE[4]), _fused(z, _SINE[3], _SINE[2]))
+    s = _fused(w, s, _fused(z, _SINE[1], _SINE[0]))
+    c = _fused(w, _fused(z, _COSINE[5], _COSINE[4]), _fused(z, _COSINE[3], _COSINE[2]))
+    c = _fused(w, c, _fused(z, _COSINE[1], _COSINE[0]))
+    h = 0.5 * z
+    one = 1.0 - h
+    sine = x + (y - h * y + (z * x) * s)
+    cosine = one + (((1.0 - one) - h) + (w * c - x * y))
+    quarter = int(turns)
+    if quarter & 1:
+        sine, cosine = cosine, -sine
+    return (-sine, -cosine) if quarter & 2 else (sine, cosine)
+
+
 @literal
 def ahead(phase, tail, omega, t):
     """The phase a time t later, not reduced; what product and sum round off goes to the tail."""
