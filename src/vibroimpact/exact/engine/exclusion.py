@@ -65,6 +65,13 @@ def safe_time(c, horizon):
     return t
 
 
+@inlined
+def half_curvature(p, t):
+    """Half the second derivative of a polynomial of degree 7, p (8,), at t."""
+    t2 = t * t
+    return (p[2] + t * (3.0 * p[3])) + t2 * ((6.0 * p[4] + t * (10.0 * p[5])) + t2 * (15.0 * p[6] + t * (21.0 * p[7])))
+
+
 UNCERTAIN = (False, 0.0, math.inf)
 MOST_STEPS = 8
 CONVERGING = 1e-8  # a step of Newton's method so short leaves an error below rounding
@@ -83,8 +90,8 @@ def crossing(c, remainder, margin, horizon, short):
         return True, horizon, math.inf
     root = c[1] * c[1] - 4.0 * c[0] * c[2]
     t = 2.0 * c[0] / (math.sqrt(root) - c[1]) if root > 0.0 else -c[0] / c[1]
-    for _ in range(2):
-        t -= value(low, t) / slope(low, t)
+    f, g = value(low, t), slope(low, t)
+    t -= f * g / (g * g - f * half_curvature(low, t))  # Halley's method
     unsure = abs(value(low, t)) + margin + 2.0 * remainder * abs(t) ** 7
     until = 1.125 * abs(t) - 8.0 * margin / c[1]
     if not abs(t) <= until <= horizon:
@@ -101,9 +108,10 @@ def crossing(c, remainder, margin, horizon, short):
 @inlined
 def nearby_zero(c, t):
     """The zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
-    near = -c[0] / c[1]
-    if abs(near * c[2]) < 0.05 * abs(c[1]):
-        t = near - near * near * c[2] / c[1]
+    inverse = 1.0 / c[1]
+    near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
+    if abs(near * b) < 0.05:  # the series of the inverse function
+        t = near + near * near * (near * ((2.0 * b * b - d) + near * (5.0 * b * (d - b * b) - e)) - b)
     for _ in range(MOST_STEPS):
         step = value(c, t) / slope(c, t)
         t -= step
