@@ -41,6 +41,22 @@ def least(c, t):
 
 
 @inlined
+def bound(c, t):
+    """A lower bound of the polynomial c (8,) on [0, t], of `least` or a quicker one if it is positive.
+
+    The quicker one takes the terms from the fourth power on by their size.
+    """
+    t2 = t * t
+    third, ninth = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
+    one = c[0] + third
+    two = one + third + ninth
+    three = c[0] + 3.0 * (third + ninth) + c[3] * (t * t2)
+    rest = (t2 * t2) * ((abs(c[4]) + t * abs(c[5])) + t2 * (abs(c[6]) + t * abs(c[7])))
+    low = min(min(c[0], one), min(two, three)) - rest
+    return low if low > 0.0 else least(c, t)
+
+
+@inlined
 def safe_time(c, horizon):
     """A time in [0, horizon] up to which the polynomial c (8,) is positive: close to its first zero if that is simple,
     and at least half as far as its Bernstein coefficients tell, or 0 if not c[0] > 0.
@@ -86,7 +102,7 @@ def crossing(c, remainder, margin, horizon, short):
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
-    if value(low, horizon) > margin and least(fall, horizon) > 0.0:
+    if value(low, horizon) > margin and bound(fall, horizon) > 0.0:
         return True, horizon, math.inf
     root = c[1] * c[1] - 4.0 * c[0] * c[2]
     t = 2.0 * c[0] / (math.sqrt(root) - c[1]) if root > 0.0 else -c[0] / c[1]
