@@ -223,9 +223,11 @@ def advance(flow, mode, boxes, sine, cosine, t):
     """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
-    there, s, c = node(flow, mode, boxes, sine, cosine, j)
+    jets = jet_at(flow, mode, boxes, sine, cosine, j)
+    co, si = flow.rotations[j, 0], flow.rotations[j, 1]
+    s, c = sine * co + cosine * si, cosine * co - sine * si
     angle = flow.coefficients.omega * r
     h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))
     ca = 1.0 - h * (1 / 2) * (1.0 - h * (1 / 12) * (1.0 - h * (1 / 30)))
-    return along(jet(flow.coefficients, mode, there, s, c), r), s * ca + c * sa, c * ca - s * sa
+    return along(jets, r), s * ca + c * sa, c * ca - s * sa
