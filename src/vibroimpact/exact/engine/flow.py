@@ -121,18 +121,21 @@ def _powers(rates, spacing, count):
 
 
 def _series(rates, propagators, rotations):
-    """Taylor coefficients of both boxes, X_i^(k) / k! at place 8 i + k, at the times of the table, by the states of its start: (4, n, 6, 16)."""
-    phase = np.zeros((len(rotations), 2, 6))
+    """Taylor coefficients of the boxes at the times of the table, for each state at its start: shape (4, n, 6, 16).
+
+    X_i^(k) / k! of box i is at place 8 i + k. Positions and velocities are those of the propagators, rounded once.
+    """
+    phases = np.zeros((len(rotations), 2, 6))
     cosine, sine = rotations.T
-    phase[:, 0, 4], phase[:, 0, 5], phase[:, 1, 4], phase[:, 1, 5] = cosine, sine, -sine, cosine
+    phases[:, 0, 4], phases[:, 0, 5], phases[:, 1, 4], phases[:, 1, 5] = cosine, sine, -sine, cosine
     table = np.empty((*propagators.shape[:2], 6, 16))
-    for mode, rate in enumerate(rates):
-        there = np.concatenate([propagators[mode], phase], axis=1)  # (n, 6, 6)
-        term = np.eye(6, dtype=np.longdouble)
+    for filled, rate, boxes in zip(table, rates, propagators, strict=True):
+        powers, rows = np.eye(6, dtype=np.longdouble), np.empty((2, 8, 6))
         for k in range(8):
-            table[mode, :, :, k::8] = np.swapaxes(term[:2].astype(float) @ there, 1, 2)
-            term = rate @ term / (k + 1)
-    table[:, :, :, 0::8], table[:, :, :, 1::8] = (np.swapaxes(propagators[:, :, k:k+2], 2, 3) for k in (0, 2))
+            rows[:, k] = powers[:2]
+            powers = rate @ powers / (k + 1)
+        filled[:] = np.tensordot(np.concatenate([boxes, phases], axis=1), rows.reshape(16, 6), axes=(1, 1))
+        filled[:, :, 0::8], filled[:, :, 1::8] = (np.swapaxes(boxes[:, k : k + 2], 1, 2) for k in (0, 2))
     return table
 
 
