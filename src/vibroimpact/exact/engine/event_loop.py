@@ -11,12 +11,11 @@ release   the contact force of a sticking ball falls to zero, or an impact in th
 Time is the forcing phase, kept modulo one period without loss (phase.ahead), so it does not lose digits in long runs.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, loop, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
@@ -40,8 +39,8 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 
 
 class Course(NamedTuple):
-    """Where a run is: the motion; the module due; the phase, exactly, and the revolutions; the time elapsed; how many samples are taken, and how
-    many events ago time stood still last.
+    """Where a run is: its motion and the module due; phase, exactly, revolutions and time elapsed; the samples taken, and
+    for how many events time has stood still.
     """
 
     motion: Motion
@@ -73,7 +72,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     return motion.boxes, motion.balls, log.rows[: int(log.ledger[EVENTS])], status, log.ledger
 
 
-@loop
+@in_place
 def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log):
     """Run on to the end, or until the log is full: (course, status)."""
     q = flow.coefficients

@@ -1,8 +1,8 @@
 """Free flight in closed form: the linear flow of the boxes, evaluated without time stepping.
 
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-The flow over a time t is exp(A j h) from a table (`node`), then the Taylor polynomial there (`jet`) over the rest of
-at most h/2, short enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
+The flow over a time t is the Taylor polynomial at j h, from a table (`jet_at`), over the rest of at most h/2, short
+enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
 resonant spectra are no exception.
 """
 
@@ -50,8 +50,8 @@ class Coefficients(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing (and its inverse),
-    their longest time.
+    """Tables of one system: propagators (4, n, 4, 6), series (4, n, 6, 16), rotations (n, 2); their spacing (and
+    its inverse), their longest time.
 
     unit: a time over which nothing in the system changes much, 1 / its fastest rate.
     """
@@ -141,7 +141,7 @@ def _series(rates, propagators, rotations):
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """`jet` at the j-th time of the table, j * flow.spacing."""
+    """`jet` at the j-th time of the table, j * flow.spacing, of what is in free flight from these boxes on."""
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
@@ -200,6 +200,13 @@ def slope(p, t):
 
 
 @inlined
+def half_curvature(p, t):
+    """Half the second derivative of a polynomial of degree 7, p (8,), at t."""
+    t2 = t * t
+    return (p[2] + t * (3.0 * p[3])) + t2 * ((6.0 * p[4] + t * (10.0 * p[5])) + t2 * (15.0 * p[6] + t * (21.0 * p[7])))
+
+
+@inlined
 def along(jets, t):
     """The boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
     one, two = jets
@@ -217,8 +224,15 @@ def node(flow, mode, boxes, sine, cosine, j):
     y2 = p[1, 0] * x1 + p[1, 1] * x2 + p[1, 2] * v1 + p[1, 3] * v2 + p[1, 4] * sine + p[1, 5] * cosine
     w1 = p[2, 0] * x1 + p[2, 1] * x2 + p[2, 2] * v1 + p[2, 3] * v2 + p[2, 4] * sine + p[2, 5] * cosine
     w2 = p[3, 0] * x1 + p[3, 1] * x2 + p[3, 2] * v1 + p[3, 3] * v2 + p[3, 4] * sine + p[3, 5] * cosine
+    s, c = _turned(flow, sine, cosine, j)
+    return (y1, y2, w1, w2), s, c
+
+
+@inlined
+def _turned(flow, sine, cosine, j):
+    """Sine and cosine of the forcing phase at the j-th time of the table."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
-    return (y1, y2, w1, w2), sine * ca + cosine * sa, cosine * ca - sine * sa
+    return sine * ca + cosine * sa, cosine * ca - sine * sa
 
 
 @inlined
@@ -227,8 +241,7 @@ def advance(flow, mode, boxes, sine, cosine, t):
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
-    co, si = flow.rotations[j, 0], flow.rotations[j, 1]
-    s, c = sine * co + cosine * si, cosine * co - sine * si
+    s, c = _turned(flow, sine, cosine, j)
     angle = flow.coefficients.omega * r
     h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))

@@ -12,6 +12,11 @@ from vibroimpact.exact.engine.compiled import literal
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
+QUARTER = 0.5 * math.pi
+QUARTER_TAIL = 0.25 * TWO_PI_TAIL
+SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(1, 8))
+COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(2, 9))
+"""Taylor coefficients of the sine from the third power on, of the cosine from the fourth."""
 _GUARD_BITS = 192
 
 
@@ -79,32 +84,30 @@ def _fused(_, a, b, c):
     return signature, lambda context, builder, signature, arguments: builder.fma(*arguments)
 
 
-QUARTER = 0.5 * math.pi
-QUARTER_TAIL = 6.123233995736766e-17  # pi / 2 - float(pi / 2)
-_SINE = -1.66666666666666324348e-01, 8.33333333332248946124e-03, -1.98412698298579493134e-04, 2.75573137070700676789e-06, -2.50507602534068634195e-08, 1.58969099521155010221e-10
-_COSINE = 4.16666666666666019037e-02, -1.38888888888741095749e-03, 2.48015872894767294178e-05, -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.13596475577881948265e-11
+@literal
+def sine_and_cosine(phase, tail):
+    """Sine and cosine of a phase in [0, 2 pi] and what it leaves out, to a unit in the last place, on every machine.
+
+    The Taylor series over the eighth of a turn next to the nearest quarter.
+    """
+    quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
+    x, y = _fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
+    z = x * x
+    half = 0.5 * z
+    one = 1.0 - half
+    sine = x + (y - half * y + (z * x) * _series(SINE, z))
+    cosine = one + (((1.0 - one) - half) + ((z * z) * _series(COSINE, z) - x * y))
+    if int(quarters) & 1:
+        sine, cosine = cosine, -sine
+    return (-sine, -cosine) if int(quarters) & 2 else (sine, cosine)
 
 
 @literal
-def sine_and_cosine(phase, tail):
-    """Sine and cosine of a phase in [0, 7) and what it leaves out."""
-    turns = math.floor(phase * (1.0 / QUARTER) + 0.5)
-    x = _fused(-turns, QUARTER, phase)
-    y = tail - turns * QUARTER_TAIL
-    z = x * x
+def _series(c, z):
+    """A polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
     w = z * z
-    s = _fused(w, _fused(z, _SINE[5], _SINE[4]), _fused(z, _SINE[3], _SINE[2]))
-    s = _fused(w, s, _fused(z, _SINE[1], _SINE[0]))
-    c = _fused(w, _fused(z, _COSINE[5], _COSINE[4]), _fused(z, _COSINE[3], _COSINE[2]))
-    c = _fused(w, c, _fused(z, _COSINE[1], _COSINE[0]))
-    h = 0.5 * z
-    one = 1.0 - h
-    sine = x + (y - h * y + (z * x) * s)
-    cosine = one + (((1.0 - one) - h) + (w * c - x * y))
-    quarter = int(turns)
-    if quarter & 1:
-        sine, cosine = cosine, -sine
-    return (-sine, -cosine) if quarter & 2 else (sine, cosine)
+    upper = _fused(w, _fused(w, c[6], _fused(z, c[5], c[4])), _fused(z, c[3], c[2]))
+    return _fused(w, upper, _fused(z, c[1], c[0]))
 
 
 @literal

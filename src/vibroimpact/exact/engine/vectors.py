@@ -1,39 +1,51 @@
-"""Arithmetic of eight numbers at once, which the compiler does not find by itself."""
+"""Sums of rows of a table, eight numbers at once, as the compiler does not form them by itself."""
 
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-EIGHT = ir.VectorType(ir.DoubleType(), 8)
+WIDTH = 8
+NUMBERS, INDICES = ir.VectorType(ir.DoubleType(), WIDTH), ir.VectorType(ir.IntType(32), WIDTH)
+NOTHING = ir.Constant(NUMBERS, ir.Undefined)
 
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Sum over m of weights[m] table[mode, j, m], of a table (modes, n, m, 16): two tuples of eight."""
-    eight = types.UniTuple(types.float64, 8)
-    signature = types.UniTuple(eight, 2)(table, types.intp, types.intp, weights)
+    """Sum over m of weights[m] times table[mode, j, m], a table (modes, n, m, 16): its two halves, tuples of eight."""
+    eight = types.UniTuple(types.float64, WIDTH)
 
     def generate(context, builder, signature, arguments):
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
         zero = context.get_constant(types.intp, 0)
-        indices = [*arguments[1:3], zero, zero]
-        start = cgutils.get_item_pointer(context, builder, signature.args[0], array, indices)
+        start = cgutils.get_item_pointer(
+            context, builder, signature.args[0], array, [arguments[1], arguments[2], zero, zero]
+        )
+        weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
         halves = []
         for half in range(2):
-            total = None
-            for m in range(signature.args[3].count):
-                place = builder.gep(start, [context.get_constant(types.intp, 16 * m + 8 * half)])
-                row = builder.load(builder.bitcast(place, EIGHT.as_pointer()), align=8)
-                weight = builder.extract_value(arguments[3], m)
-                first = builder.insert_element(ir.Constant(EIGHT, ir.Undefined), weight, ir.Constant(ir.IntType(32), 0))
-                spread = builder.shuffle_vector(
-                    first, ir.Constant(EIGHT, ir.Undefined), ir.Constant(ir.VectorType(ir.IntType(32), 8), [0] * 8)
-                )
-                part = builder.fmul(row, spread, flags=("contract",))
-                total = part if total is None else builder.fadd(total, part, flags=("contract",))
-            entries = [builder.extract_element(total, ir.Constant(ir.IntType(32), k)) for k in range(8)]
-            halves.append(context.make_tuple(builder, eight, entries))
+            rows = [_row(context, builder, start, 2 * m + half) for m in range(len(weights))]
+            halves.append(context.make_tuple(builder, eight, _entries(builder, _sum(builder, rows, weights))))
         return context.make_tuple(builder, signature.return_type, halves)
 
-    return signature, generate
+    return types.UniTuple(eight, 2)(table, types.intp, types.intp, weights), generate
+
+
+def _row(context, builder, start, place):
+    """The vector at a place after the start."""
+    pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
+    return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
+
+
+def _sum(builder, rows, weights):
+    """The weighted sum of vectors, product and sum rounded as one where the processor can."""
+    total = None
+    for row, weight in zip(rows, weights, strict=True):
+        first = builder.insert_element(NOTHING, weight, ir.IntType(32)(0))
+        part = builder.fmul(row, builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH)), flags=("contract",))
+        total = part if total is None else builder.fadd(total, part, flags=("contract",))
+    return total
+
+
+def _entries(builder, vector):
+    return [builder.extract_element(vector, ir.IntType(32)(k)) for k in range(WIDTH)]
