@@ -39,7 +39,7 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 
 
 class Course(NamedTuple):
-    """Where a run is: its motion and the module due; phase, exactly, revolutions and time elapsed; the samples taken, and
+    """Where a run is: its motion, the module due; the phase, exactly, revolutions, time elapsed; the samples taken, and
     for how many events time has stood still.
     """
 
