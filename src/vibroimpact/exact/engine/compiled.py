@@ -4,7 +4,8 @@ product and sum rounded as one where the processor can (no sum is reordered).
 What runs at every event becomes part of the loop: handing over a motion and its Taylor polynomials (some 30 numbers)
 would cost more than what is computed from them. What is called from one place is mostly put there before anything is
 compiled (`unfolded`), which spares compiling it twice; the rest is compiled once and then inlined. Each
-says whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that happens to be compiled first.
+says whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is compiled
+first.
 
 Only what is `compiled` makes arrays. All else works in memory that is given, and counts no references to it: a count is
 a locked operation and a call, for which all numbers at hand are put away.
