@@ -1,7 +1,10 @@
 """The engine of this package, as one method among the others."""
 
+from functools import partial
+
 import numpy as np
 
+from vibroimpact.exact.engine.event_log import APPROACH, KIND, MODULE, TIME, WALL
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system.state import IMPACT as IMPACT_KIND
@@ -17,17 +20,12 @@ class Engine(Method):
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
             return failed(REFUSED, str(error), 0)
-        events = run.events
-        impacts = np.empty(len(events), IMPACT)
-        for name in ("tau", "module", "wall"):
-            impacts[name] = events[name]
-        velocities = events["state"][:, 4:]
-        rebound = np.where(
-            events["module"] == 1, velocities[:, 0] - velocities[:, 1], velocities[:, 2] - velocities[:, 3]
-        )
-        impacts["speed"] = np.abs(rebound) / system.kappa
-        impacts = impacts[events["kind"] == IMPACT_KIND]
-        return RivalRun(run.final, impacts, len(events) + 1, doubt=lambda: _doubt(run, tau0 + cycles * system.period))
+        rows = run.rows[run.rows[:, KIND] == IMPACT_KIND]
+        impacts = np.empty(len(rows), IMPACT)
+        impacts["tau"], impacts["module"], impacts["wall"] = tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL]
+        impacts["speed"] = np.abs(rows[:, APPROACH])
+        doubt = partial(_doubt, run, tau0 + cycles * system.period)
+        return RivalRun(run.final, impacts, len(run.rows) + 1, doubt=doubt)
 
 
 def _doubt(run, end):

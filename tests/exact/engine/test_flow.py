@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from numba import njit
 
-from vibroimpact.exact.engine.exclusion import crossing, least, nearby_zero, return_time, safe_time
-from vibroimpact.exact.engine.flow import CONTACT_STATES, advance, flow_of, jet
+from vibroimpact.exact.engine.exclusion import crossing, least, nearby_zero, positive, return_time, safe_time
+from vibroimpact.exact.engine.flow import CONTACT_STATES, advance, flow_of, jet, jet_at
 from vibroimpact.system.matrices import rate_matrix
 
 SPECTRA = {
@@ -59,6 +60,34 @@ def test_jet_against_50_digits(chapter):
             for k in range(8):
                 assert [jets[0][k], jets[1][k]] == pytest.approx([float(term[0]), float(term[1])], abs=1e-15)
                 term = rate * term / (k + 1)
+
+
+def test_series_of_the_table_against_50_digits(chapter):
+    system = chapter(1.0, 0.6)
+    flow, z = flow_of(system), [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]
+    with mp.workdps(50):
+        for mode, stuck in enumerate(CONTACT_STATES):
+            rate = mp.matrix(rate_matrix(system, stuck).tolist())
+            for j in (0, 1, len(flow.rotations) - 1):
+                term = mp.expm(rate * (j * flow.spacing)) * mp.matrix(z)
+                jets = series_at(flow, mode, j, tuple(z))
+                for k in range(8):
+                    assert [jets[0][k], jets[1][k]] == pytest.approx([float(term[0]), float(term[1])], abs=2e-15)
+                    term = rate * term / (k + 1)
+
+
+@njit
+def series_at(flow, mode, j, z):
+    return jet_at(flow, mode, z[:4], z[4], z[5], j)
+
+
+@settings(derandomize=True, deadline=None)
+@given(c=polynomials, t=st.floats(0.01, 3))
+@example(c=(1.0, -0.3, 0.01, 0.02, 0.01, 0.0, 0.0, 0.0), t=3.0)
+def test_positive_is_what_least_says_and_never_more(c, t):
+    assert positive(c, t) >= (least(c, t) > 0.0)
+    if positive(c, t):
+        assert np.polyval(c[::-1], np.linspace(0, t, 200)).min() > -1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
 
 
 @settings(derandomize=True, deadline=None)

@@ -8,7 +8,7 @@ from flint import arb, ctx
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.phase import Instant, ahead, phase_at, reduced
+from vibroimpact.exact.engine.phase import Instant, ahead, phase_at, reduced, sine_and_cosine
 
 START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
 
@@ -18,6 +18,18 @@ def distance_on_the_circle(phase, omega, offset):
     with ctx.workprec(4000):
         turns = (arb(phase[0]) + arb(phase[1]) - arb(omega) * arb(offset)) / (2 * arb.pi())
         return float(abs(turns - (turns + 0.5).floor()))
+
+
+def test_sine_and_cosine_to_a_unit_in_the_last_place():
+    rng = np.random.default_rng(0)
+    quarters = np.arange(5) * np.pi / 2
+    for phase in (*rng.uniform(0, 2 * np.pi, 2000), *quarters, *(quarters + 0.75), *(quarters[1:] - np.pi / 4)):
+        tail = float(rng.uniform(-0.5, 0.5) * np.spacing(phase))
+        with ctx.workprec(200):
+            angle = arb(float(phase)) + arb(tail)
+            exact = angle.sin(), angle.cos()
+        for found, true in zip(sine_and_cosine(float(phase), tail), exact, strict=True):
+            assert abs(float(arb(found) - true)) <= max(np.spacing(abs(found)), 1e-32)
 
 
 @pytest.mark.parametrize("omega", [1.02, 0.3, 1e5, 1e300, 1e-300])

@@ -4,7 +4,11 @@ product and sum rounded as one where the processor can (no sum is reordered).
 What runs at every event becomes part of the loop: handing over a motion and its Taylor polynomials (some 30 numbers)
 would cost more than what is computed from them. What is called from one place is mostly put there before anything is
 compiled (`unfolded`), which spares compiling it twice; the rest is compiled once and then inlined. Each
-says whether it is inlined, since Numba takes what is left open from the caller that happens to be compiled first.
+says whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is compiled
+first.
+
+Only what is `compiled` makes arrays. All else works in memory that is given, and counts no references to it: a count is
+a locked operation and a call, for which all numbers at hand are put away.
 """
 
 from functools import partial
@@ -12,8 +16,10 @@ from functools import partial
 from vibroimpact.exact.engine.code_cache import kept
 
 _alike = partial(kept, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
-compiled = _alike(fastmath={"contract"}, forceinline=False)
-inlined = _alike(fastmath={"contract"}, forceinline=True)
-unfolded = _alike(fastmath={"contract"}, forceinline=True, inline="always")
-literal = _alike(forceinline=True)
+_given_memory = partial(_alike, _nrt=False)
+compiled = _alike(fastmath={"contract"}, forceinline=False, _nrt=True)
+in_place = _given_memory(fastmath={"contract"}, forceinline=False, no_cpython_wrapper=True)
+inlined = _given_memory(fastmath={"contract"}, forceinline=True)
+unfolded = _given_memory(fastmath={"contract"}, forceinline=True, inline="always")
+literal = _given_memory(forceinline=True)
 """Inlined, every operation rounded as it is written: for sums that catch their own rounding."""

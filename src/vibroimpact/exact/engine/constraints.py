@@ -10,7 +10,7 @@ from vibroimpact.exact.engine.flow import jet
 from vibroimpact.exact.engine.motion import mode_of
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-LOOKAHEAD = 2.5  # in units of the flow: the longest time that one proof is asked for
+LOOKAHEAD = 2.5
 NOTHING = 1e-300  # a margin of a force that stays zero
 SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
 

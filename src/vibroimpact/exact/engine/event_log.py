@@ -22,6 +22,7 @@ class Log(NamedTuple):
     ledger: np.ndarray
 
 
+TIME, MODULE, WALL, KIND = range(4)
 PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # places in a row, and its length
 
 

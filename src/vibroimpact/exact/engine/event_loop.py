@@ -11,19 +11,19 @@ release   the contact force of a sticking ball falls to zero, or an impact in th
 Time is the forcing phase, kept modulo one period without loss (phase.ahead), so it does not lose digits in long runs.
 """
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.engine.motion import Motion, glide
-from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced
+from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
-FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
+FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED, FULL = range(6)
 FAILURES = {
     PENETRATED: "a ball went through a wall",
     STALLED: "time stands still",
@@ -38,6 +38,21 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
 
 
+class Course(NamedTuple):
+    """Where a run is: its motion, the module due; the phase, exactly, revolutions, time elapsed; the samples taken, and
+    for how many events time has stood still.
+    """
+
+    motion: Motion
+    due: int
+    phase: float
+    tail: float
+    revolutions: int
+    elapsed: float
+    sampled: int
+    stalled: int
+
+
 @compiled
 def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples):
     """Run a state over a number of forcing cycles.
@@ -46,20 +61,30 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     when the run starts; samples (n, 8) is filled (at an event: the state after it). Returns the boxes and balls at the
     end, the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
     """
-    q = flow.coefficients
     log = Log(np.empty((64, ROW)), np.zeros(ENTRIES))
-    motion, due = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1
-    (first, first_tail), revolutions, elapsed = start_phase, 0, 0.0
-    phase, tail = first, first_tail
-    sampled, stalled, status = 0, 0, FINISHED
+    motion = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0)
+    course, status = Course(motion, -1, start_phase[0], start_phase[1], 0, 0.0, 0, 0), FULL
+    while status == FULL:
+        course, status = _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log)
+        if status == FULL:
+            log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
+    motion = course.motion
+    return motion.boxes, motion.balls, log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+
+
+@in_place
+def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log):
+    """Run on to the end, or until the log is full: (course, status)."""
+    q = flow.coefficients
+    (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, course
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
+    status = FINISHED
     while True:
-        sine, cosine = math.sin(phase), math.cos(phase)
-        sine, cosine = sine + cosine * tail, cosine - sine * tail
+        sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.ledger[EVENTS])
         if noted + MOST_AT_ONCE > len(log.rows):
-            log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
+            return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), FULL
         ahead_of_start = (phase - first) + (tail - first_tail)
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
@@ -91,7 +116,7 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     while sampled < len(sample_times):
         pack(motion.boxes, motion.balls, samples[sampled])
         sampled += 1
-    return motion.boxes, motion.balls, log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+    return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), status
 
 
 @unfolded

@@ -13,7 +13,7 @@ The tests are carried out in floating point. Callers lower c0 by a margin, the r
 import math
 
 from vibroimpact.exact.engine.compiled import inlined
-from vibroimpact.exact.engine.flow import slope, value
+from vibroimpact.exact.engine.flow import half_curvature, slope, value
 
 MOMENT = 1e-300  # times do not go on shrinking below it
 
@@ -38,6 +38,19 @@ def least(c, t):
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
         low = low if low < b[0] else b[0]  # no number if the polynomial is none
     return low
+
+
+@inlined
+def positive(c, t):
+    """Whether the polynomial c (8,) is certainly positive on [0, t].
+
+    Mostly that can be told with the terms from the fourth power on taken by their size, for half of what `least` costs.
+    """
+    t2 = t * t
+    line, square = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
+    first, second, last = c[0] + line, c[0] + 2.0 * line + square, c[0] + 3.0 * (line + square) + c[3] * (t * t2)
+    rest = (t2 * t2) * ((abs(c[4]) + t * abs(c[5])) + t2 * (abs(c[6]) + t * abs(c[7])))
+    return min(min(c[0], first), min(second, last)) > rest or least(c, t) > 0.0
 
 
 @inlined
@@ -79,12 +92,12 @@ def crossing(c, remainder, margin, horizon, short):
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
-    if value(low, horizon) > margin and least(fall, horizon) > 0.0:
+    if value(low, horizon) > margin and positive(fall, horizon):
         return True, horizon, math.inf
     root = c[1] * c[1] - 4.0 * c[0] * c[2]
     t = 2.0 * c[0] / (math.sqrt(root) - c[1]) if root > 0.0 else -c[0] / c[1]
-    for _ in range(2):
-        t -= value(low, t) / slope(low, t)
+    f, g = value(low, t), slope(low, t)
+    t -= f * g / (g * g - f * half_curvature(low, t))  # Halley's method
     unsure = abs(value(low, t)) + margin + 2.0 * remainder * abs(t) ** 7
     until = 1.125 * abs(t) - 8.0 * margin / c[1]
     if not abs(t) <= until <= horizon:
@@ -101,9 +114,10 @@ def crossing(c, remainder, margin, horizon, short):
 @inlined
 def nearby_zero(c, t):
     """The zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
-    near = -c[0] / c[1]
-    if abs(near * c[2]) < 0.05 * abs(c[1]):
-        t = near - near * near * c[2] / c[1]
+    inverse = 1.0 / c[1]
+    near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
+    if abs(near * b) < 0.05:  # four terms of the series of the inverse function
+        t = near + near * near * (near * ((2.0 * b * b - d) + near * (5.0 * b * (d - b * b) - e)) - b)
     for _ in range(MOST_STEPS):
         step = value(c, t) / slope(c, t)
         t -= step

@@ -11,7 +11,7 @@ from vibroimpact.exact.engine.compiled import inlined, unfolded
 from vibroimpact.exact.engine.constraints import LOOKAHEAD, SHORT, gap, module_time, remainder
 from vibroimpact.exact.engine.event_log import EVALUATIONS, FLIGHTS, UNDECIDED
 from vibroimpact.exact.engine.exclusion import nearby_zero
-from vibroimpact.exact.engine.flow import along, jet, node
+from vibroimpact.exact.engine.flow import along, jet_at
 from vibroimpact.exact.engine.motion import carry, glide, mode_of
 
 TRIES = 3
@@ -34,7 +34,7 @@ def fly(flow, motion, remaining, most_proofs, ledger):
         if t >= reach:
             return t, -1, now.boxes, now.balls
         ledger[EVALUATIONS] += 1
-        jets = jet(q, mode, now.boxes, now.sine, now.cosine)
+        jets = jet_at(flow, mode, now.boxes, now.sine, now.cosine, 0)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _next(q, now, jets, bound, horizon, short)
@@ -97,8 +97,8 @@ def _aim(flow, motion, i, t, low, high):
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
-        now, s, c = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
-        jets = jet(flow.coefficients, mode, now, s, c)
+        jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
+        now = jets[0][0], jets[1][0], jets[0][1], jets[1][1]
         there = carry(motion.balls, motion.walls, now, j * flow.spacing)
         w = 1.0 if now[i] > there[i] else -1.0
         step = nearby_zero(gap(jets[0] if i == 0 else jets[1], there[i], there[2 + i], w), t - j * flow.spacing)

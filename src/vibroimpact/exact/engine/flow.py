@@ -1,8 +1,8 @@
 """Free flight in closed form: the linear flow of the boxes, evaluated without time stepping.
 
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-The flow over a time t is exp(A j h) from a table (`node`), then the Taylor polynomial there (`jet`) over the rest of
-at most h/2, short enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
+The flow over a time t is the Taylor polynomial at j h, from a table (`jet_at`), over the rest of at most h/2, short
+enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
 resonant spectra are no exception.
 """
 
@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
+from vibroimpact.exact.engine.vectors import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
@@ -49,14 +50,15 @@ class Coefficients(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Tables of one system: propagators (4, n, 4, 6), forcing rotations (n, 2), their spacing (and its inverse),
-    their longest time.
+    """Tables of one system: propagators (4, n, 4, 6), series (4, n, 6, 16), rotations (n, 2); their spacing (and
+    its inverse), their longest time.
 
     unit: a time over which nothing in the system changes much, 1 / its fastest rate.
     """
 
     coefficients: Coefficients
     propagators: np.ndarray
+    series: np.ndarray
     rotations: np.ndarray
     spacing: float
     density: float
@@ -71,7 +73,8 @@ def flow_of(system) -> Flow:
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    propagators = _powers(np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES]), spacing, count)
+    rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
+    propagators = _powers(rates, spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -92,6 +95,7 @@ def flow_of(system) -> Flow:
     return Flow(
         coefficients,
         propagators,
+        _series(rates, propagators, rotations),
         rotations,
         spacing,
         1.0 / spacing,
@@ -114,6 +118,31 @@ def _powers(rates, spacing, count):
         table = np.concatenate([table, table[:, : count - made] @ step[:, None]], axis=1)
         step = step @ step
     return table.astype(float)
+
+
+def _series(rates, propagators, rotations):
+    """Taylor coefficients of the boxes at the times of the table, for each state at its start: shape (4, n, 6, 16).
+
+    X_i^(k) / k! of box i is at place 8 i + k. Positions and velocities are those of the propagators, rounded once.
+    """
+    phases = np.zeros((len(rotations), 2, 6))
+    cosine, sine = rotations.T
+    phases[:, 0, 4], phases[:, 0, 5], phases[:, 1, 4], phases[:, 1, 5] = cosine, sine, -sine, cosine
+    table = np.empty((*propagators.shape[:2], 6, 16))
+    for filled, rate, boxes in zip(table, rates, propagators, strict=True):
+        powers, rows = np.eye(6, dtype=np.longdouble), np.empty((2, 8, 6))
+        for k in range(8):
+            rows[:, k] = powers[:2]
+            powers = rate @ powers / (k + 1)
+        filled[:] = np.tensordot(np.concatenate([boxes, phases], axis=1), rows.reshape(16, 6), axes=(1, 1))
+        filled[:, :, 0::8], filled[:, :, 1::8] = (np.swapaxes(boxes[:, k : k + 2], 1, 2) for k in (0, 2))
+    return table
+
+
+@inlined
+def jet_at(flow, mode, boxes, sine, cosine, j):
+    """`jet` at the j-th time of the table, j * flow.spacing, of what is in free flight from these boxes on."""
+    return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
 @inlined
@@ -171,6 +200,13 @@ def slope(p, t):
 
 
 @inlined
+def half_curvature(p, t):
+    """Half the second derivative of a polynomial of degree 7, p (8,), at t."""
+    t2 = t * t
+    return (p[2] + t * (3.0 * p[3])) + t2 * ((6.0 * p[4] + t * (10.0 * p[5])) + t2 * (15.0 * p[6] + t * (21.0 * p[7])))
+
+
+@inlined
 def along(jets, t):
     """The boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
     one, two = jets
@@ -188,8 +224,15 @@ def node(flow, mode, boxes, sine, cosine, j):
     y2 = p[1, 0] * x1 + p[1, 1] * x2 + p[1, 2] * v1 + p[1, 3] * v2 + p[1, 4] * sine + p[1, 5] * cosine
     w1 = p[2, 0] * x1 + p[2, 1] * x2 + p[2, 2] * v1 + p[2, 3] * v2 + p[2, 4] * sine + p[2, 5] * cosine
     w2 = p[3, 0] * x1 + p[3, 1] * x2 + p[3, 2] * v1 + p[3, 3] * v2 + p[3, 4] * sine + p[3, 5] * cosine
+    s, c = _turned(flow, sine, cosine, j)
+    return (y1, y2, w1, w2), s, c
+
+
+@inlined
+def _turned(flow, sine, cosine, j):
+    """Sine and cosine of the forcing phase at the j-th time of the table."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
-    return (y1, y2, w1, w2), sine * ca + cosine * sa, cosine * ca - sine * sa
+    return sine * ca + cosine * sa, cosine * ca - sine * sa
 
 
 @inlined
@@ -197,9 +240,10 @@ def advance(flow, mode, boxes, sine, cosine, t):
     """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
-    there, s, c = node(flow, mode, boxes, sine, cosine, j)
+    jets = jet_at(flow, mode, boxes, sine, cosine, j)
+    s, c = _turned(flow, sine, cosine, j)
     angle = flow.coefficients.omega * r
     h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))
     ca = 1.0 - h * (1 / 2) * (1.0 - h * (1 / 12) * (1.0 - h * (1 / 30)))
-    return along(jet(flow.coefficients, mode, there, s, c), r), s * ca + c * sa, c * ca - s * sa
+    return along(jets, r), s * ca + c * sa, c * ca - s * sa

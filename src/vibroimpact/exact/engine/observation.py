@@ -2,10 +2,10 @@
 
 import math
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
 from vibroimpact.exact.engine.contact import box_accelerations
 from vibroimpact.exact.engine.event_log import APPROACH, COSINE, SINE
-from vibroimpact.exact.engine.flow import advance, jet, node, slope, value
+from vibroimpact.exact.engine.flow import advance, jet_at, node, slope, value
 from vibroimpact.exact.engine.motion import Motion, glide, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.replay import first_departure, next_departure
 from vibroimpact.exact.engine.squares import fall, potential, squares_along, squares_before
@@ -23,7 +23,7 @@ NEAR = 0.02  # in units of the flow: so far from a node its Taylor polynomial is
 TRIES, STEPS = 8, 3
 
 
-@unfolded
+@in_place
 def observe(flow, squares, start, events, final, phase, ends, seen):
     """Fill in what is seen, zeros (SEEN,), of a run.
 
@@ -111,7 +111,7 @@ def _within(flow, i, start, end, length, most):
     return abs(early) < left and abs(late) < left and abs(inner) < left and abs(outer) < left
 
 
-@compiled
+@in_place
 def _search(flow, forms, motion, end, late, left, seen):
     """Add what is seen on the way of a flight: its turns, and what no potentials tell."""
     mode = mode_of(motion.walls)
@@ -120,8 +120,8 @@ def _search(flow, forms, motion, end, late, left, seen):
         now = Motion(end, motion.balls, motion.walls, (0, 0), late[0], late[1]) if t == left else glide(flow, motion, t)
         if forms.shape[1] > 0:
             j = int(t * flow.density + 0.5)
-            there, s, c = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
-            jets, rest = jet(flow.coefficients, mode, there, s, c), t - j * flow.spacing
+            jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
+            rest = t - j * flow.spacing
             one, two = squares_before(forms, mode, j, motion.boxes, motion.sine, motion.cosine)
             seen[SQUARE] += one + squares_along(jets[0], rest)
             seen[SQUARE + 1] += two + squares_along(jets[1], rest)
@@ -201,8 +201,7 @@ def _turn(flow, motion, i, times, speeds):
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
         place = j * flow.spacing
-        boxes, s, c = node(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
-        jets = jet(flow.coefficients, mode, boxes, s, c)
+        jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         p, step = jets[0] if i == 0 else jets[1], t - place
         for _ in range(STEPS):
             bend = _rate(p, step)

@@ -1,6 +1,6 @@
 """Direct integration of the equations of motion, (10.1) in the form (10.2)."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
@@ -33,7 +33,7 @@ class Run(Glance):
         X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
         leaves it (release); state, (8,), just after the event.
     samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
-    ledger: the kernel's (`event_log`).
+    rows, ledger: the kernel's (`event_log`).
 
     States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
     """
@@ -44,8 +44,8 @@ class Run(Glance):
     cycles: int
     samples: np.ndarray
     final: np.ndarray
-    _rows: np.ndarray = field(repr=False)
-    ledger: np.ndarray = field(repr=False)
+    rows: np.ndarray
+    ledger: np.ndarray
 
     def _glance(self):
         counts = np.bincount(self.events["kind"], minlength=len(KINDS))
@@ -59,11 +59,11 @@ class Run(Glance):
 
     @cached_property
     def events(self) -> np.ndarray:
-        table = np.empty(len(self._rows), EVENT)
-        table["tau"] = self.tau0 + self._rows[:, 0]
-        for column, name in enumerate(("module", "wall", "kind"), start=1):
-            table[name] = self._rows[:, column]
-        table["state"] = self._rows[:, 4 : event_log.PHASE]
+        table = np.empty(len(self.rows), EVENT)
+        table["tau"] = self.tau0 + self.rows[:, event_log.TIME]
+        for name, column in (("module", event_log.MODULE), ("wall", event_log.WALL), ("kind", event_log.KIND)):
+            table[name] = self.rows[:, column]
+        table["state"] = self.rows[:, 4 : event_log.PHASE]
         return table
 
     @property
@@ -113,7 +113,7 @@ class Run(Glance):
         """The flow, the flights between the events and the events as `replayed` and `event_log` tell them."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
-        return flow, replayed(flow, self.start, self._rows, phase, duration), self._rows
+        return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
 
 
 def simulate(
