@@ -46,7 +46,7 @@ def impact_sequence(times: np.ndarray, period: float):
 
 
 def free_flights(system, begins: np.ndarray, durations: np.ndarray):
-    """Of free flights from times (n,), of such durations (n,): the maps x -> A x + b of states, (n, 8, 8) and (n, 8)."""
+    """Of free flights from times (n,) of durations (n,): the maps x -> A x + b of states, (n, 8, 8) and (n, 8)."""
     flow = expm(rate_matrix(system) * durations[:, None, None])
     phases = system.Omega * begins
     maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))

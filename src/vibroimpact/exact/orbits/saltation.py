@@ -14,7 +14,8 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
     """d state / d tau in free flight for states (..., 8) at times tau (...), shape (..., 8), from (10.2)."""
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
-    field[..., BOXES] = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], -1) @ rate_matrix(system)[:4].T
+    boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
+    field[..., BOXES] = boxes @ rate_matrix(system)[:4].T
     field[..., BALLS[:2]] = state[..., BALLS[2:]]
     return field
 
@@ -30,8 +31,8 @@ def impact_matrix(system, module: np.ndarray) -> np.ndarray:
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
     """Saltation matrix S, shape (..., 8, 8): perturbation after = S perturbation before, both taken at the time tau.
 
-    before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion meets
-    the wall n . x = const earlier or later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-)
+    before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
+    meets the wall n . x = const earlier or later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-)
     (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters through f- and f+ alone: wall and
     impact law do not depend on time. det S = kappa^2.
 

@@ -182,18 +182,19 @@ def _state(system, times, changes, speeds, sign):
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
 
     def boxes(tau):
-        forced = amplitude * np.exp(1j * system.Omega * tau)
-        motion = np.concatenate([forced.imag, system.Omega * forced.real])
-        return motion + np.einsum("iksi,ik->s", response(tau - times[:, :trains]), kicks)
+        forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
+        kicked = response.of_trains(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
+        return np.hstack([forced.imag, system.Omega * forced.real]) + np.einsum("niks,ik->ns", kicked, kicks)
 
-    state = np.empty(8)
-    state[BOXES] = boxes(0.0)
     since = wrapped(-times, system.period)
-    for i, last in enumerate(since.argmin(axis=1)):
-        wall = (1, -1)[last]
-        velocity = wall * speeds[i, last]
-        state[BALLS[i]] = boxes(times[i, last])[i] - wall + velocity * since[i, last]
-        state[BALLS[2 + i]] = velocity
+    modules, last = np.arange(2), since.argmin(axis=1)
+    walls = np.array([1, -1])[last]
+    velocities = walls * speeds[modules, last]
+    now, *then = boxes(np.array([0.0, *times[modules, last]]))
+    state = np.empty(8)
+    state[BOXES] = now
+    state[BALLS[:2]] = np.diagonal(then) - walls + velocities * since[modules, last]
+    state[BALLS[2:]] = velocities
     return state
 
 
@@ -218,7 +219,7 @@ def extremes(system, passage: Passage) -> np.ndarray:
 
 
 def _samples(step, start, count):
-    """step^k start for k < count, shape (n, count, d), for steps (n, d, d), by doubling (rounding grows with log(count))."""
+    """step^k start for k < count, shape (n, count, d), by doubling: rounding grows with log(count) only."""
     samples, ahead = start[:, None], step.swapaxes(1, 2)
     while (made := samples.shape[1]) < count:
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
