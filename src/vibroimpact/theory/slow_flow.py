@@ -82,16 +82,15 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     drive_other_x = K * ahead * (B_x / ahead)[::-1]
     drive_other_psi = -1j * from_other
 
-    J, M = np.zeros((4, 4)), np.eye(4)
-    for i in (0, 1):
-        own, other = 2 * i, 2 * (1 - i)
-        row = np.zeros(4, dtype=complex)
-        row[own : own + 2] = drive_own_x[i], drive_own_psi[i]
-        row[other : other + 2] = drive_other_x[i], drive_other_psi[i]
-        J[own] = row.imag / 2
-        J[own + 1] = row.real / (2 * B[i])
-        J[own + 1, own] -= drive[i].real * B_x[i] / (2 * B[i] ** 2)
-        M[own, own] = B_x[i]
+    i = np.arange(2)
+    change = np.empty((2, 2, 2), dtype=complex)  # of the drive of one module by x and psi of one
+    change[i, i] = np.stack([drive_own_x, drive_own_psi], axis=1)
+    change[i, 1 - i] = np.stack([drive_other_x, drive_other_psi], axis=1)
+    change = change.reshape(2, 4)
+    J = np.stack([change.imag / 2, change.real / (2 * B[:, None])], axis=1).reshape(4, 4)
+    J[2 * i + 1, 2 * i] -= drive.real * B_x / (2 * B**2)
+    M = np.eye(4)
+    M[2 * i, 2 * i] = B_x
     return J, M
 
 

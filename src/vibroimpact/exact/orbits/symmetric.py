@@ -26,6 +26,7 @@ from vibroimpact.system.matrices import stiffness_matrix
 _DEGREE = 32
 _PIECES_AT_ONCE = 256  # so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
+_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding
 _NEAR = 1e-3  # a double root may come out of the eigenvalue solver as a pair off the real axis
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
@@ -138,7 +139,7 @@ def _roots_of_condition(system, conditions):
         series = chebyshev.chebfit(nodes, values.T, _DEGREE).T
         rootless = abs(series[:, 0]) > (1 + _NEAR) * abs(series[:, 1:]).sum(axis=1)
         for centre, one in zip(some[~rootless], series[~rootless], strict=True):
-            near = chebyshev.chebroots(one)
+            near = chebyshev.chebroots(chebyshev.chebtrim(one, _NOISE * abs(one).max()))
             near = near[(abs(near.imag) < _NEAR) & (abs(near.real) < 1 + _NEAR)]
             roots.append(centre + half * near.real)
     return np.concatenate([*roots, []])
