@@ -19,6 +19,7 @@ CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
 
 STEPS_PER_UNIT = 32
 LONGEST_TABLE = 8192
+TERMS = 25  # of the exponential series over one spacing
 
 
 class Coefficients(NamedTuple):
@@ -68,10 +69,9 @@ class Flow(NamedTuple):
 def flow_of(system) -> Flow:
     """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
     stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
-    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
-    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
-    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    propagators = _powers(np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES]), spacing, count)
+    free = _free(system.with_(kappa=0.5, f10_hat=0.0, f20_hat=0.0))
+    spacing, (_, count, *_) = free.spacing, free.table.shape
+    propagators = _forced(free, np.array([rate_matrix(system, stuck)[:4, 4:] for stuck in CONTACT_STATES]))
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -96,24 +96,63 @@ def flow_of(system) -> Flow:
         spacing,
         1.0 / spacing,
         spacing * (count - 1),
-        1.0 / fastest,
+        free.unit,
     )
 
 
-def _powers(rates, spacing, count):
-    """The boxes' rows of exp(rate spacing j) for j < count, shape (4, count, 4, 6), of rates (4, 6, 6); in extended
-    precision so that the table is rounded only once.
+class Free(NamedTuple):
+    """The tables but for the forces, which enter their last two columns alone, in extended precision, so that what is
+    made of them is rounded only once.
+
+    turn: the forcing phase's rate times the spacing (2, 2). terms (25, 4, 6, 6): of the series of the exponential over
+    a spacing; steps (k, 4, 6, 6): over 1, 2, 4, ... of them; table (4, n, 4, 4): the boxes' over 0, 1, 2, ... of them.
     """
-    scaled = rates.astype(np.longdouble) * spacing
-    term = step = np.broadcast_to(np.eye(6, dtype=np.longdouble), scaled.shape)
-    for k in range(1, 25):
-        term = term @ scaled / k
-        step = step + term
-    table = np.broadcast_to(np.eye(6, dtype=np.longdouble)[:4], (4, 1, 4, 6))
+
+    spacing: float
+    unit: float
+    terms: np.ndarray
+    steps: list[np.ndarray]
+    table: np.ndarray
+
+
+@lru_cache(maxsize=64)
+def _free(system) -> Free:
+    """What the tables of a system have in common with those under other forces and with other restitution."""
+    stiffness, damping = stiffness_matrix(system), damping_matrix(system)
+    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
+    scaled = spacing * np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES], dtype=np.longdouble)
+    terms = [np.broadcast_to(np.eye(6, dtype=np.longdouble), scaled.shape)]
+    for k in range(1, TERMS):
+        terms.append(terms[-1] @ scaled / k)
+    steps, table = [sum(terms)], terms[0][:, None, :4, :4]
     while (made := table.shape[1]) < count:
-        table = np.concatenate([table, table[:, : count - made] @ step[:, None]], axis=1)
-        step = step @ step
-    return table.astype(float)
+        table = np.concatenate([table, table[:, : count - made] @ steps[-1][:, None, :4, :4]], axis=1)
+        steps.append(steps[-1] @ steps[-1])
+    return Free(spacing, 1.0 / fastest, np.array(terms), steps[:-1], table)
+
+
+def _forced(free, rates):
+    """The tables (4, n, 4, 6) under a force that drives the boxes at these rates (4, 4, 2), by sine and cosine."""
+    rate = np.concatenate([rates * np.longdouble(free.spacing), free.terms[1][:, 4:, 4:]], axis=1)
+    pushed = step = np.zeros_like(rate[:, :4])
+    for k, term in enumerate(free.terms[:-1], 1):
+        pushed = _pushed(term[:, :4, :4], pushed, rate) / k
+        step = step + pushed
+    columns = np.zeros_like(step)[:, None]
+    for over in free.steps:
+        last = np.concatenate([step, over[:, 4:, 4:]], axis=1)
+        made = min(columns.shape[1], free.table.shape[1] - columns.shape[1])
+        further = _pushed(free.table[:, :made], columns[:, :made], last[:, None])
+        columns = np.concatenate([columns, further], axis=1)
+        step = _pushed(over[:, :4, :4], step, last)
+    return np.concatenate([free.table, columns], axis=-1).astype(float)
+
+
+def _pushed(boxes, force, last):
+    """The last two columns of the product of [[boxes, force], [0, ...]] with a matrix with these last two columns."""
+    return np.concatenate([boxes, force], axis=-1) @ last
 
 
 @inlined
