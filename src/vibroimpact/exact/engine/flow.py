@@ -104,8 +104,8 @@ class Free(NamedTuple):
     """The tables but for the forces, which enter their last two columns alone, in extended precision, so that what is
     made of them is rounded only once.
 
-    turn: the forcing phase's rate times the spacing (2, 2). terms (25, 4, 6, 6): of the series of the exponential over
-    a spacing; steps (k, 4, 6, 6): over 1, 2, 4, ... of them; table (4, n, 4, 4): the boxes' over 0, 1, 2, ... of them.
+    spacing, unit: those of the Flow. terms (25, 4, 6, 6): of the series of the exponential over a spacing. steps
+    (k, 4, 6, 6): the exponential over 1, 2, 4, ... spacings. table (4, n, 4, 6): the boxes' rows over 0, 1, 2, ...
     """
 
     spacing: float
@@ -126,9 +126,9 @@ def _free(system) -> Free:
     terms = [np.broadcast_to(np.eye(6, dtype=np.longdouble), scaled.shape)]
     for k in range(1, TERMS):
         terms.append(terms[-1] @ scaled / k)
-    steps, table = [sum(terms)], terms[0][:, None, :4, :4]
+    steps, table = [sum(terms)], terms[0][:, None, :4]
     while (made := table.shape[1]) < count:
-        table = np.concatenate([table, table[:, : count - made] @ steps[-1][:, None, :4, :4]], axis=1)
+        table = np.concatenate([table, table[:, : count - made] @ steps[-1][:, None]], axis=1)
         steps.append(steps[-1] @ steps[-1])
     return Free(spacing, 1.0 / fastest, np.array(terms), steps[:-1], table)
 
@@ -140,14 +140,13 @@ def _forced(free, rates):
     for k, term in enumerate(free.terms[:-1], 1):
         pushed = _pushed(term[:, :4, :4], pushed, rate) / k
         step = step + pushed
-    columns = np.zeros_like(step)[:, None]
-    for over in free.steps:
+    table = free.table.copy()
+    for made, over in zip(2 ** np.arange(len(free.steps)), free.steps, strict=True):
         last = np.concatenate([step, over[:, 4:, 4:]], axis=1)
-        made = min(columns.shape[1], free.table.shape[1] - columns.shape[1])
-        further = _pushed(free.table[:, :made], columns[:, :made], last[:, None])
-        columns = np.concatenate([columns, further], axis=1)
+        further = table[:, made : 2 * made]
+        further[..., 4:] = table[:, : further.shape[1]] @ last[:, None]
         step = _pushed(over[:, :4, :4], step, last)
-    return np.concatenate([free.table, columns], axis=-1).astype(float)
+    return table.astype(float)
 
 
 def _pushed(boxes, force, last):
