@@ -10,8 +10,9 @@ def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5
 
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
     `reach` in every component. A start has converged once its step is below `tolerance` (1 + |x|), or, if all steps are
-    used up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root. What starts have
-    beyond the d unknowns stays as it is, for the equations to use.
+    used up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
+
+    What starts have beyond the d unknowns stays as it is, for the equations to use.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
