@@ -5,7 +5,7 @@ import pandas as pd
 from vibroimpact.claims.verdict_table import NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet_verdict import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
-from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
 from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.search import fixed_points
@@ -20,30 +20,33 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     theory, admissible (whether its exact orbit stays between the walls) and floquet: the verdict on that orbit,
     "no orbit" where there is none (see `companion_verdicts.partners`).
     """
+    forces = plane_of_forces(f10_range, f20_range, points)
+    plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
+    theory = [[(point, criteria.of_fixed_point(here, point)) for point in fixed_points(here)] for here in plane]
     rows = []
-    for f10, f20 in plane_of_forces(f10_range, f20_range, points):
-        here = system.with_(f10_hat=f10, f20_hat=f20)
-        listed = fixed_points(here)
-        says = [criteria.of_fixed_point(here, point) for point in listed]
-        for value in epsilon if listed else ():
-            exact = exact_verdicts(here.with_(epsilon=value), [point.C for point in listed])
-            place = {"epsilon": value, "f10_hat": f10, "f20_hat": f20}
+    for value in epsilon:
+        roots = symmetric_solutions_under(system.with_(epsilon=value), forces)
+        for here, judged, there in zip(plane, theory, roots, strict=True):
+            exact = exact_verdicts(here.with_(epsilon=value), [point.C for point, _ in judged], there)
+            place = {"epsilon": value, "f10_hat": here.f10_hat, "f20_hat": here.f20_hat}
             rows += [
-                {**place, "C1": point.C[0], "C2": point.C[1], **said, **found}
-                for point, said, found in zip(listed, says, exact, strict=True)
+                {**place, "C1": point.C[0], "C2": point.C[1], **says, **found}
+                for (point, says), found in zip(judged, exact, strict=True)
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
     return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
 
-def exact_orbits(system, points):
-    """The Orbit of each fixed point, by their C (n, 2), None where there is none."""
-    roots = symmetric_solutions(system)
+def exact_orbits(system, points, roots):
+    """The Orbit of each fixed point, by their C (n, 2), None where there is none.
+
+    roots: of all symmetric orbits, as `symmetric_solutions` lists them.
+    """
     for partner in partners(points, roots[:, 2:]):
         yield None if partner is None else symmetric_orbit(system, roots[partner])
 
 
-def exact_verdicts(system, points):
-    """What is true of the orbit of each fixed point, by their C (n, 2): "admissible" and "floquet", as in `compute`."""
-    for orbit in exact_orbits(system, points):
+def exact_verdicts(system, points, roots):
+    """What is true of the orbit of each fixed point: "admissible" and "floquet", as in `compute`."""
+    for orbit in exact_orbits(system, points, roots):
         yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, "floquet": floquet(orbit)}

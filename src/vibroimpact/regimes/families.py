@@ -14,7 +14,6 @@ import numpy as np
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
-from vibroimpact.regimes.excursion import largest_excursion
 from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.theory.fixed_points.search import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
@@ -76,7 +75,7 @@ class SymmetricOrbits:
             FOLD: _product(1 - half),
             SYMMETRY_BREAKING: _product(1 + half),
             NEIMARK_SACKER: _pairs(half),
-            GRAZING: 1 - largest_excursion(orbit),
+            GRAZING: 1 - orbit.excursion,
         }
 
     @staticmethod
@@ -141,7 +140,7 @@ class AsymmetricOrbits(SymmetricOrbits):
             FOLD: _product(1 - mu),
             PERIOD_DOUBLING: _product(1 + mu),
             NEIMARK_SACKER: _pairs(mu),
-            GRAZING: 1 - largest_excursion(orbit),
+            GRAZING: 1 - orbit.excursion,
         }
 
 

@@ -17,14 +17,15 @@ def stiffness_matrix(system) -> np.ndarray:
 
 def masses(system, stuck=(False, False)) -> np.ndarray:
     """Moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks to a wall."""
-    return np.where(stuck, 1.0 + system.epsilon, 1.0)
+    return np.array([1.0 + system.epsilon if sticks else 1.0 for sticks in stuck])
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
     """K - Omega^2 M + i Omega C, shape (2, 2) complex: forcing amplitude over harmonic response."""
     omega = system.Omega
-    mass = np.diag(masses(system, stuck))
-    return stiffness_matrix(system) - omega**2 * mass + 1j * omega * damping_matrix(system)
+    dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
+    dynamic[[0, 1], [0, 1]] -= omega**2 * masses(system, stuck)
+    return dynamic
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:

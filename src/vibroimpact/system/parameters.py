@@ -120,6 +120,10 @@ class System:
         return replace(self, **changes)
 
     def _resonates(self) -> bool:
-        left, values, _ = np.linalg.svd(dynamic_stiffness(self))
+        stiffness = dynamic_stiffness(self)
+        (a, b), (c, d) = stiffness.tolist()
+        if abs(a * d - b * c) > 1e-12 * (abs(a) ** 2 + abs(b) ** 2 + abs(c) ** 2 + abs(d) ** 2):
+            return False  # the ratio of the singular values is larger yet
+        left, values, _ = np.linalg.svd(stiffness)
         loaded = abs(left[:, -1].conj() @ self.forcing) > 1e-12 * np.linalg.norm(self.forcing)
         return bool(values[-1] < 1e-12 * values[0] and loaded)

@@ -93,13 +93,11 @@ def _eigenvalues(system, psi, C, error):
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):
         return values, np.full(4, np.inf)
-    changes = [(_ULPS * np.linalg.norm(J), _ULPS * np.linalg.norm(M))]
-    for k in range(4):
-        shift = _STEP * np.eye(4)[k].reshape(2, 2)
-        ahead = linearisation(system, psi + shift[:, 1], C + shift[:, 0])
-        behind = linearisation(system, psi - shift[:, 1], C - shift[:, 0])
-        scale = error / (2 * _STEP)
-        changes.append([scale * np.linalg.norm(a - b) for a, b in zip(ahead, behind, strict=True)])
-    dJ, dM = np.sum(changes, axis=0)
+    shifts = _STEP * np.eye(4).reshape(4, 2, 2)
+    ahead, behind = (linearisation(system, psi + s[..., 1], C + s[..., 0]) for s in (shifts, -shifts))
+    moved = [np.linalg.norm(a - b, axis=(-2, -1)).sum() for a, b in zip(ahead, behind, strict=True)]
+    dJ, dM = (
+        _ULPS * np.linalg.norm(of) + error / (2 * _STEP) * change for of, change in zip((J, M), moved, strict=True)
+    )
     lengths = np.linalg.norm(left, axis=0) * np.linalg.norm(right, axis=0)
     return values, lengths * (dJ + np.abs(values) * dM) / np.abs(np.einsum("ij,ij->j", left.conj(), M @ right))

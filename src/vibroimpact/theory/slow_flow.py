@@ -7,6 +7,7 @@ from vibroimpact.theory.manifold import B_of_C, rho, slope
 
 # Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
 FIRST_HARMONIC = 8 / np.pi**2
+_ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
@@ -47,13 +48,13 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Matrices (J, M), each (4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
+    """Matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
 
     Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
     follow B; the usual Jacobian in (B, psi) is infinite there.
 
     Args:
-        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (2,).
+        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2).
     """
     r = rho(system.kappa)
     C = np.asarray(C, dtype=float)
@@ -67,31 +68,27 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     """`linearisation` for modules on any curve B(x), N(x) B(x) of a parameter x, for small changes of (x_i, psi_i).
 
     Args:
-        psi: phases [rad], shape (2,).
-        B, ball: amplitudes B_i and complex N_i B_i, each shape (2,).
+        psi: phases [rad], shape (..., 2).
+        B, ball: amplitudes B_i and complex N_i B_i, each shape (..., 2).
         B_x, ball_x: their derivatives by x_i.
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
     ahead = np.exp(1j * np.asarray(psi))
     # D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i), the complex form of (10.22).
-    from_other = K * ahead * (B / ahead)[::-1]
+    from_other = K * ahead * (B / ahead)[..., ::-1]
     drive = forcing * ahead - (e + K) * B - ball + from_other
     drive_own_x = -(e + K) * B_x - ball_x
     drive_own_psi = 1j * (forcing * ahead + from_other)
-    drive_other_x = K * ahead * (B_x / ahead)[::-1]
+    drive_other_x = K * ahead * (B_x / ahead)[..., ::-1]
     drive_other_psi = -1j * from_other
 
-    J, M = np.zeros((4, 4)), np.eye(4)
-    for i in (0, 1):
-        own, other = 2 * i, 2 * (1 - i)
-        row = np.zeros(4, dtype=complex)
-        row[own : own + 2] = drive_own_x[i], drive_own_psi[i]
-        row[other : other + 2] = drive_other_x[i], drive_other_psi[i]
-        J[own] = row.imag / 2
-        J[own + 1] = row.real / (2 * B[i])
-        J[own + 1, own] -= drive[i].real * B_x[i] / (2 * B[i] ** 2)
-        M[own, own] = B_x[i]
+    change = np.stack([drive_own_x, drive_own_psi, drive_other_x, drive_other_psi], axis=-1)
+    change[..., 1, :] = change[..., 1, [2, 3, 0, 1]]
+    J = np.stack([change.imag / 2, change.real / (2 * B[..., None])], axis=-2).reshape(*B.shape[:-1], 4, 4)
+    J[..., 1::2, ::2] -= _ONE * (drive.real * B_x / (2 * B**2))[..., None]
+    M = np.zeros(J.shape)
+    M[..., ::2, ::2], M[..., 1::2, 1::2] = _ONE * B_x[..., None], _ONE
     return J, M
 
 

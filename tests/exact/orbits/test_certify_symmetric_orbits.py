@@ -9,7 +9,7 @@ from vibroimpact.exact.orbits import certify as module  # noqa: E402
 from vibroimpact.exact.orbits.certify import certify  # noqa: E402
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude  # noqa: E402
 from vibroimpact.exact.orbits.search import orbits  # noqa: E402
-from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under  # noqa: E402
 from vibroimpact.system import System  # noqa: E402
 
 
@@ -18,6 +18,21 @@ def test_the_cases_of_the_chapter_are_complete(case):
     assert proof.complete
     assert not proof.undecided
     assert len(proof.isolated) == len(symmetric_solutions(case))
+
+
+FORCES = [(1.0, 1.0), (0.0, 0.0), (1.0, 0.72), (-2.0, 0.5), (0.0, 0.01)]
+
+
+def test_lists_under_many_forces_at_once_are_complete(chapter, monkeypatch):
+    for forces, listed in zip(FORCES, symmetric_solutions_under(chapter(), FORCES), strict=True):
+        monkeypatch.setattr(module, "symmetric_solutions", lambda _, listed=listed: listed)
+        assert certify(chapter(*forces)).complete
+
+
+def test_modules_apart_have_under_many_forces_at_once_what_they_have_under_each(chapter):
+    apart = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
+    for forces, listed in zip(FORCES, symmetric_solutions_under(chapter(**apart), FORCES), strict=True):
+        np.testing.assert_array_equal(listed, symmetric_solutions(chapter(*forces, **apart)))
 
 
 def random_system(seed):

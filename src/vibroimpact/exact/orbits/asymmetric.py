@@ -26,6 +26,8 @@ _SHORTEST = 1e-6  # fraction of the period: roots with a shorter flight are the 
 _UNEQUAL = 1e-7
 _BOXES = np.array([0, 0, 1, 1])
 _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
+_MODULES = np.eye(2)[[0, 0, 1, 1, 0, 1]]  # of the six conditions
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # of the flights that they are about, by the impact times
 _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1: the additive sequence of its powers fills the cube evenly
 
 
@@ -68,16 +70,15 @@ class AsymmetricConditions:
         """Coefficients of the strengths, (n, 6, 2), and the responses to unit changes of ball velocity."""
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
-        u = wrapped(times[:, 1::2] - times[:, 0::2], system.period) / system.period
-        matrix = np.empty((len(times), 6, 2))
-        for i in range(2):
-            mine = slice(2 * i, 2 * i + 2)
-            matrix[:, :4, i] = (1 + system.kappa) * v[:, :, mine].sum(axis=2)
-            matrix[:, 4:, i] = (x[:, 0::2, mine] - x[:, 1::2, mine]).sum(axis=2)
-            matrix[:, 2 * i, i] -= 1 - u[:, i] - system.kappa * u[:, i] + system.epsilon
-            matrix[:, 2 * i + 1, i] -= system.kappa * (1 - u[:, i]) - u[:, i] - system.epsilon
-            matrix[:, 4 + i, i] += u[:, i] * (1 - u[:, i]) * system.period
-        return matrix, (v, a)
+        by_impact = np.concatenate([(1 + system.kappa) * v, x[:, 0::2] - x[:, 1::2]], axis=1)
+        u = self._fractions(times)
+        at_walls = [1 - u - system.kappa * u + system.epsilon, system.kappa * (1 - u) - u - system.epsilon]
+        own = np.concatenate([np.stack(at_walls, axis=2).reshape(-1, 4), -u * (1 - u) * system.period], axis=1)
+        return by_impact.reshape(-1, 6, 2, 2).sum(axis=3) - _MODULES * own[..., None], (v, a)
+
+    def _fractions(self, times):
+        """Flight times from wall +1 over the period, (n, 2)."""
+        return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
         """Derivatives (n, 6, 4) by the impact times."""
@@ -88,15 +89,9 @@ class AsymmetricConditions:
         displacement = by_own * (system.Omega * forced.real + v.sum(axis=2))[:, None, :] - v
         velocity = by_own * (a.sum(axis=2) - system.Omega**2 * forced.imag)[:, None, :] - a
         moved = np.concatenate([(1 + system.kappa) * velocity, displacement[:, 0::2] - displacement[:, 1::2]], axis=1)
-        u = wrapped(times[:, 1::2] - times[:, 0::2], system.period) / system.period
-        for i in range(2):
-            start, end = 2 * i, 2 * i + 1
-            slope = strengths[:, i] * (1 + system.kappa) / system.period
-            lengthening = np.stack([slope, slope, strengths[:, i] * (1 - 2 * u[:, i])], axis=1)
-            rows = [start, end, 4 + i]
-            moved[:, rows, end] += lengthening
-            moved[:, rows, start] -= lengthening
-        return moved
+        slope = (1 + system.kappa) / system.period * strengths[:, _BOXES]
+        lengthening = np.concatenate([slope, strengths * (1 - 2 * self._fractions(times))], axis=1)
+        return moved + _LENGTHENING * lengthening[..., None]
 
 
 def asymmetric_solutions(system, starts: int = STARTS):

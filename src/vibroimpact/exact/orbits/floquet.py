@@ -30,8 +30,9 @@ class Passage(NamedTuple):
     jacobian: np.ndarray
 
     def flights(self):
-        """State at the start, time of the start and time of the end of every free flight."""
-        return zip([self.first, *self.after], [0.0, *self.times], [*self.times, self.end], strict=True)
+        """Of all free flights: states at the start (n, 8), times of the start and durations, both (n,)."""
+        edges = np.array([0.0, *self.times, self.end])
+        return np.vstack([self.first, self.after]), edges[:-1], np.diff(edges)
 
 
 def impact_sequence(times: np.ndarray, period: float):
@@ -44,18 +45,16 @@ def impact_sequence(times: np.ndarray, period: float):
     return within[order], _MODULES[order], _WALLS[order]
 
 
-def free_flight(system, state: np.ndarray, tau: float, duration: float):
-    """State (8,) after a free flight from time tau of this duration, and its derivative (8, 8) by the state before."""
-    flow = expm(rate_matrix(system) * duration)
-    phase = system.Omega * tau
-    final, jacobian = np.empty(8), np.zeros((8, 8))
-    final[BOXES] = flow[:4] @ [*state[BOXES], math.sin(phase), math.cos(phase)]
-    final[BALLS[:2]] = state[BALLS[:2]] + duration * state[BALLS[2:]]
-    final[BALLS[2:]] = state[BALLS[2:]]
-    jacobian[np.ix_(BOXES, BOXES)] = flow[:4, :4]
-    jacobian[BALLS, BALLS] = 1.0
-    jacobian[BALLS[:2], BALLS[2:]] = duration
-    return final, jacobian
+def free_flights(system, begins: np.ndarray, durations: np.ndarray):
+    """Of free flights from times (n,) of durations (n,): the maps x -> A x + b of states, (n, 8, 8) and (n, 8)."""
+    flow = expm(rate_matrix(system) * durations[:, None, None])
+    phases = system.Omega * begins
+    maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))
+    maps[:, BOXES[:, None], BOXES] = flow[:, :4, :4]
+    maps[:, BALLS, BALLS] = 1.0
+    maps[:, BALLS[:2], BALLS[2:]] = durations[:, None]
+    pushes[:, BOXES] = (flow[:, :4, 4:] @ np.stack([np.sin(phases), np.cos(phases)], axis=1)[..., None])[..., 0]
+    return maps, pushes
 
 
 def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
@@ -68,15 +67,17 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     Raises:
         ValueError: an impact without relative velocity (see impact_saltation).
     """
-    first, tau, jacobian = state, 0.0, np.eye(8)
+    edges = np.array([0.0, *times, end])
+    flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
     before, after = np.empty((len(times), 8)), np.empty((len(times), 8))
-    for k, (time, module) in enumerate(zip(times, modules, strict=True)):
-        before[k], flight = free_flight(system, state, tau, time - tau)
-        after[k] = impact_matrix(system, module) @ before[k]
-        jacobian = impact_saltation(system, before[k], time, module) @ flight @ jacobian
-        state, tau = after[k], time
-    final, flight = free_flight(system, state, tau, end - tau)
-    return Passage(first, times, before, after, final, end, flight @ jacobian)
+    now = state
+    for k, impact in enumerate(impact_matrix(system, modules)):
+        before[k] = flights[k] @ now + pushes[k]
+        after[k] = now = impact @ before[k]
+    jacobian = flights[0]
+    for saltation, flight in zip(impact_saltation(system, before, edges[1:-1], modules), flights[1:], strict=True):
+        jacobian = flight @ saltation @ jacobian
+    return Passage(state, edges[1:-1], before, after, flights[-1] @ now + pushes[-1], end, jacobian)
 
 
 def multipliers(jacobian: np.ndarray) -> np.ndarray:

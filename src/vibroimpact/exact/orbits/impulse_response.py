@@ -46,24 +46,29 @@ class ImpulseResponse:
         at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
         self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)
         taylor = [np.linalg.matrix_power(self._rate, k) / math.factorial(k) for k in range(_TAYLOR_ORDER + 1)]
-        self._series = np.stack([term @ at_nodes for term in taylor], axis=1)
+        self._series = np.stack([(term @ at_nodes).swapaxes(1, 2) for term in taylor], axis=2)
+        self._readings = np.stack([np.eye(4)[:2], np.eye(4)[2:], self._rate[2:]], axis=2)
 
     def __call__(self, s: np.ndarray) -> np.ndarray:
         """The motion at times s (any real) since an impulse, shape (*s.shape, 4, 2): column j for a train on box j.
 
         At an impulse it is the value just after.
         """
+        return self.of_trains(np.asarray(s)[..., None], np.arange(2)).swapaxes(-1, -2)
+
+    def of_trains(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
+        """The motion (..., 4) at times s since an impulse of a train on box `boxes` (0, 1), arrays that combine."""
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
-        step = (within - node * self._spacing)[..., None, None]
+        step = (within - node * self._spacing)[..., None]
         onward, node = np.divmod(node, self._fine)
-        terms = self._series[node]
-        value = terms[..., _TAYLOR_ORDER, :, :]
+        terms = self._series[node, boxes]
+        value = terms[..., _TAYLOR_ORDER, :]
         for k in reversed(range(_TAYLOR_ORDER)):
-            value = value * step + terms[..., k, :, :]
+            value = value * step + terms[..., k, :]
         if len(self._onward) > 1:
-            value = self._onward[onward] @ value
-        return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None, None] % 2))
+            value = (self._onward[onward] @ value[..., None])[..., 0]
+        return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
         """Displacement, velocity and acceleration, each (*times.shape, n), of every train's box under every train.
@@ -71,18 +76,10 @@ class ImpulseResponse:
         Train k has an impulse on box boxes[k] at times[..., k]; entry [..., m, k] is what train k does to box boxes[m]
         just before the impulse of train m.
         """
-        chosen = np.eye(2)[boxes]
-        motion = self(times[..., :, None] - times[..., None, :])
-        motion = np.einsum("...mksj,kj->...mks", motion, chosen)
+        motion = self.of_trains(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
         motion[..., own, own, :] -= _UNIT_IMPULSES.T[boxes]
-        rates = motion @ self._rate.T
-        of_box = "...mks,ms->...mk"
-        return (
-            np.einsum(of_box, motion[..., :2], chosen),
-            np.einsum(of_box, motion[..., 2:], chosen),
-            np.einsum(of_box, rates[..., 2:], chosen),
-        )
+        return np.moveaxis(motion @ self._readings[boxes], -1, 0)
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:

@@ -11,6 +11,8 @@ def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
     `reach` in every component. A start has converged once its step is below `tolerance` (1 + |x|), or, if all steps are
     used up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
+
+    What starts have beyond the d unknowns stays as it is, for the equations to use.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
@@ -22,9 +24,10 @@ def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5
         regular[regular] &= np.abs(np.linalg.det(jacobian[regular])) > 0
         step = -np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
         size = np.abs(step).max(axis=1, initial=0.0)
-        x = x[regular] + step * np.minimum(1.0, reach / np.maximum(size, reach))[:, None]
+        x, unknowns = x[regular], slice(step.shape[1])
+        x[:, unknowns] += step * np.minimum(1.0, reach / np.maximum(size, reach))[:, None]
         limit = tolerance if count < steps else _STALLED
-        done = size < limit * (1.0 + np.abs(x).max(axis=1, initial=0.0))
+        done = size < limit * (1.0 + np.abs(x[:, unknowns]).max(axis=1, initial=0.0))
         found.append(x[done])
         x = x[~done]
     return np.concatenate(found)

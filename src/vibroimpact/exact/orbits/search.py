@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
 from vibroimpact.exact.orbits.floquet import Passage, follow, impact_sequence, multipliers
-from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response, powers
+from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
@@ -18,7 +18,7 @@ from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
-_SAMPLES = 4096  # of one flight at a time, so that memory does not grow with the period
+_SAMPLES = 4096  # of each flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
 
@@ -34,6 +34,8 @@ class Orbit(Glance):
     multipliers: (8,) complex, by descending modulus. Where both modules impact in the same instant and gamma12 is not 0
         they belong to perturbations that let module 1 impact first.
     state: (8,) at tau = 0, just after the impact if there is one.
+    passage: the motion followed once round, from `state` through its four impacts.
+    excursion: the largest |W_i| at its extrema between impacts, at a wall 1; 0 if no flight has an extremum.
     admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
     residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
     """
@@ -44,6 +46,8 @@ class Orbit(Glance):
     ball_speeds: np.ndarray
     multipliers: np.ndarray
     state: np.ndarray
+    passage: Passage
+    excursion: float
     admissible: bool
     residual: float
 
@@ -62,12 +66,6 @@ class Orbit(Glance):
         # Both flights cover the same path in one period: plus t = minus (T - t).
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
-
-    @property
-    def passage(self) -> Passage:
-        """The motion followed once round, from `state` through its four impacts."""
-        times, modules, _ = impact_sequence(self.impact_phases * self.system.period, self.system.period)
-        return follow(self.system, self.state, times, modules, self.system.period)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +160,7 @@ def _orbit(system, times, changes, fractions, sign):
     passage = follow(system, state, in_order, modules, system.period)
     gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
     at_wall = gaps[range(4), modules - 1] - walls
+    excursion = float(extremes(system, passage).max(initial=0.0))
     return Orbit(
         system=system,
         symmetric=sign == -1,
@@ -169,7 +168,9 @@ def _orbit(system, times, changes, fractions, sign):
         ball_speeds=speeds,
         multipliers=multipliers(passage.jacobian),
         state=state,
-        admissible=bool((speeds > 0).all() and _within_walls(system, passage)),
+        passage=passage,
+        excursion=excursion,
+        admissible=bool((speeds > 0).all() and excursion <= 1 + _TOUCH),
         residual=float(max(abs(at_wall).max(), abs(passage.final - state).max())),
     )
 
@@ -181,48 +182,54 @@ def _state(system, times, changes, speeds, sign):
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
 
     def boxes(tau):
-        forced = amplitude * np.exp(1j * system.Omega * tau)
-        motion = np.concatenate([forced.imag, system.Omega * forced.real])
-        return motion + np.einsum("iksi,ik->s", response(tau - times[:, :trains]), kicks)
+        forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
+        kicked = response.of_trains(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
+        return np.hstack([forced.imag, system.Omega * forced.real]) + np.einsum("niks,ik->ns", kicked, kicks)
 
-    state = np.empty(8)
-    state[BOXES] = boxes(0.0)
     since = wrapped(-times, system.period)
-    for i, last in enumerate(since.argmin(axis=1)):
-        wall = (1, -1)[last]
-        velocity = wall * speeds[i, last]
-        state[BALLS[i]] = boxes(times[i, last])[i] - wall + velocity * since[i, last]
-        state[BALLS[2 + i]] = velocity
+    modules, last = np.arange(2), since.argmin(axis=1)
+    walls = np.array([1, -1])[last]
+    velocities = walls * speeds[modules, last]
+    now, *then = boxes(np.array([0.0, *times[modules, last]]))
+    state = np.empty(8)
+    state[BOXES] = now
+    state[BALLS[:2]] = np.diagonal(then) - walls + velocities * since[modules, last]
+    state[BALLS[2:]] = velocities
     return state
 
 
-def _within_walls(system, passage):
-    """Whether |W_i| <= 1 throughout; it is 1 at the impacts themselves, so only the extrema inside flights matter."""
-    return all(extremes(system, *flight).max(initial=0.0) <= 1 + _TOUCH for flight in passage.flights())
-
-
-def extremes(system, state, start, end):
-    """|W_i| at its extrema inside one free flight from `state` at time `start` to time `end`."""
+def extremes(system, passage: Passage) -> np.ndarray:
+    """|W_i| at its extrema inside the free flights of a motion; it is 1 at the impacts themselves."""
+    states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
-    count = 1 + math.ceil((end - start) * fastest / _STEP)
-    spacing = (end - start) / count
-    step = rate_matrix(system) * spacing
-    grid = powers(expm(step), min(count, _SAMPLES) + 1)
-    phase = system.Omega * start
-    boxes = np.array([*state[BOXES], math.sin(phase), math.cos(phase)])
+    count = 1 + math.ceil(durations.max() * fastest / _STEP)
+    spacing = (durations / count)[:, None, None]
+    step = expm(rate_matrix(system) * spacing)
+    phases = system.Omega * begins
+    boxes = np.column_stack([states[:, BOXES], np.sin(phases), np.cos(phases)])
+    places, velocities = states[:, None, BALLS[:2]], states[:, None, BALLS[2:]]
     found = []
     for first in range(0, count, _SAMPLES):
-        elapsed = spacing * np.arange(first, min(first + _SAMPLES, count) + 1)[:, None]
-        samples = grid[: len(elapsed)] @ boxes
-        boxes = samples[-1]
-        W = samples[:, :2] - state[BALLS[:2]] - state[BALLS[2:]] * elapsed
-        found.append(_turning_values(W, (samples[:, 2:4] - state[BALLS[2:]]) * spacing))
+        steps = np.arange(first, min(first + _SAMPLES, count) + 1)
+        samples = _samples(step, boxes, len(steps))
+        boxes = samples[:, -1]
+        W = samples[..., :2] - places - velocities * (spacing * steps[:, None])
+        found.append(_turning_values(W, (samples[..., 2:4] - velocities) * spacing))
     return abs(np.concatenate(found))
 
 
+def _samples(step, start, count):
+    """step^k start for k < count, shape (n, count, d), by doubling: rounding grows with log(count) only."""
+    samples, ahead = start[:, None], step.swapaxes(1, 2)
+    while (made := samples.shape[1]) < count:
+        samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
+        ahead = ahead @ ahead
+    return samples
+
+
 def _turning_values(W, V):
-    """Values of W where it turns, from samples (n, 2) of it and of its velocity times their spacing."""
-    turns = V[:-1] * V[1:] < 0
-    w0, w1, v0, v1 = W[:-1][turns], W[1:][turns], V[:-1][turns], V[1:][turns]
+    """Values of W where it turns, from samples (n, count, 2) of it and of its velocity times their spacing."""
+    turns = V[:, :-1] * V[:, 1:] < 0
+    w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
     s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there
     return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

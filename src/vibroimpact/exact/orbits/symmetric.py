@@ -26,25 +26,26 @@ from vibroimpact.system.matrices import stiffness_matrix
 _DEGREE = 32
 _PIECES_AT_ONCE = 256  # so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
+_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding
 _NEAR = 1e-3  # a double root may come out of the eigenvalue solver as a pair off the real axis
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 
 
 class SymmetricConditions:
-    """The equations above for one system.
+    """The equations above for one system, or for it under several forces.
 
     Args:
+        forced: the boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
         response: of the boxes to the kicks; the exact one, or another with its `between` (see `harmonics`).
 
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
 
-    def __init__(self, system, response=None):
-        self.period = system.period
+    def __init__(self, system, response=None, forced=None):
         self.omega = system.Omega
-        self.amplitude = forced_amplitude(system)
+        self.amplitudes = forced_amplitude(system)[None] if forced is None else forced
         self._response = response or impulse_response(system, sign=-1)
         self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
         speed = path_of(system.epsilon, 1.0) / (system.period / 2)
@@ -52,7 +53,7 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """P and the factor dP of its derivatives for impact times (n, 2): both (n, 2, 2) complex.
+        """P and the factor dP of its derivatives for impact times (..., 2): both (..., 2, 2) complex.
 
         Off the diagonal, dP / d tau_i is +dP in row i and -dP in column i.
         """
@@ -63,22 +64,29 @@ class SymmetricConditions:
         return matrix, change
 
     def __call__(self, unknowns: np.ndarray):
-        """Residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), shape (n, 4)."""
-        times, C = unknowns[:, :2], unknowns[:, 2:]
+        """Residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), shape (n, 4).
+
+        A fifth column, if there is one, numbers the forces.
+        """
+        times, C = unknowns[:, :2], unknowns[:, 2:4]
+        amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
         matrix, change = self.matrix(times)
-        forced = self.amplitude * np.exp(1j * self.omega * times)
+        forced = amplitudes * np.exp(1j * self.omega * times)
         residual = (matrix @ C[..., None])[..., 0] + 1j - forced
         moved = -change * C[:, None, :]
         moved[:, _BOXES, _BOXES] = (change @ C[..., None])[..., 0] - 1j * self.omega * forced
         jacobian = np.concatenate([moved, matrix], axis=2)
         return np.concatenate([residual.real, residual.imag], axis=1), np.concatenate([jacobian.real, jacobian.imag], 1)
 
-    def linear_system(self, delta: np.ndarray):
-        """Matrix (n, 4, 4) and right-hand side (4,) of the equations for (C_1, C_2, c, s) at each delta (n,)."""
-        times = np.stack([np.zeros_like(delta), delta], axis=1)
-        forced = (self.amplitude * np.exp(1j * self.omega * times))[..., None]
-        columns = np.concatenate([self.matrix(times)[0], -forced, -1j * forced], axis=2)
-        return np.concatenate([columns.real, columns.imag], axis=1), np.array([0.0, 0.0, -1.0, -1.0])
+    def linear_system(self, delta: np.ndarray, force: np.ndarray):
+        """Matrix (..., 4, 4) and right-hand side (4,) of the equations for (C_1, C_2, c, s) at each delta (...).
+
+        force: the numbers of the forces, (...).
+        """
+        times = np.stack([np.zeros_like(delta), delta], axis=-1)
+        forced = (self.amplitudes[force] * np.exp(1j * self.omega * times))[..., None]
+        columns = np.concatenate([self.matrix(times)[0], -forced, -1j * forced], axis=-1)
+        return np.concatenate([columns.real, columns.imag], axis=-2), np.array([0.0, 0.0, -1.0, -1.0])
 
 
 def symmetric_solutions(system, response=None) -> np.ndarray:
@@ -90,91 +98,110 @@ def symmetric_solutions(system, response=None) -> np.ndarray:
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    if system.has_undriven_module:
-        return np.empty((0, 4))
-    conditions = SymmetricConditions(system, response)
+    return _solutions(system, [system], response)[0]
+
+
+def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
+    """`symmetric_solutions` of the system under each of some forces (f10_hat, f20_hat), shape (n, 2).
+
+    Raises:
+        ValueError: as `symmetric_solutions`; or there is no system under one of the forces.
+    """
+    return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces], None)
+
+
+def _solutions(system, systems, response):
+    """The roots of each of some systems that differ from one in their forces alone."""
+    driven = [k for k, one in enumerate(systems) if not one.has_undriven_module]
+    found = [np.empty((0, 4))] * len(systems)
+    if not driven:
+        return found
+    conditions = SymmetricConditions(system, response, np.array([forced_amplitude(systems[k]) for k in driven]))
     uncoupled = system.alpha12 == 0 and system.gamma12 == 0
-    starts = _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions)
-    roots = newton(conditions, starts)
+    roots = newton(conditions, _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions))
     roots[:, :2] = wrapped(roots[:, :2], system.period)
-    return distinct(roots, system.period, 2)[0]
+    for number, k in enumerate(driven):
+        found[k] = distinct(roots[roots[:, 4] == number, :4], system.period, 2)[0]
+    return found
 
 
 def _uncoupled_starts(conditions):
     """Each module alone: |P_ii C_i + i| = |a_i| is quadratic in C_i. All pairs of its roots."""
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
-    single = []
-    for i in range(2):
-        p, a = diagonal[i], conditions.amplitude[i]
-        C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
-        C = C.real[abs(C.imag) < _NEAR]
-        single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C])
-    return np.array([(t1, t2, c1, c2) for t1, c1 in single[0] for t2, c2 in single[1]]).reshape(-1, 4)
+    starts = []
+    for force, amplitudes in enumerate(conditions.amplitudes):
+        single = []
+        for p, a in zip(diagonal, amplitudes, strict=True):
+            C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
+            C = C.real[abs(C.imag) < _NEAR]
+            single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C])
+        starts += [(t1, t2, c1, c2, force) for t1, c1 in single[0] for t2, c2 in single[1]]
+    return np.array(starts).reshape(-1, 5)
 
 
 def _coupled_starts(system, conditions):
     """Newton starts at the real roots delta of the condition c^2 + s^2 = 1."""
-    delta = _roots_of_condition(system, conditions)
-    matrices, constant = conditions.linear_system(delta)
-    starts = [_circle_points(matrix, constant) for matrix in matrices]
-    unknowns = [
-        (math.atan2(s, c) / system.Omega, math.atan2(s, c) / system.Omega + d, C1, C2)
-        for d, points in zip(delta, starts, strict=True)
-        for C1, C2, c, s in points
-    ]
-    return np.array(unknowns).reshape(-1, 4)
+    delta, force = _roots_of_condition(system, conditions)
+    C1, C2, c, s = np.moveaxis(_circle_points(*conditions.linear_system(delta, force)), -1, 0)
+    time = np.arctan2(s, c) / conditions.omega
+    return np.stack(np.broadcast_arrays(time, time + delta[:, None], C1, C2, force[:, None]), axis=-1).reshape(-1, 5)
 
 
 def _roots_of_condition(system, conditions):
-    """Real parts of the near-real roots delta in [0, T], by Chebyshev interpolation piece by piece."""
+    """Real parts of the near-real roots delta in [0, T], by Chebyshev interpolation piece by piece, and forces."""
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
     nodes = chebyshev.chebpts1(_DEGREE + 1)
     half = system.period / pieces / 2
-    centres = half * (2 * np.arange(pieces) + 1)
-    roots = []
-    for some in np.array_split(centres, math.ceil(pieces / _PIECES_AT_ONCE)):
-        values = _condition(conditions, (some[:, None] + half * nodes).ravel()).reshape(len(some), -1)
+    number, force = np.tile(np.arange(pieces), len(conditions.amplitudes)), np.arange(len(conditions.amplitudes))
+    centres, forces = half * (2 * number + 1), np.repeat(force, pieces)
+    roots = [np.empty((0, 2))]
+    for some in np.array_split(np.arange(len(centres)), math.ceil(len(centres) / _PIECES_AT_ONCE)):
+        values = _condition(conditions, centres[some, None] + half * nodes, forces[some, None])
         series = chebyshev.chebfit(nodes, values.T, _DEGREE).T
         rootless = abs(series[:, 0]) > (1 + _NEAR) * abs(series[:, 1:]).sum(axis=1)
-        for centre, one in zip(some[~rootless], series[~rootless], strict=True):
-            near = chebyshev.chebroots(one)
-            near = near[(abs(near.imag) < _NEAR) & (abs(near.real) < 1 + _NEAR)]
-            roots.append(centre + half * near.real)
-    return np.concatenate([*roots, []])
+        for place, one in zip(some[~rootless], series[~rootless], strict=True):
+            near = chebyshev.chebroots(chebyshev.chebtrim(one, _NOISE * abs(one).max()))
+            near = near[(abs(near.imag) < _NEAR) & (abs(near.real) < 1 + _NEAR)].real
+            roots.append(np.stack([centres[place] + half * near, np.full(len(near), forces[place])], axis=1))
+    delta, force = np.concatenate(roots).T
+    return delta, force.astype(int)
 
 
-def _condition(conditions, delta):
+def _condition(conditions, delta, force):
     """N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D.
 
-    Up to a factor, chosen so that no force is too weak or too strong to be squared.
+    Up to a factor for each piece, delta (pieces, n) under one force (pieces, 1), chosen so that no force is too weak or
+    too strong to be squared.
     """
-    matrices, constant = conditions.linear_system(delta)
-    size = np.abs(matrices).max(axis=1).mean(axis=0)  # one scale per unknown: keeps the determinants of order one
-    matrices, force = matrices / size, size[2]
+    matrices, constant = conditions.linear_system(delta, force)
+    size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown: keeps the determinants of order one
+    matrices, strength = matrices / size[:, None, None, :], size[:, 2, None]
 
     def cramer(column):
         replaced = matrices.copy()
-        replaced[:, :, column] = constant
-        return np.linalg.det(replaced) / max(force, 1.0)
+        replaced[..., column] = constant
+        return np.linalg.det(replaced) / np.maximum(strength, 1.0)
 
-    return cramer(2) ** 2 + cramer(3) ** 2 - (np.linalg.det(matrices) * min(force, 1.0)) ** 2
+    return cramer(2) ** 2 + cramer(3) ** 2 - (np.linalg.det(matrices) * np.minimum(strength, 1.0)) ** 2
 
 
-def _circle_points(matrix, constant):
-    """Points (C_1, C_2, c, s) of the solution set that are on, or nearest to, c^2 + s^2 = 1.
+def _circle_points(matrices, constant):
+    """Three points (C_1, C_2, c, s) of each solution set that are on, or nearest to, c^2 + s^2 = 1, shape (n, 3, 4).
 
     Where the matrix is singular (identical modules in step, say) the solution set is a line and meets the circle twice;
-    near such a matrix both points are needed as starts, so the line through the weakest direction is always taken.
+    near such a matrix both points are needed as starts, so the line through the weakest direction is always taken. No
+    numbers where there are no such points.
     """
-    u, values, v = np.linalg.svd(matrix)
-    strong = v[:3].T @ ((u[:, :3].T @ constant) / values[:3])
-    weak = v[3]
-    plain = np.linalg.solve(matrix, constant) if values[3] > 0 else strong
-    a, b, c = weak[2:] @ weak[2:], weak[2:] @ strong[2:], strong[2:] @ strong[2:] - 1
-    depth = math.sqrt(max(b * b - a * c, 0.0))
-    line = [strong + (-b + side * depth) / a * weak for side in (-1, 1)] if a > 0 else []
-    return [plain, *line]
+    u, values, v = np.linalg.svd(matrices)
+    parts = constant @ u
+    with np.errstate(divide="ignore", invalid="ignore"):
+        strong = ((parts / values)[:, None, :3] @ v[:, :3])[:, 0]
+        weak, along = v[:, 3], np.where(values[:, 3] > 0, parts[:, 3] / values[:, 3], 0.0)
+        a, b, c = (weak[:, 2:] ** 2).sum(1), (weak * strong)[:, 2:].sum(1), (strong[:, 2:] ** 2).sum(1) - 1
+        depth = np.sqrt(np.maximum(b * b - a * c, 0.0))
+        steps = np.stack([along, (-b - depth) / a, (-b + depth) / a], axis=1)
+        return strong[:, None] + steps[..., None] * weak[:, None]
 
 
 def wrapped(value, modulus):

@@ -8,6 +8,7 @@ from scipy.optimize import linear_sum_assignment
 from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import join
@@ -46,7 +47,7 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         now = np.array([point.C for point in points]).reshape(-1, 2)
         names, tracks = _continued(names, last, now, tracks)
         last = now
-        exact = exact_orbits(system, now) if points else ()
+        exact = exact_orbits(system, now, symmetric_solutions(system)) if points else ()
         for track, point, label, orbit in zip(names, points, labels(system, points), exact, strict=True):
             says = of_fixed_point(system, point)
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}

@@ -60,10 +60,10 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 def _powers(x):
     """Matrices S (..., 3, 3) with coefficients about x = S @ coefficients about 0."""
-    one, zero = np.ones_like(x), np.zeros_like(x)
-    return np.stack(
-        [np.stack([one, x, x * x], -1), np.stack([zero, one, 2 * x], -1), np.stack([zero, zero, one], -1)], -2
-    )
+    matrices = np.empty((*x.shape, 3, 3))
+    matrices[...] = np.eye(3)
+    matrices[..., 0, 1], matrices[..., 0, 2], matrices[..., 1, 2] = x, x * x, 2 * x
+    return matrices
 
 
 def _expand(coefficients, magnitudes, centres, half):
@@ -141,10 +141,11 @@ def _krawczyk(local, noise):
 def _gather(coefficients, found, unsettled):
     """One entry per zero: neighbouring boxes may have found the same one."""
     zeros, boxes = np.empty((0, 2)), []
-    for (centre, step), half in found:
+    polished = _polish(coefficients[:2], np.reshape([centre + half * step for (centre, step), half in found], (-1, 2)))
+    for zero, ((centre, _), half) in zip(polished, found, strict=True):
         # Within the reach of a box there is one zero only.
         if not _within(zeros, centre, half):
-            zeros = np.vstack([zeros, _polish(coefficients[:2], centre + half * step)])
+            zeros = np.vstack([zeros, zero])
             boxes.append((centre, half))
     loose = [(point, size) for point, size in unsettled if not any(_within(point, *box) for box in boxes)]
     clusters = _clusters(loose)
@@ -179,14 +180,15 @@ def _touching(centres, halves, half):
     return np.stack([wide[found["i"]], others[found["j"]]], axis=1)
 
 
-def _polish(pair, zero):
-    """Newton's method, to the last digits."""
+def _polish(pair, zeros):
+    """Newton's method from points (n, 2), to the last digits."""
     for _ in range(6):
-        value, gradient = _value_and_gradient(pair, zero)
-        zero = zero - np.linalg.solve(gradient, value)
-    return zero
+        value, gradient = _value_and_gradient(pair, zeros)
+        zeros = zeros - np.linalg.solve(gradient, value[..., None])[..., 0]
+    return zeros
 
 
-def _value_and_gradient(pair, zero):
-    local = _powers(zero[0]) @ pair @ _powers(zero[1]).T
-    return local[:, 0, 0], np.stack([local[:, 1, 0], local[:, 0, 1]], -1)
+def _value_and_gradient(pair, points):
+    left, right = _powers(points.T[..., None])
+    local = left @ pair @ right.swapaxes(-1, -2)
+    return local[..., 0, 0], _gradient(local)
