@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
-from vibroimpact.exact.engine.event_log import pack
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
@@ -162,13 +161,12 @@ def _loop(flow, squares, powers, starts, phase, cycles, period, settle, status, 
         s = starts[n]
         if status[n] == FINISHED:
             boxes, balls = (s[0], s[2], s[4], s[6]), (s[1], s[3], s[5], s[7])
-            boxes, balls, events, status[n], _ = integrate(flow, boxes, balls, phase, cycles, 0.0, no_times, no_samples)
-        if status[n] == FINISHED:
-            pack(boxes, balls, final[n])
+            events, status[n], _ = integrate(flow, boxes, balls, phase, cycles, 0.0, no_times, no_samples, final[n])
         if status[n] != FINISHED or settle == cycles:
             seen[n, LARGEST:] = np.nan
         else:
-            observe(flow, squares, s, events, boxes, phase[0], (settle * period, cycles * period), seen[n])
+            end = final[n, 0], final[n, 2], final[n, 4], final[n, 6]
+            observe(flow, squares, s, events, end, phase[0], (settle * period, cycles * period), seen[n])
             if len(powers) > 0:
                 flights = departures(flow.coefficients, s, events, phase[0], cycles * period)
                 account(flow, powers, flights, events, opening, spent[n])

@@ -30,6 +30,7 @@ FAILURES = {
     CROWDED: "there are too many events",
     EXHAUSTED: "there are too many exclusions",
 }
+ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # for events, to begin with: few runs need more
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
@@ -54,22 +55,23 @@ class Course(NamedTuple):
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples):
+def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, final):
     """Run a state over a number of forcing cycles.
 
     start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
-    when the run starts; samples (n, 8) is filled (at an event: the state after it). Returns the boxes and balls at the
-    end, the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
+    when the run starts; samples (n, 8) is filled (at an event: the state after it), and final (8,) if the run is
+    finished. Returns the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
     """
-    log = Log(np.empty((64, ROW)), np.zeros(ENTRIES))
+    log = Log(np.empty((min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM), ROW)), np.zeros(ENTRIES))
     motion = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0)
     course, status = Course(motion, -1, start_phase[0], start_phase[1], 0, 0.0, 0, 0), FULL
     while status == FULL:
         course, status = _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log)
         if status == FULL:
             log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
-    motion = course.motion
-    return motion.boxes, motion.balls, log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+    if status == FINISHED:
+        pack(course.motion.boxes, course.motion.balls, final)
+    return log.rows[: int(log.ledger[EVENTS])], status, log.ledger
 
 
 @in_place

@@ -186,15 +186,13 @@ def simulate_many(
 
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
-    samples, tau0 = np.empty((len(times), 8)), float(begin)
-    values = state.tolist()
-    boxes, balls, phase = tuple(values[0::2]), tuple(values[1::2]), phase_at(begin, system.Omega)
-    boxes, balls, rows, status, ledger = kernel.integrate(
-        flow_of(system), boxes, balls, phase, cycles, tau0, times, samples
+    samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
+    x1, y1, x2, y2, v1, w1, v2, w2 = state.tolist()
+    phase = phase_at(begin, system.Omega)
+    rows, status, ledger = kernel.integrate(
+        flow_of(system), (x1, x2, v1, v2), (y1, y2, w1, w2), phase, cycles, tau0, times, samples, final
     )
     if status != kernel.FINISHED:
         what = kernel.FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
-    final = np.empty(8)
-    final[0::2], final[1::2] = boxes, balls
     return Run(system, state, begin, cycles, samples, final, rows, ledger)
