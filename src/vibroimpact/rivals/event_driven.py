@@ -20,12 +20,13 @@ class Engine(Method):
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
             return failed(REFUSED, str(error), 0)
-        rows, impacts = run.rows, np.empty(len(run.rows), IMPACT)
+        hits = run.rows[:, KIND] == IMPACT_KIND
+        rows = run.rows if hits.all() else run.rows[hits]
+        impacts = np.empty(len(rows), IMPACT)
         impacts["tau"], impacts["module"], impacts["wall"] = tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL]
         impacts["speed"] = np.abs(rows[:, APPROACH])
-        impacts = impacts[rows[:, KIND] == IMPACT_KIND]
         doubt = partial(_doubt, run, tau0 + cycles * system.period)
-        return RivalRun(run.final, impacts, len(rows) + 1, doubt=doubt)
+        return RivalRun(run.final, impacts, len(run.rows) + 1, doubt=doubt)
 
 
 def _doubt(run, end):
