@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 import vibroimpact as vi
 import vibroimpact.rivals.solve_ivp as general
 from pipeline_trees import ROOT
+from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.regimes.classification import starts
 from vibroimpact.rivals import METHODS
@@ -52,9 +53,8 @@ def stored(system, s):
     return 0.5 * (kinetic + s[0] ** 2 + system.stiffness2 * s[2] ** 2 + system.alpha12 * (s[0] - s[2]) ** 2)
 
 
-def measured(system, start):
+def measured(system, start, run, parts):
     """Of the rival, as `vi.ensemble` has it: final state, largest |X_i|, means of X_i^2 and |Y_i'|, energies."""
-    run, parts = flights(system, start)
     integrals, largest = np.zeros((5, 2)), np.abs(start[[0, 2]])
     for sol in parts:
         half = np.diff(sol.ts)[:, None] / 2
@@ -92,11 +92,20 @@ def turning(sol, box):
 
 @pytest.mark.parametrize("name", CURVES)
 def test_random_points_are_those_of_another_integrator(name):
-    """Over a few settled cycles of what the curves observe: where it is chaotic no more can be compared."""
-    impacts, repeating = 0, 0
+    """Over a few settled cycles of what the curves observe: where it is chaotic no more can be compared.
+
+    DOP853 may step over an impact, both walls being met within a step; then the reference is asked who is right.
+    """
+    impacts, repeating, missed = 0, 0, 0
     for system, start in points(name):
         settled = finals(system, start[None], CONFIG["sweeps"][name]["settle"])[0]
-        ours, theirs = vi.ensemble(system, settled, CYCLES, energy=True), measured(system, settled)
+        ours, (run, parts) = vi.ensemble(system, settled, CYCLES, energy=True), flights(system, settled)
+        if len(run.impacts) != ours["impacts"].sum():
+            truth = reference_run(system, settled, CYCLES, 40).final
+            np.testing.assert_allclose(ours["final"], truth, rtol=0, atol=1e-10)
+            missed += 1
+            continue
+        theirs = measured(system, settled, run, parts)
         for part, value in theirs.items():
             found = ours["energy"][part] if part in vi.ENERGY.names else ours[part]
             np.testing.assert_allclose(found, value, rtol=1e-6, atol=1e-6, err_msg=f"{part} of {system}")
@@ -107,6 +116,7 @@ def test_random_points_are_those_of_another_integrator(name):
             np.testing.assert_allclose(whole["largest"], theirs["largest"], atol=1e-5)
             np.testing.assert_allclose(whole["mean_square"], theirs["mean_square"], atol=1e-5)
     assert impacts > 2 * POINTS
+    assert missed < 0.1 * POINTS
     assert repeating > 0
 
 

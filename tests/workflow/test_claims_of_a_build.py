@@ -18,6 +18,12 @@ SOURCED = re.findall(r"(−?[\d.]+)<!-- ((?!regimes/ladder_grid).+?) -->", FINDI
 CHAOTIC = tuple(
     f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
 )
+LARGEST_OF_FEW = (
+    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "one ball")),
+    *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("frequencies won", "least", "greatest")),
+    'impact_shares.csv | source == "balls"',
+)
+"""What comes from a few runs, most of them chaotic."""
 
 
 def test_orbits_of_all_cases_are_gathered(built):
@@ -71,6 +77,8 @@ def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
     if place[0].startswith(CHAOTIC):
         spread = 5 * results.value(*place[:-1], "uncertainty")
         spread = 0.15 * abs(found) if pd.isna(spread) else spread
+    elif " | ".join(place).startswith(LARGEST_OF_FEW):
+        spread = 0.15 * abs(found)
     assert abs(scale * found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + scale * spread
 
 
