@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
-def timed(work, seconds: float, most: int = 200) -> tuple:
+def timed(work, seconds: float, most: int = 5000) -> tuple:
     """What `work` gives, and the seconds of the fastest of several calls of it.
 
     There are as many as fit in `seconds`, at least one and at most `most`. Whatever is done only once (compilation,
@@ -22,7 +22,7 @@ def timed(work, seconds: float, most: int = 200) -> tuple:
     return given, best
 
 
-def shortest_time(work, seconds: float, most: int = 200) -> float:
+def shortest_time(work, seconds: float, most: int = 5000) -> float:
     """The seconds of `timed`."""
     return timed(work, seconds, most)[1]
 
