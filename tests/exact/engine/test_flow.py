@@ -84,10 +84,12 @@ def series_at(flow, mode, j, z):
 @settings(derandomize=True, deadline=None)
 @given(c=polynomials, t=st.floats(0.01, 3))
 @example(c=(1.0, -0.3, 0.01, 0.02, 0.01, 0.0, 0.0, 0.0), t=3.0)
-def test_positive_is_what_least_says_and_never_more(c, t):
-    assert positive(c, t) >= (least(c, t) > 0.0)
-    if positive(c, t):
-        assert np.polyval(c[::-1], np.linspace(0, t, 200)).min() > -1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
+@example(c=(1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), t=1.001)
+def test_what_is_told_to_be_positive_is(c, t):
+    """Neither the quick bound nor the one behind it says so of a polynomial that has a zero (numpy's values)."""
+    lowest = np.polyval(c[::-1], np.linspace(0, t, 200)).min()
+    rounding = 1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
+    assert lowest > -rounding if positive(c, t) else least(c, t) <= 0.0
 
 
 @settings(derandomize=True, deadline=None)
