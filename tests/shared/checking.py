@@ -5,7 +5,7 @@ import shutil
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.data_dictionary import compared, read
-from vibroimpact_pipeline.figure_check.compare import tolerances
+from vibroimpact_pipeline.figure_check.compare import all_figures, check, tolerances
 from vibroimpact_pipeline.figure_check.page import page, shown
 
 PICTURES = "png", "pdf", "svg"
@@ -26,6 +26,11 @@ def build(folder, name, table, figure, pictures=True):
 def copy_pictures(name, source, folder):
     for kind in PICTURES:
         shutil.copy(source / f"{name}.{kind}", folder)
+
+
+def check_all(figures, reference, new, limits):
+    """Verdicts as the rule asks for them, one figure after the other."""
+    return [check(figure, reference, new, limits) for figure in all_figures(figures, reference)]
 
 
 def page_of(verdicts, reference, new):

@@ -46,13 +46,8 @@ def files_of(figure: str, folder) -> dict[str, Path]:
     return {path.name: path for path in found}
 
 
-def check_all(figures, reference, new, limits: dict) -> list[dict]:
-    """Verdicts on the given figures and on all others that have a reference, by name; see `check`."""
-    return [check(figure, reference, new, limits) for figure in all_figures(figures, reference)]
-
-
 def all_figures(figures, reference) -> list[str]:
-    """The given figures and all others that have a reference, by name."""
+    """The figures that are checked: the given ones and all others that have a reference, by name; see `check`."""
     return sorted({*figures} | figures_in(reference))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageChops
 
-from checking import LIMITS
+from checking import LIMITS, check_all
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.figure_check import compare as figure_check
 from vibroimpact_pipeline.figure_check.accept import HEADING, accept, changed, main, summary
@@ -38,7 +38,7 @@ def both(figures, tmp_path_factory):
         path.unlink()
     origin = {"commit": "0123456789abcdef", "tree": "clean", "rounded by": {"processor": "a"}}
     (new / "fig10_04.provenance.json").write_text(json.dumps(origin))
-    verdicts = figure_check.check_all([], reference, new, LIMITS)
+    verdicts = check_all([], reference, new, LIMITS)
     check = folder / "results/figure_check"
     check.mkdir()
     (check / "figure_check.json").write_text(json.dumps(verdicts))
@@ -68,7 +68,7 @@ def test_a_change_is_shown_before_and_after_with_its_distance(tree, capsys):
 def test_the_new_figure_becomes_the_reference_with_its_reason(tree):
     untouched = contents(tree / "figures")["fig10_05.png"]
     assert main(["--reason", "another kappa"]) == 0
-    verdicts = figure_check.check_all([], tree / "figures", tree / "results/figures", LIMITS)
+    verdicts = check_all([], tree / "figures", tree / "results/figures", LIMITS)
     assert not has_failed(verdicts)
     kept = contents(tree / "figures")
     assert kept["fig10_05.png"] == untouched
@@ -125,7 +125,7 @@ def test_only_the_named_figures_are_accepted(tree, capsys):
 
 def test_with_nothing_to_accept_nothing_is_written(tree, capsys):
     shutil.copytree(tree / "results/figures", tree / "figures", dirs_exist_ok=True)
-    passed = figure_check.check_all([], tree / "figures", tree / "figures", LIMITS)
+    passed = check_all([], tree / "figures", tree / "figures", LIMITS)
     (tree / "results/figure_check/figure_check.json").write_text(json.dumps(passed))
     before = contents(tree / "figures")
     assert main(["--reason", "for nothing"]) == 0
@@ -136,7 +136,7 @@ def test_with_nothing_to_accept_nothing_is_written(tree, capsys):
 def test_a_figure_that_is_no_longer_built_leaves_the_reference(tree):
     for path in (tree / "results/figures").glob("fig10_04*"):
         path.unlink()
-    verdicts = figure_check.check_all([], tree / "figures", tree / "results/figures", LIMITS)
+    verdicts = check_all([], tree / "figures", tree / "results/figures", LIMITS)
     accept(changed(verdicts), tree / "results/figures", tree / "figures", "dropped", DAY)
     assert figure_check.figures_in(tree / "figures") == {"fig10_05"}
     assert "**fig10_04**: not built" in (tree / "figures/CHANGES.md").read_text()
@@ -149,7 +149,7 @@ def test_a_long_list_of_reasons_is_cut_short():
 
 def judged(tree):
     """The verdicts on the tree, where `main` reads them."""
-    verdicts = figure_check.check_all([], tree / "figures", tree / "results/figures", LIMITS)
+    verdicts = check_all([], tree / "figures", tree / "results/figures", LIMITS)
     (tree / "results/figure_check/figure_check.json").write_text(json.dumps(verdicts))
     return {verdict["figure"]: verdict for verdict in verdicts}
 

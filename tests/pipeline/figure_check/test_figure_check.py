@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
-from checking import LIMITS, assert_caught, page_of
+from checking import LIMITS, assert_caught, check_all, page_of
 from vibroimpact.figures.kit import manifold, style
 from vibroimpact_pipeline.figure_check import compare as figure_check
 from vibroimpact_pipeline.figure_check.verdicts import by_distance, has_failed, largest, lines
@@ -142,13 +142,13 @@ def test_a_missing_file_is_a_failure(reference, tmp_path, lost):
 
 
 def test_a_figure_that_is_no_longer_built_is_a_failure(reference, tmp_path):
-    found = figure_check.check_all([], reference, tmp_path, LIMITS)
+    found = check_all([], reference, tmp_path, LIMITS)
     assert len(found) == len(figure_check.figures_in(reference)) > 5
     assert all(verdict["reasons"][0].startswith("not built: ") for verdict in found)
 
 
 def test_nothing_to_check_is_a_failure(tmp_path):
-    assert has_failed(figure_check.check_all([], tmp_path, tmp_path, LIMITS))
+    assert has_failed(check_all([], tmp_path, tmp_path, LIMITS))
 
 
 @pytest.mark.parametrize(
@@ -200,7 +200,7 @@ def test_every_limit_has_its_reason_and_every_column_its_limit(computed):
 def test_lines_say_why_and_the_data_are_plain_json(reference, tmp_path):
     shutil.copytree(reference, tmp_path / "new")
     (tmp_path / "new/fig10_05.csv").unlink()
-    verdicts = figure_check.check_all(["fig10_05"], reference, tmp_path / "new", LIMITS)
+    verdicts = check_all(["fig10_05"], reference, tmp_path / "new", LIMITS)
     assert has_failed(verdicts)
     first, last = lines(verdicts)
     assert first == "fig10_05: failed: not built: fig10_05.csv"
@@ -221,7 +221,7 @@ def test_the_page_shows_all_and_fetches_nothing(reference, tmp_path):
     shutil.copytree(reference, tmp_path / "new")
     shutil.copy(reference / "fig10_04.png", tmp_path / "new/fig10_05.png")
     (tmp_path / "new/fig10_03.png").write_bytes(b"")
-    verdicts = figure_check.check_all([], reference, tmp_path / "new", LIMITS)
+    verdicts = check_all([], reference, tmp_path / "new", LIMITS)
     html = page_of(verdicts, reference, tmp_path / "new")
     assert html.count("<img ") == 2 * len(verdicts)  # one has no new picture, one has a difference, too
     assert html.count("No pixel differs") == len(verdicts) - 2

@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from checking import LIMITS, assert_caught, page_of
+from checking import LIMITS, assert_caught, check_all, page_of
 from vibroimpact.figures.kit import tables
-from vibroimpact_pipeline.figure_check.compare import check, check_all
+from vibroimpact_pipeline.figure_check.compare import check
 
 
 @pytest.fixture
