@@ -6,8 +6,8 @@ import numpy as np
 
 from vibroimpact.exact.engine.event_log import APPROACH, KIND, MODULE, TIME, WALL
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
-from vibroimpact.system.state import IMPACT as IMPACT_KIND
+from vibroimpact.rivals.protocol import REFUSED, Method, RivalRun, failed
+from vibroimpact.system.state import IMPACT
 
 
 class Engine(Method):
@@ -20,19 +20,19 @@ class Engine(Method):
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
             return failed(REFUSED, str(error), 0)
-        hits = run.rows[:, KIND] == IMPACT_KIND
-        rows = run.rows if hits.all() else run.rows[hits]
-        impacts = np.empty(len(rows), IMPACT)
-        impacts["tau"], impacts["module"], impacts["wall"] = tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL]
-        impacts["speed"] = np.abs(rows[:, APPROACH])
-        doubt = partial(_doubt, run, tau0 + cycles * system.period)
-        return RivalRun(run.final, impacts, len(run.rows) + 1, doubt=doubt)
+        return RivalRun(run.final, partial(_impacts, run), len(run.rows) + 1, doubt=partial(_doubt, run))
 
 
-def _doubt(run, end):
+def _impacts(run):
+    """The impacts of a run, without its sticks and releases."""
+    rows = run.rows[run.rows[:, KIND] == IMPACT]
+    return np.stack([run.tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL], np.abs(rows[:, APPROACH])], axis=1)
+
+
+def _doubt(run):
     """What the certificate of a run leaves open, in words."""
     certificate = run.certificate
-    if certificate.horizon < end:
+    if certificate.horizon < run.tau0 + run.cycles * run.system.period:
         return f"known up to tau = {certificate.horizon:.6g}"
     if not certificate.decided:
         nearest = min(certificate.nearest_miss, certificate.shallowest_hit)

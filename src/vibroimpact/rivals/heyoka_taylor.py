@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.protocol import REFUSED, UNFINISHED, Method, RivalRun, failed
 from vibroimpact.rivals.right_hand_side import NAMES, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.state import NAMES as STATE
@@ -48,10 +48,10 @@ class HeyokaTaylor(Method):
             steps += flight.steps
             if flight.failure:
                 kind = UNFINISHED if flight.failure == heyoka.taylor_outcome.step_limit else REFUSED
-                return failed(kind, f"{flight.failure} at tau = {flight.tau:.6g}", steps, impacts=contacts.impacts)
+                return failed(kind, f"{flight.failure} at tau = {flight.tau:.6g}", steps, noted=contacts.impacts)
             tau, s = flight.tau, flight.state
             if flight.module is None:
-                return RivalRun(s, np.array(contacts.impacts, IMPACT), steps)
+                return RivalRun(s, contacts.impacts, steps)
             contacts.resolve(tau, s, [flight.module])
 
 

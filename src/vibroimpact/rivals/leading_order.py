@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
+from vibroimpact.rivals.protocol import REFUSED, Method, RivalRun, failed
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.response import impact_times, leading_order
@@ -47,4 +47,4 @@ def _impacts(system, point, start, end):
         numbers = np.arange(np.ceil((start - first) / half), np.floor((end - first) / half) + 1)
         speed = 2.0 * (2.0 / np.pi * point.C[i] * system.Omega) / (1.0 + system.kappa)  # (10.14)
         rows += [(first + n * half, i + 1, 1 if n % 2 == 0 else -1, speed) for n in numbers]
-    return np.array(sorted(rows), IMPACT)
+    return sorted(rows)

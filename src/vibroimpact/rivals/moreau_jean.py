@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.protocol import UNFINISHED, Method, RivalRun, failed
 from vibroimpact.rivals.right_hand_side import coefficients
 
 
@@ -23,10 +23,7 @@ class MoreauJean(Method):
         if steps > limit:
             return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
         final, rows = _march(coefficients(system), np.array(state, dtype=float), tau0, step, steps)
-        impacts = np.empty(len(rows), IMPACT)
-        for column, name in enumerate(IMPACT.names):
-            impacts[name] = rows[:, column]
-        return RivalRun(final, impacts, steps)
+        return RivalRun(final, rows, steps)
 
 
 @kept()

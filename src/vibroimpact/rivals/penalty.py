@@ -21,7 +21,7 @@ from vibroimpact.rivals.contact_laws import (
     stiffness_of,
     stiffness_turning_at_the_wall,
 )
-from vibroimpact.rivals.protocol import IMPACT, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.protocol import UNFINISHED, Method, RivalRun, failed
 from vibroimpact.rivals.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
@@ -49,10 +49,9 @@ class Penalty(Method):
         end, start = tau0 + cycles * system.period, np.array(state, dtype=float)
         numbers, steps = coefficients(system), limit or self.limit
         final, rows, steps, tau = _march(numbers, law_numbers(law, *wall), _STAGES, start, tau0, end, steps)
-        rows = [tuple(row) for row in rows]
         if tau < end:
             return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, 6 * steps, rows)
-        return RivalRun(final, np.array(rows, IMPACT), steps, 6 * steps)
+        return RivalRun(final, rows, steps, 6 * steps)
 
     def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
         """The law; K, D at speed 1, and where |W| is in contact."""

@@ -1,8 +1,9 @@
 """What every integrator looks like to the comparisons: a name, a ladder of settings, a run with an honest end."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,22 +21,30 @@ class Failure:
     reason: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class RivalRun:
     """The result of a method.
 
-    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure; impacts: (n,) IMPACT
-    in the order of time; steps: integration steps taken; evaluations: evaluations of the right-hand side, where the
-    method counts them, else 0; failure: None, or why there is no result; doubt(): None, or what the method itself says
-    that it cannot decide about the result it gives (asked after the run: whoever times the run does not time this).
+    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure; noted: the impacts in
+    the order of time, (tau, module, wall, speed) each, or a function that gives them; steps: integration steps taken;
+    evaluations: evaluations of the right-hand side, where the method counts them, else 0; failure: None, or why there
+    is no result; doubt(): None, or what the method itself says that it cannot decide about the result it gives.
+
+    What is asked after the run, `impacts` and doubt(), whoever times the run does not time.
     """
 
     final: np.ndarray | None
-    impacts: np.ndarray
+    noted: Iterable | Callable[[], Iterable]
     steps: int
     evaluations: int = 0
     failure: Failure | None = None
     doubt: Callable[[], str | None] = lambda: None
+
+    @cached_property
+    def impacts(self) -> np.ndarray:
+        """What was noted as one table, (n,) IMPACT."""
+        rows = self.noted() if callable(self.noted) else self.noted
+        return np.array([tuple(row) for row in rows], IMPACT)
 
 
 class Method(ABC):
@@ -72,6 +81,6 @@ class Method(ABC):
         return 1.0 / run.steps
 
 
-def failed(kind: str, reason: str, steps: int, evaluations: int = 0, impacts=()) -> RivalRun:
+def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> RivalRun:
     """A run without a result; the impacts found until then are kept."""
-    return RivalRun(None, np.array(list(impacts), IMPACT), steps, evaluations, Failure(kind, reason))
+    return RivalRun(None, noted, steps, evaluations, Failure(kind, reason))

@@ -5,7 +5,7 @@ from scipy.integrate import Radau, solve_ivp
 from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
 from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Method, RivalRun, failed
+from vibroimpact.rivals.protocol import REFUSED, UNFINISHED, Method, RivalRun, failed
 from vibroimpact.rivals.right_hand_side import accelerations, jacobian, rates
 from vibroimpact.system.state import BALLS, BOXES
 
@@ -75,7 +75,7 @@ class SolveIvp(Method):
             tau, s = float(flight.t[-1]), flight.y[:, -1].copy()
             if flight.status == 1:
                 contacts.resolve(tau, s, [k // 2 for k in range(4) if tau in flight.t_events[k]])
-        return RivalRun(s, np.array(contacts.impacts, IMPACT), steps, evaluations)
+        return RivalRun(s, contacts.impacts, steps, evaluations)
 
 
 def _events(i, wall):

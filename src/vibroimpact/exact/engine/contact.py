@@ -92,6 +92,11 @@ def _end_of_chatter(flow, motion, i, ledger):
     u = -wall * (boxes[2 + i] - balls[2 + i])
     if a <= acceleration_rounding(q, boxes, i):
         return False, 0.0
+    neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
+    height = u * u / (2.0 * a)
+    unresolved = height <= gap_rounding(q, boxes, balls, i)
+    if (neglected > NEGLIGIBLE or height > LOW) and not unresolved:
+        return False, 0.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
     mode = mode_of(motion.walls)
@@ -99,11 +104,6 @@ def _end_of_chatter(flow, motion, i, ledger):
     bound = remainder(q, mode, jets, window * q.growth)
     p = jets[0] if i == 0 else jets[1]
     if 8.0 * window * spread(p, bound, window) > a:
-        return False, 0.0
-    neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
-    height = u * u / (2.0 * a)
-    unresolved = height <= gap_rounding(q, boxes, balls, i)
-    if (neglected > NEGLIGIBLE or height > LOW) and not unresolved:
         return False, 0.0
     t, width, _ = module_time(q, motion, 1 - i, jets, bound, window, 0.0)
     clear = t >= window and not width < window

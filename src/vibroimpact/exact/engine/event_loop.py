@@ -14,12 +14,14 @@ Time is the forcing phase, kept modulo one period without loss (phase.ahead), so
 from typing import NamedTuple
 
 import numpy as np
+from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from vibroimpact.exact.engine.compiled import compiled, in_place, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
+from vibroimpact.exact.engine.flow import NUMBERS, SCALARS, Coefficients, Flow
 from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
@@ -72,6 +74,18 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
     if status == FINISHED:
         pack(course.motion.boxes, course.motion.balls, final)
     return log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+
+
+@compiled
+def integrate_packed(numbers, propagators, series, rotations, state, phase, tail, cycles, start, times, samples, final):
+    """`integrate` for Python: a state (8,) in the order of the library, `flow.tables_of` the system and the phase.
+
+    All arrays and numbers, since Numba looks at tuples number by number: 4 us for a call, 1.5 without.
+    """
+    n = to_fixed_tuple(numbers, NUMBERS)
+    flow = Flow(Coefficients(*n[:SCALARS]), propagators, series, rotations, *n[SCALARS:])
+    boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
+    return integrate(flow, boxes, balls, (phase, tail), cycles, start, times, samples, final)
 
 
 @in_place

@@ -66,6 +66,11 @@ class Flow(NamedTuple):
     unit: float
 
 
+SCALARS = len(Coefficients._fields)
+NUMBERS = SCALARS + 4
+"""Of a Flow: all that is no array."""
+
+
 @lru_cache(maxsize=64)
 def flow_of(system) -> Flow:
     """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
@@ -137,6 +142,14 @@ def _series(rates, propagators, rotations):
         filled[:] = np.tensordot(np.concatenate([boxes, phases], axis=1), rows.reshape(16, 6), axes=(1, 1))
         filled[:, :, 0::8], filled[:, :, 1::8] = (np.swapaxes(boxes[:, k : k + 2], 1, 2) for k in (0, 2))
     return table
+
+
+@lru_cache(maxsize=64)
+def tables_of(system) -> tuple[np.ndarray, ...]:
+    """`flow_of` as four arrays, which Numba takes in a third of the time that a tuple of so many numbers takes it."""
+    flow = flow_of(system)
+    numbers = np.array([*flow.coefficients, *flow[4:]])
+    return numbers, flow.propagators, flow.series, flow.rotations
 
 
 @inlined

@@ -28,11 +28,16 @@ def checked_state(state) -> np.ndarray:
     if state.shape != (8,) or not all(map(math.isfinite, values)):
         raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
     x1, y1, x2, y2 = values[:4]
-    for module, box, ball in ((1, x1, y1), (2, x2, y2)):
-        relative = abs(box - ball)
-        if relative > 1.0 and relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
-            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
+    if abs(x1 - y1) > 1.0 or abs(x2 - y2) > 1.0:
+        _check_walls((1, x1, y1), (2, x2, y2))
     return state
+
+
+def _check_walls(*modules):
+    for module, box, ball in modules:
+        relative = abs(box - ball)
+        if relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
+            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
 
 
 def within_walls(states) -> np.ndarray:
@@ -53,12 +58,13 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     begin = _instant(tau0)
     start = float(begin)
-    for name, tau in (("tau0", start), ("cycles", start + cycles * system.period)):
-        if not abs(tau) < LATEST:
-            raise ValueError(
-                f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
-                "its times (the forcing is the same whole periods earlier)"
-            )
+    end = start + cycles * system.period
+    if not (abs(start) < LATEST and abs(end) < LATEST):
+        name, tau = ("cycles", end) if abs(start) < LATEST else ("tau0", start)
+        raise ValueError(
+            f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
+            "its times (the forcing is the same whole periods earlier)"
+        )
     return begin, cycles
 
 
@@ -76,8 +82,6 @@ def checked_times(name, times, start, end) -> np.ndarray:
     Raises:
         ValueError: they are not ascending, not finite or not within the run.
     """
-    if times is None:
-        return NO_TIMES
     times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
         raise ValueError(f"{name}: needs a one-dimensional ascending array of finite times")
