@@ -62,6 +62,20 @@ def test_jet_against_50_digits(chapter):
                 term = rate * term / (k + 1)
 
 
+@pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
+def test_the_table_is_rounded_once(chapter, changes):
+    """Every entry is the float next to the exact one, on any machine."""
+    system = chapter(1.0, 0.6, **changes)
+    flow = flow_of(system)
+    with mp.workdps(60):
+        for mode, stuck in enumerate(CONTACT_STATES):
+            rate = mp.matrix(rate_matrix(system, stuck).tolist())
+            for j in (0, 1, 2, 3, len(flow.rotations) // 3, len(flow.rotations) - 1):
+                exact = np.array(mp.expm(rate * (j * mp.mpf(flow.spacing))).tolist()).astype(float)
+                np.testing.assert_array_equal(flow.propagators[mode, j], exact[:4])
+                np.testing.assert_array_equal(flow.rotations[j], exact[4, 4:])
+
+
 def test_series_of_the_table_against_50_digits(chapter):
     system = chapter(1.0, 0.6)
     flow, z = flow_of(system), [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
+from vibroimpact.exact.engine.propagators import tables
 from vibroimpact.exact.engine.vectors import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
@@ -79,7 +80,7 @@ def flow_of(system) -> Flow:
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
     rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
-    propagators = _powers(rates, spacing, count)
+    propagators, series, rotations = tables(rates, spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -95,53 +96,16 @@ def flow_of(system) -> Flow:
         1.0 + system.epsilon,
         1.0 / (1.0 + system.epsilon),
     )
-    angles = system.Omega * spacing * np.arange(count)
-    rotations = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     return Flow(
         coefficients,
         propagators,
-        _series(rates, propagators, rotations),
+        series,
         rotations,
         spacing,
         1.0 / spacing,
         spacing * (count - 1),
         1.0 / fastest,
     )
-
-
-def _powers(rates, spacing, count):
-    """The boxes' rows of exp(rate spacing j) for j < count, shape (4, count, 4, 6), of rates (4, 6, 6); in extended
-    precision so that the table is rounded only once.
-    """
-    scaled = rates.astype(np.longdouble) * spacing
-    term = step = np.broadcast_to(np.eye(6, dtype=np.longdouble), scaled.shape)
-    for k in range(1, 25):
-        term = term @ scaled / k
-        step = step + term
-    table = np.broadcast_to(np.eye(6, dtype=np.longdouble)[:4], (4, 1, 4, 6))
-    while (made := table.shape[1]) < count:
-        table = np.concatenate([table, table[:, : count - made] @ step[:, None]], axis=1)
-        step = step @ step
-    return table.astype(float)
-
-
-def _series(rates, propagators, rotations):
-    """Taylor coefficients of the boxes at the times of the table, for each state at its start: shape (4, n, 6, 16).
-
-    X_i^(k) / k! of box i is at place 8 i + k. Positions and velocities are those of the propagators, rounded once.
-    """
-    phases = np.zeros((len(rotations), 2, 6))
-    cosine, sine = rotations.T
-    phases[:, 0, 4], phases[:, 0, 5], phases[:, 1, 4], phases[:, 1, 5] = cosine, sine, -sine, cosine
-    table = np.empty((*propagators.shape[:2], 6, 16))
-    for filled, rate, boxes in zip(table, rates, propagators, strict=True):
-        powers, rows = np.eye(6, dtype=np.longdouble), np.empty((2, 8, 6))
-        for k in range(8):
-            rows[:, k] = powers[:2]
-            powers = rate @ powers / (k + 1)
-        filled[:] = np.tensordot(np.concatenate([boxes, phases], axis=1), rows.reshape(16, 6), axes=(1, 1))
-        filled[:, :, 0::8], filled[:, :, 1::8] = (np.swapaxes(boxes[:, k : k + 2], 1, 2) for k in (0, 2))
-    return table
 
 
 @lru_cache(maxsize=64)

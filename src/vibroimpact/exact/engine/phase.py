@@ -78,7 +78,7 @@ def _arctan(inverse, one):
 
 
 @intrinsic
-def _fused(_, a, b, c):
+def fused(_, a, b, c):
     """a b + c, rounded once."""
     signature = types.float64(types.float64, types.float64, types.float64)
     return signature, lambda context, builder, signature, arguments: builder.fma(*arguments)
@@ -91,7 +91,7 @@ def sine_and_cosine(phase, tail):
     The Taylor series over the eighth of a turn next to the nearest quarter.
     """
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
-    x, y = _fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
+    x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
@@ -106,8 +106,8 @@ def sine_and_cosine(phase, tail):
 def _series(c, z):
     """A polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
     w = z * z
-    upper = _fused(w, _fused(w, c[6], _fused(z, c[5], c[4])), _fused(z, c[3], c[2]))
-    return _fused(w, upper, _fused(z, c[1], c[0]))
+    upper = fused(w, fused(w, c[6], fused(z, c[5], c[4])), fused(z, c[3], c[2]))
+    return fused(w, upper, fused(z, c[1], c[0]))
 
 
 @literal
@@ -116,7 +116,7 @@ def ahead(phase, tail, omega, t):
     step = omega * t
     total = phase + step
     part = total - phase
-    return total, tail + ((phase - (total - part)) + (step - part) + _fused(omega, t, -step))
+    return total, tail + ((phase - (total - part)) + (step - part) + fused(omega, t, -step))
 
 
 @literal

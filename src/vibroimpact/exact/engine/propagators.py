@@ -1,0 +1,142 @@
+"""The flow over many equal short times, exact to rounding whatever the machine: in numbers of twice the precision.
+
+Such a number is a pair, a float and what it leaves out (Dekker 1971). Matrices of pairs are (2, 6, 6, times), so that
+the processor multiplies those of several times at once.
+"""
+
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, literal
+from vibroimpact.exact.engine.phase import fused
+
+SIZE, BOXES = 6, 4  # of z = [X1, X2, X1', X2', sin, cos] and of what there is of the boxes
+TERMS = 20  # of the exponential series: over a step of the flow table the next one is below 1e-40
+ORDERS = 8  # of the Taylor polynomials
+
+
+@compiled
+def tables(rates, spacing, count):
+    """Tables over the times j h, j < count and h = spacing, a power of two, for rate matrices A (k, 6, 6), z' = A z.
+
+    Returns the boxes' rows of exp(A j h), (k, count, 4, 6); the Taylor coefficients of the boxes there for each state
+    at the start, (k, count, 6, 16), X_i^(m) / m! of box i at place 8 i + m; and cosine and sine of the forcing phase,
+    (count, 2).
+    """
+    propagators, series = np.empty((len(rates), count, BOXES, SIZE)), np.empty((len(rates), count, SIZE, 2 * ORDERS))
+    rotations, power = np.empty((count, 2)), np.zeros((2, SIZE, SIZE, count))
+    for k in range(len(rates)):
+        step, square = _exponential(rates[k], spacing), np.zeros((2, SIZE, SIZE, 1))
+        for i in range(SIZE):
+            power[0, i, i, 0] = 1.0
+        made = 1
+        while made < count:
+            _multiply(power, min(made, count - made), step, power, made)
+            _multiply(step, 1, step, square, 0)
+            step[:], made = square, 2 * made
+        _expand(_coefficients(rates[k]), power[0], series[k])
+        for j in range(count):
+            rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
+            for i in range(BOXES):
+                for n in range(SIZE):
+                    propagators[k, j, i, n] = power[0, i, n, j]
+    return propagators, series, rotations
+
+
+@compiled
+def _exponential(rate, spacing):
+    """exp(rate spacing) in pairs, (2, 6, 6, 1)."""
+    scaled, total = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
+    scaled[0, :, :, 0] = rate * spacing
+    for i in range(SIZE):
+        total[0, i, i, 0] = 1.0
+    term, after = total.copy(), np.zeros((2, SIZE, SIZE, 1))
+    for k in range(1, TERMS + 1):
+        _multiply(term, 1, scaled, after, 0)
+        for i in range(SIZE):
+            for j in range(SIZE):
+                high, low = _over(after[0, i, j, 0], after[1, i, j, 0], k)
+                term[0, i, j, 0], term[1, i, j, 0] = high, low
+                total[0, i, j, 0], total[1, i, j, 0] = _sum(total[0, i, j, 0], total[1, i, j, 0], high, low)
+    return total
+
+
+@compiled
+def _coefficients(rate):
+    """Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, from z' = A z."""
+    rows, power = np.empty((SIZE, 2 * ORDERS)), np.eye(SIZE)
+    for m in range(ORDERS):
+        rows[:, m], rows[:, ORDERS + m] = power[0], power[1]
+        power = power @ rate / (m + 1)
+    return rows
+
+
+@in_place
+def _expand(coefficients, powers, series):
+    """Fill in series (count, 6, 16) from the coefficients by the state and the powers (6, 6, count)."""
+    for j in range(len(series)):
+        for m in range(SIZE):
+            a, b, c = powers[0, m, j], powers[1, m, j], powers[2, m, j]
+            d, e, f = powers[3, m, j], powers[4, m, j], powers[5, m, j]
+            for k in range(2 * ORDERS):
+                positions = a * coefficients[0, k] + b * coefficients[1, k]
+                velocities = c * coefficients[2, k] + d * coefficients[3, k]
+                series[j, m, k] = positions + velocities + (e * coefficients[4, k] + f * coefficients[5, k])
+
+
+@in_place
+def _multiply(a, many, b, product, place):
+    """Fill in so many matrices, from a place on: those of a, from the first on, times the one of b.
+
+    In all of them the forcing phase does not depend on the boxes.
+    """
+    for i in range(BOXES):
+        for j in range(BOXES):
+            _entries(a, many, b, product, place, i, j, 0, BOXES)
+        for j in range(BOXES, SIZE):
+            _entries(a, many, b, product, place, i, j, 0, SIZE)
+    for i in range(BOXES, SIZE):
+        for j in range(BOXES, SIZE):
+            _entries(a, many, b, product, place, i, j, BOXES, SIZE)
+
+
+@inlined
+def _entries(a, many, b, product, place, i, j, first, last):
+    """Entry (i, j) of all of them, where what is not from first to last adds nothing."""
+    for time in range(many):
+        high, low = 0.0, 0.0
+        for n in range(first, last):
+            high, low = _plus_product(high, low, a[0, i, n, time], a[1, i, n, time], b[0, n, j, 0], b[1, n, j, 0])
+        there = np.uintp(place + time)  # not counted from the end, so that several times go at once
+        product[0, i, j, there], product[1, i, j, there] = _normal(high, low)
+
+
+@literal
+def _plus_product(high, low, a, a_low, b, b_low):
+    """A pair and the product of two others; the second number of the sum may be longer than what the first left out."""
+    product = a * b
+    total = high + product
+    part = total - high
+    rounded = (high - (total - part)) + (product - part)
+    return total, low + (rounded + (fused(a, b, -product) + (a * b_low + a_low * b)))
+
+
+@literal
+def _sum(a, a_low, b, b_low):
+    """The sum of two pairs."""
+    total = a + b
+    part = total - a
+    return _normal(total, (a - (total - part)) + (b - part) + (a_low + b_low))
+
+
+@literal
+def _over(high, low, k):
+    """A pair over a small whole number."""
+    quotient = high / k
+    return _normal(quotient, (fused(-quotient, k, high) + low) / k)
+
+
+@literal
+def _normal(high, low):
+    """The pair of the nearest float and the rest."""
+    total = high + low
+    return total, low - (total - high)
