@@ -182,7 +182,8 @@ def _meet(flow, motion, i, moment, log):
 def _rest(q, motion, i, pulled, elapsed, log):
     """The motion after a ball at rest on a wall has stuck to it or was released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    jets = jet(q, mode_of(motion.walls), boxes, motion.sine, motion.cosine)
+    together = mode_of(pair(motion.walls, i, 1))  # the same question, to rounding, whether it sticks as yet or not
+    jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
         falling = pulled and wall * (jets[0] if i == 0 else jets[1])[3] < 0.0
         if falling or _hold(q, jets, boxes, i, wall, True) < 0.0:

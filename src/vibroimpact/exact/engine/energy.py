@@ -13,7 +13,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.event_log import APPROACH
-from vibroimpact.exact.engine.flow import along, jet, node, slope
+from vibroimpact.exact.engine.flow import along, jet_at, slope, turned
 from vibroimpact.exact.engine.motion import carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
@@ -140,8 +140,7 @@ def _follow(flow, forms, walls, boxes, phase, t, row, counted):
     """The boxes after a flight no longer than flow.longest, whose integrals are added to the row, if counted."""
     q, mode, j = flow.coefficients, mode_of(walls), int(t * flow.density + 0.5)
     rest, sine, cosine = t - j * flow.spacing, math.sin(phase), math.cos(phase)
-    there, s, c = node(flow, mode, boxes, sine, cosine, j)
-    jets = jet(q, mode, there, s, c)
+    jets, (s, c) = jet_at(flow, mode, boxes, sine, cosine, j), turned(flow, sine, cosine, j)
     if counted:
         z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
         for k in range(FORMS):

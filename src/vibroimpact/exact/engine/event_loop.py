@@ -77,13 +77,13 @@ def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samp
 
 
 @compiled
-def integrate_packed(numbers, propagators, series, rotations, state, phase, tail, cycles, start, times, samples, final):
+def integrate_packed(numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final):
     """`integrate` for Python: a state (8,) in the order of the library, `flow.tables_of` the system and the phase.
 
     All arrays and numbers, since Numba looks at tuples number by number: 4 us for a call, 1.5 without.
     """
     n = to_fixed_tuple(numbers, NUMBERS)
-    flow = Flow(Coefficients(*n[:SCALARS]), propagators, series, rotations, *n[SCALARS:])
+    flow = Flow(Coefficients(*n[:SCALARS]), series, rotations, *n[SCALARS:])
     boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
     return integrate(flow, boxes, balls, (phase, tail), cycles, start, times, samples, final)
 

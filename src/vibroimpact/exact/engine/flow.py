@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
-from vibroimpact.exact.engine.propagators import tables
+from vibroimpact.exact.engine.propagators import ORDERS, tables
 from vibroimpact.exact.engine.vectors import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
 
@@ -51,14 +51,13 @@ class Coefficients(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Tables of one system: propagators (4, n, 4, 6), series (4, n, 6, 16), rotations (n, 2); their spacing (and
-    its inverse), their longest time.
+    """Tables of one system (`tables`): series (4, n, 6, 16), rotations (n, 2); their spacing (and its inverse), their
+    longest time.
 
     unit: a time over which nothing in the system changes much, 1 / its fastest rate.
     """
 
     coefficients: Coefficients
-    propagators: np.ndarray
     series: np.ndarray
     rotations: np.ndarray
     spacing: float
@@ -68,7 +67,8 @@ class Flow(NamedTuple):
 
 
 SCALARS = len(Coefficients._fields)
-NUMBERS = SCALARS + 4
+PLAIN = Flow._fields[3:]  # behind its arrays
+NUMBERS = SCALARS + len(PLAIN)
 """Of a Flow: all that is no array."""
 
 
@@ -80,7 +80,7 @@ def flow_of(system) -> Flow:
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
     rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
-    propagators, series, rotations = tables(rates, spacing, count)
+    series, rotations = tables(rates, spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -92,13 +92,12 @@ def flow_of(system) -> Flow:
         system.kappa,
         float(np.hypot(*force)),
         float(np.hypot(*force)) * system.Omega**6,
-        float(np.abs(propagators[:, :, :2, 4:]).max()),
+        float(np.abs(series[:, :, 4:, ::ORDERS]).max()),
         1.0 + system.epsilon,
         1.0 / (1.0 + system.epsilon),
     )
     return Flow(
         coefficients,
-        propagators,
         series,
         rotations,
         spacing,
@@ -110,10 +109,10 @@ def flow_of(system) -> Flow:
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """`flow_of` as four arrays, which Numba takes in a third of the time that a tuple of so many numbers takes it."""
+    """`flow_of` as three arrays, which Numba takes in a third of the time that a tuple of so many numbers takes it."""
     flow = flow_of(system)
-    numbers = np.array([*flow.coefficients, *flow[4:]])
-    return numbers, flow.propagators, flow.series, flow.rotations
+    numbers = np.array([*flow.coefficients, *flow[-len(PLAIN) :]])
+    return numbers, flow.series, flow.rotations
 
 
 @inlined
@@ -193,20 +192,13 @@ def along(jets, t):
 @inlined
 def node(flow, mode, boxes, sine, cosine, j):
     """Boxes and forcing phase at the j-th time of the table, j * flow.spacing: (X1, X2, X1', X2'), sin, cos."""
-    if j == 0:
-        return boxes, sine, cosine
-    x1, x2, v1, v2 = boxes
-    p = flow.propagators[mode, j]
-    y1 = p[0, 0] * x1 + p[0, 1] * x2 + p[0, 2] * v1 + p[0, 3] * v2 + p[0, 4] * sine + p[0, 5] * cosine
-    y2 = p[1, 0] * x1 + p[1, 1] * x2 + p[1, 2] * v1 + p[1, 3] * v2 + p[1, 4] * sine + p[1, 5] * cosine
-    w1 = p[2, 0] * x1 + p[2, 1] * x2 + p[2, 2] * v1 + p[2, 3] * v2 + p[2, 4] * sine + p[2, 5] * cosine
-    w2 = p[3, 0] * x1 + p[3, 1] * x2 + p[3, 2] * v1 + p[3, 3] * v2 + p[3, 4] * sine + p[3, 5] * cosine
-    s, c = _turned(flow, sine, cosine, j)
-    return (y1, y2, w1, w2), s, c
+    one, two = jet_at(flow, mode, boxes, sine, cosine, j)
+    s, c = turned(flow, sine, cosine, j)
+    return (one[0], two[0], one[1], two[1]), s, c
 
 
 @inlined
-def _turned(flow, sine, cosine, j):
+def turned(flow, sine, cosine, j):
     """Sine and cosine of the forcing phase at the j-th time of the table."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
     return sine * ca + cosine * sa, cosine * ca - sine * sa
@@ -218,7 +210,7 @@ def advance(flow, mode, boxes, sine, cosine, t):
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
-    s, c = _turned(flow, sine, cosine, j)
+    s, c = turned(flow, sine, cosine, j)
     angle = flow.coefficients.omega * r
     h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))

@@ -18,12 +18,12 @@ ORDERS = 8  # of the Taylor polynomials
 def tables(rates, spacing, count):
     """Tables over the times j h, j < count and h = spacing, a power of two, for rate matrices A (k, 6, 6), z' = A z.
 
-    Returns the boxes' rows of exp(A j h), (k, count, 4, 6); the Taylor coefficients of the boxes there for each state
-    at the start, (k, count, 6, 16), X_i^(m) / m! of box i at place 8 i + m; and cosine and sine of the forcing phase,
-    (count, 2).
+    Returns the Taylor coefficients of the boxes there for each state at the start, (k, count, 6, 16), X_i^(m) / m! of
+    box i at place 8 i + m, positions and velocities being exp(A j h) to rounding; and cosine and sine of the forcing
+    phase, (count, 2).
     """
-    propagators, series = np.empty((len(rates), count, BOXES, SIZE)), np.empty((len(rates), count, SIZE, 2 * ORDERS))
-    rotations, power = np.empty((count, 2)), np.zeros((2, SIZE, SIZE, count))
+    series, rotations = np.empty((len(rates), count, SIZE, 2 * ORDERS)), np.empty((count, 2))
+    power = np.zeros((2, SIZE, SIZE, count))
     for k in range(len(rates)):
         step, square = _exponential(rates[k], spacing), np.zeros((2, SIZE, SIZE, 1))
         for i in range(SIZE):
@@ -34,12 +34,9 @@ def tables(rates, spacing, count):
             _multiply(step, 1, step, square, 0)
             step[:], made = square, 2 * made
         _expand(_coefficients(rates[k]), power[0], series[k])
-        for j in range(count):
-            rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
-            for i in range(BOXES):
-                for n in range(SIZE):
-                    propagators[k, j, i, n] = power[0, i, n, j]
-    return propagators, series, rotations
+    for j in range(count):
+        rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
+    return series, rotations
 
 
 @compiled

@@ -14,6 +14,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, value
+from vibroimpact.exact.engine.propagators import ORDERS
 from vibroimpact.system.matrices import rate_matrix
 
 SIZE, ENTRIES = 6, 21
@@ -83,8 +84,9 @@ def integrals_of(system, kernels) -> np.ndarray:
     turned = np.zeros((len(flow.rotations), 2, SIZE))
     (cosine, sine) = flow.rotations.T
     turned[:, 0, 4], turned[:, 0, 5], turned[:, 1, 4], turned[:, 1, 5] = cosine, sine, -sine, cosine
-    forms = np.empty((len(flow.propagators), len(turned), len(kernels), SIZE, SIZE))
-    for mode, propagators in enumerate(flow.propagators):
+    forms = np.empty((len(flow.series), len(turned), len(kernels), SIZE, SIZE))
+    for mode, series in enumerate(flow.series):
+        propagators = np.swapaxes(series[:, :, [0, ORDERS, 1, ORDERS + 1]], 1, 2)
         rate = rate_matrix(system, (bool(mode & 1), bool(mode & 2)))
         forms[mode] = _summed(_over_one(rate, flow.spacing, kernels), np.concatenate([propagators, turned], axis=1))
     return np.ascontiguousarray(forms[..., ROWS, COLUMNS] * np.where(ROWS == COLUMNS, 1.0, 2.0))

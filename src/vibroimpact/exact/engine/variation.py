@@ -12,8 +12,9 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.contact import impact
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
-from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses, jet
+from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses
 from vibroimpact.exact.engine.motion import mode_of
+from vibroimpact.exact.engine.propagators import ORDERS
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
 from vibroimpact.system.state import IMPACT, STICK
 
@@ -69,13 +70,13 @@ def fill_flight(flow, flight, matrix):
 @compiled
 def _fill_free(flow, walls, t, matrix):
     """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
-    q, mode = flow.coefficients, mode_of(walls)
+    mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
-    p, rest = flow.propagators[mode, j], t - j * flow.spacing
+    rest = t - j * flow.spacing
     matrix[:] = 0.0
     for k in range(4):  # without the force a box's motion is linear in the state
-        later = along(jet(q, mode, (p[0, k], p[1, k], p[2, k], p[3, k]), 0.0, 0.0), rest)
-        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = later
+        p = flow.series[mode, j, k]
+        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = along((p[:ORDERS], p[ORDERS:]), rest)
     for i in range(2):
         if walls[i] != 0:  # the ball goes where its box goes
             _copy(matrix[i : i + 1], matrix[4 + i : 5 + i])
