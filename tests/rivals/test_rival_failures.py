@@ -10,7 +10,7 @@ from vibroimpact.accuracy import hazards
 from vibroimpact.rivals import METHODS, heyoka_taylor, solve_ivp
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
-from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, RivalRun
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 
@@ -88,3 +88,24 @@ def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
     problem = next(one for one in hazards.hazards() if one.name == hazard)
     found = hazards.judge(problem, [method(name) for name in verdicts])
     assert {row["method"]: row["verdict"] for row in found} == verdicts
+
+
+@pytest.mark.parametrize(
+    "noted",
+    [
+        [(0.5, 1, -1, 0.3)],
+        np.array([[0.5, 1.0, -1.0, 0.3]]),
+        np.array([(0.5, 1, -1, 0.3)], IMPACT),
+        (),
+        np.empty((0, 4)),
+    ],
+    ids=["list", "array", "table", "none", "empty array"],
+)
+def test_impacts_become_one_table_when_they_are_asked_for(noted):
+    asked = []
+    run = RivalRun(None, lambda: asked.append(1) or noted, 1)
+    assert not asked
+    assert run.impacts.dtype == IMPACT
+    assert run.impacts.tolist() == [(0.5, 1, -1, 0.3)] * len(noted)
+    assert asked == [1]
+    assert RivalRun(None, noted, 1).impacts.tolist() == run.impacts.tolist()

@@ -10,6 +10,8 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.theory.power import mean_power
 
+PLACES = np.linspace(0.05, 0.4, 8)
+
 
 def balance(power):
     """Its five kinds of numbers, both modules apart, shape (7,)."""
@@ -46,10 +48,13 @@ def test_the_exact_orbits_differ_by_the_order_of_epsilon():
     np.testing.assert_allclose(ratios[:-1] / ratios[1:], 2.0, rtol=0.1)
 
 
-def cycles_of_modulation(system, cycles, per_cycle=64):
-    """(leading order, exact) for every cycle of a modulated response in which each ball meets each wall once."""
+def cycles_of_modulation(system, place, cycles, per_cycle=64):
+    """(leading order, exact) for every cycle of a modulated response in which each ball meets each wall once.
+
+    place: of box 1 at the start.
+    """
     tau = system.period * np.arange(cycles * per_cycle) / per_cycle
-    run = vi.simulate(system, [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], cycles, sample_times=tau)
+    run = vi.simulate(system, [place, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], cycles, sample_times=tau)
     hits = run.events[run.events["kind"] == vi.IMPACT]
     ends = np.searchsorted(hits["tau"], system.period * np.arange(cycles + 1))
     for k in range(cycles // 2, cycles):
@@ -62,12 +67,16 @@ def cycles_of_modulation(system, cycles, per_cycle=64):
 
 
 def test_the_modulated_response_spends_as_its_slow_variables_say():
-    """Cycle by cycle in resonance: work to the order of epsilon, the share of the impacts ever better."""
+    """Cycle by cycle in resonance: work to the order of epsilon, the share of the impacts ever better.
+
+    Of eight chaotic motions: with one, the share is off by 0.036 to 0.059 at the larger epsilon.
+    """
     works, shares = [], []
     for epsilon in (0.04, 0.01):
         system = vi.System(**{**PARAMETERS, "epsilon": epsilon}, f10_hat=0.5, f20_hat=0.5)
-        expected, exact = np.swapaxes(list(cycles_of_modulation(system, int(32 / epsilon))), 0, 1)
-        assert len(exact) > 100
+        cycles = [cycle for x in PLACES for cycle in cycles_of_modulation(system, x, int(32 / epsilon))]
+        expected, exact = np.swapaxes(cycles, 0, 1)
+        assert len(exact) > 1000
         works.append(np.abs(expected - exact)[:, :2].sum() / np.abs(exact)[:, :2].sum())
         spent = [np.array([part[:, 5:].sum(), part[:, :2].sum()]) for part in (expected, exact)]
         shares.append(abs(spent[0][0] / spent[0][1] * spent[1][1] / spent[1][0] - 1))

@@ -1,5 +1,7 @@
 """The chapter's leading-order solution, (10.9)-(10.12), as a method: no transient, no integration."""
 
+from functools import partial
+
 import numpy as np
 
 from vibroimpact.rivals.protocol import REFUSED, Method, RivalRun, failed
@@ -23,7 +25,7 @@ class LeadingOrder(Method):
         starts = [np.abs(steady_state(system, point, tau0) - state).max() for point in points]
         point = points[int(np.argmin(starts))]
         end = tau0 + cycles * system.period
-        return RivalRun(steady_state(system, point, end), _impacts(system, point, tau0, end), 1)
+        return RivalRun(steady_state(system, point, end), partial(_impacts, system, point, tau0, end), 1)
 
 
 def steady_state(system, point, tau) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 import threading
 
+import pytest
+
 from vibroimpact.exact.engine import all_cores
 from vibroimpact.exact.engine.all_cores import at_most, cores, on_all_cores
 
@@ -23,3 +25,20 @@ def test_no_more_threads_than_a_job_is_given(monkeypatch):
     with at_most(100):
         assert cores() == 8
     assert cores() == 8
+
+
+def test_without_others_the_pieces_are_done_where_one_is():
+    done = []
+
+    def work(number):
+        done.append((number, threading.get_ident()))
+        return 1 // (2 - number)
+
+    with at_most(1):
+        assert on_all_cores(work, [(0,), (1,)], [1] * 2, progress=False) == [0, 1]
+        with pytest.raises(ZeroDivisionError):
+            on_all_cores(work, [(1,), (2,), (3,)], [1] * 3, progress=False)
+    with at_most(8):
+        assert on_all_cores(work, [(0,)], [1], progress=False) == [0]
+    here = threading.get_ident()
+    assert done == [(0, here), (1, here), (1, here), (2, here), (0, here)]

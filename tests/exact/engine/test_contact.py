@@ -6,6 +6,8 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.exact.engine.constraints import acceleration_rounding
+from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 QUIET = dict(alpha12_hat=0.0, gamma12_hat=0.0)
@@ -204,3 +206,22 @@ def test_impact_law_conserves_momentum_and_never_gains_energy():
     energy = 0.5 * (box**2 + epsilon * ball**2) - 0.5 * (new_box**2 + epsilon * new_ball**2)
     np.testing.assert_allclose(energy, energy_lost(epsilon, kappa, box - ball), atol=1e-14)
     assert (energy_lost(epsilon, kappa, box - ball) >= 0).all()
+
+
+@pytest.mark.parametrize("multiple", [1.2, 1.3, 1.4])
+@pytest.mark.parametrize("module", [1, 2])
+def test_a_ball_is_held_or_not_by_the_force_on_both(chapter, module, multiple):
+    """At rest on its wall under a force that falls, within rounding of none on box and ball, above on the box alone.
+
+    If the two questions were not one, it would stick and be released, then stick again where the run is continued.
+    """
+    forces = (2.0, 0.0) if module == 1 else (0.0, 2.0)
+    system = chapter(*forces, epsilon=0.5, sigma20_hat=0.0, **ALONE)
+    speed = 3.0 * system.forcing.max() * system.Omega + 1.0  # the spring soon pulls more
+    boxes = (0.0, 0.0, speed, 0.0) if module == 1 else (0.0, 0.0, 0.0, speed)
+    place = -multiple * acceleration_rounding(flow_of(system).coefficients, boxes, module - 1)
+    start = np.zeros(8)
+    start[2 * module - 2 : 2 * module], start[2 * module + 2 : 2 * module + 4] = (place, place - 1.0), speed
+    run = vi.simulate(system, start, 1)
+    own = run.events[run.events["module"] == module]
+    assert own["kind"][0] == IMPACT

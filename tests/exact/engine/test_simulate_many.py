@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.exact.engine.event_loop import integrate_packed
 
 
 def starts(n):
@@ -20,6 +21,17 @@ def test_bit_equal_to_single_runs(case):
         single = vi.simulate(case, state, 60, tau0=0.4)
         np.testing.assert_array_equal(run.final, single.final)
         np.testing.assert_array_equal(run.events, single.events)
+
+
+def test_starts_in_any_order_of_memory_run_the_same_code(case):
+    plain = vi.simulate_many(case, starts(3), 3)
+    compiled = list(integrate_packed.signatures)
+    for states in (np.asfortranarray(starts(3)), starts(6)[::2], starts(3).astype(">f8")):
+        runs = vi.simulate_many(case, states, 3)
+        assert len(runs) == 3
+    assert integrate_packed.signatures == compiled
+    for run, other in zip(plain, vi.simulate_many(case, np.asfortranarray(starts(3)), 3), strict=True):
+        np.testing.assert_array_equal(run.final, other.final)
 
 
 def test_progress_is_reported(case, capsys):

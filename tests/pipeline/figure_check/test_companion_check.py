@@ -96,7 +96,7 @@ COMPUTE = {
     ),
     "companion_regime_map": lambda change: regime_map.compute(mapped(change(SYSTEMS["equal"])), all_systems(change), 5),
     "companion_modulation": lambda change: modulation.compute(
-        all_systems(change), starts=6, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
+        all_systems(change), starts=16, seed=2, cycles=300, blocks=15, block=10, windows=[100], observation=OBSERVATION
     ),
     "companion_basins": lambda change: basins.compute(change(SYSTEMS["unequal"]), "unequal", 15, OBSERVATION),
     "companion_response": lambda change: response(change(SYSTEMS["equal"])),

@@ -1,4 +1,4 @@
-"""Many pieces of work on all cores, in threads: the compiled engine does without the interpreter's lock."""
+"""Many pieces of work on all cores, in threads where there are several: the engine needs no interpreter's lock."""
 
 import os
 import sys

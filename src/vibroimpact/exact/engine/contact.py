@@ -182,7 +182,9 @@ def _meet(flow, motion, i, moment, log):
 def _rest(q, motion, i, pulled, elapsed, log):
     """The motion after a ball at rest on a wall has stuck to it or was released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    together = mode_of(pair(motion.walls, i, 1))  # the same question, to rounding, whether it sticks as yet or not
+    # Of box and ball together, whether it sticks as yet or not: the box alone is accelerated 1 + epsilon times as much,
+    # and within rounding of no force a ball could stick and be released without end.
+    together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
         falling = pulled and wall * (jets[0] if i == 0 else jets[1])[3] < 0.0

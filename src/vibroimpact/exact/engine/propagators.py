@@ -1,7 +1,7 @@
-"""The flow over many equal short times, exact to rounding whatever the machine: in numbers of twice the precision.
+"""The flow over many equal short times: positions, velocities and phases rounded once, whatever the machine.
 
-Such a number is a pair, a float and what it leaves out (Dekker 1971). Matrices of pairs are (2, 6, 6, times), so that
-the processor multiplies those of several times at once.
+They are computed in numbers of twice the precision, pairs of a float and what it leaves out (Dekker 1971). Matrices of
+pairs are (2, 6, 6, times), so that the processor multiplies those of several times at once.
 """
 
 import numpy as np

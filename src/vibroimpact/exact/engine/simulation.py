@@ -152,10 +152,10 @@ def simulate(
     instance("system", system, System)
     state = checked_state(state)
     begin, cycles = checked_window(system, cycles, tau0)
-    if sample_times is None:
-        return _run(system, state, cycles, begin, NO_TIMES)
-    start = float(begin)
-    times = checked_times("sample_times", sample_times, start, start + cycles * system.period)
+    times = NO_TIMES
+    if sample_times is not None:
+        start = float(begin)
+        times = checked_times("sample_times", sample_times, start, start + cycles * system.period)
     return _run(system, state, cycles, begin, times)
 
 
@@ -178,7 +178,7 @@ def simulate_many(
         ArithmeticError: an invariant broke in one of the runs.
     """
     instance("system", system, System)
-    states = reals("states", states)
+    states = np.ascontiguousarray(reals("states", states))  # rows of another order would be compiled for anew
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):

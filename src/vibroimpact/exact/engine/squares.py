@@ -19,7 +19,7 @@ from vibroimpact.system.matrices import rate_matrix
 
 SIZE, ENTRIES = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)
-TERMS = 24  # of the exponential series over one spacing, as in the flow table
+TERMS = 24  # of the exponential series over one spacing
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 REST = 0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)
 SHARES = 5 / 18, 8 / 18, 5 / 18
