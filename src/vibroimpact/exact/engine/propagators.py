@@ -23,61 +23,85 @@ def tables(rates, spacing, count):
     phase, (count, 2).
     """
     series, rotations = np.empty((len(rates), count, SIZE, 2 * ORDERS)), np.empty((count, 2))
-    power = np.zeros((2, SIZE, SIZE, count))
+    power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
+    step, one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
     for k in range(len(rates)):
-        step, square = _exponential(rates[k], spacing), np.zeros((2, SIZE, SIZE, 1))
-        for i in range(SIZE):
-            power[0, i, i, 0] = 1.0
+        _fill_exponential(rates, k, spacing, step, one, other)
+        _fill_unit(power)
         made = 1
         while made < count:
             _multiply(power, min(made, count - made), step, power, made)
-            _multiply(step, 1, step, square, 0)
-            step[:], made = square, 2 * made
-        _expand(_coefficients(rates[k]), power[0], series[k])
+            _multiply(step, 1, step, other, 0)
+            step, other, made = other, step, 2 * made
+        _fill_coefficients(rates, k, coefficients, one, other)
+        _expand(coefficients, power, series, k)
     for j in range(count):
         rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
     return series, rotations
 
 
-@compiled
-def _exponential(rate, spacing):
-    """exp(rate spacing) in pairs, (2, 6, 6, 1)."""
-    scaled, total = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
-    scaled[0, :, :, 0] = rate * spacing
+@in_place
+def _fill_unit(matrices):
+    """Make the first of some matrices the unit matrix, in pairs."""
     for i in range(SIZE):
-        total[0, i, i, 0] = 1.0
-    term, after = total.copy(), np.zeros((2, SIZE, SIZE, 1))
-    for k in range(1, TERMS + 1):
-        _multiply(term, 1, scaled, after, 0)
-        for i in range(SIZE):
-            for j in range(SIZE):
-                high, low = _over(after[0, i, j, 0], after[1, i, j, 0], k)
-                term[0, i, j, 0], term[1, i, j, 0] = high, low
-                total[0, i, j, 0], total[1, i, j, 0] = _sum(total[0, i, j, 0], total[1, i, j, 0], high, low)
-    return total
-
-
-@compiled
-def _coefficients(rate):
-    """Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, from z' = A z."""
-    rows, power = np.empty((SIZE, 2 * ORDERS)), np.eye(SIZE)
-    for m in range(ORDERS):
-        rows[:, m], rows[:, ORDERS + m] = power[0], power[1]
-        power = power @ rate / (m + 1)
-    return rows
+        for j in range(SIZE):
+            matrices[0, i, j, 0], matrices[1, i, j, 0] = 1.0 if i == j else 0.0, 0.0
 
 
 @in_place
-def _expand(coefficients, powers, series):
-    """Fill in series (count, 6, 16) from the coefficients by the state and the powers (6, 6, count)."""
-    for j in range(len(series)):
+def _fill_exponential(rates, k, spacing, total, term, after):
+    """Fill in exp(A_k spacing) in pairs, (2, 6, 6, 1); the others of that shape are room to work in."""
+    _fill_unit(total)
+    _fill_unit(term)
+    for order in range(1, TERMS + 1):
+        for i in range(SIZE):
+            for j in range(SIZE):
+                high, low = 0.0, 0.0
+                for n in range(SIZE):
+                    high, low = _plus_product(
+                        high, low, term[0, i, n, 0], term[1, i, n, 0], rates[k, n, j] * spacing, 0.0
+                    )
+                high, low = _normal(high, low)
+                after[0, i, j, 0], after[1, i, j, 0] = _over(high, low, order)
+        for i in range(SIZE):
+            for j in range(SIZE):
+                high, low = after[0, i, j, 0], after[1, i, j, 0]
+                term[0, i, j, 0], term[1, i, j, 0] = high, low
+                total[0, i, j, 0], total[1, i, j, 0] = _sum(total[0, i, j, 0], total[1, i, j, 0], high, low)
+
+
+@in_place
+def _fill_coefficients(rates, k, rows, power, after):
+    """Fill in the Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, z' = A_k z.
+
+    power, after: (2, 6, 6, 1), room to work in.
+    """
+    _fill_unit(power)
+    for m in range(ORDERS):
+        for n in range(SIZE):
+            rows[n, m], rows[n, ORDERS + m] = power[0, 0, n, 0], power[0, 1, n, 0]
+        for i in range(SIZE):
+            for j in range(SIZE):
+                total = 0.0
+                for n in range(SIZE):
+                    total += power[0, i, n, 0] * rates[k, n, j]
+                after[0, i, j, 0] = total / (m + 1)
+        for i in range(SIZE):
+            for j in range(SIZE):
+                power[0, i, j, 0] = after[0, i, j, 0]
+
+
+@in_place
+def _expand(coefficients, powers, series, mode):
+    """Fill in series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
+    for j in range(powers.shape[3]):
         for m in range(SIZE):
-            a, b, c = powers[0, m, j], powers[1, m, j], powers[2, m, j]
-            d, e, f = powers[3, m, j], powers[4, m, j], powers[5, m, j]
+            a, b, c = powers[0, 0, m, j], powers[0, 1, m, j], powers[0, 2, m, j]
+            d, e, f = powers[0, 3, m, j], powers[0, 4, m, j], powers[0, 5, m, j]
             for k in range(2 * ORDERS):
                 positions = a * coefficients[0, k] + b * coefficients[1, k]
                 velocities = c * coefficients[2, k] + d * coefficients[3, k]
-                series[j, m, k] = positions + velocities + (e * coefficients[4, k] + f * coefficients[5, k])
+                series[mode, j, m, k] = positions + velocities + (e * coefficients[4, k] + f * coefficients[5, k])
 
 
 @in_place
