@@ -64,7 +64,7 @@ def test_jet_against_50_digits(chapter):
 
 @pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
 def test_the_table_is_rounded_once(chapter, changes):
-    """Every entry is the float next to the exact one, on any machine."""
+    """Positions, velocities and phases are the floats next to the exact ones, on any machine; at some of the times."""
     system = chapter(1.0, 0.6, **changes)
     flow = flow_of(system)
     with mp.workdps(60):
