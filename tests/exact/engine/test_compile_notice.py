@@ -7,7 +7,7 @@ import pytest
 from vibroimpact.exact.engine.compile_notice import ON_DEMAND, SIMULATION, _Notice
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.exact.engine.propagators import tables
+from vibroimpact.exact.engine.flow_tables import tables
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.rivals.right_hand_side import rates
 

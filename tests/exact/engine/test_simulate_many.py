@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.event_loop import integrate_packed
+from vibroimpact.exact.engine.event_loop import integrate
 
 
 def starts(n):
@@ -25,11 +25,11 @@ def test_bit_equal_to_single_runs(case):
 
 def test_starts_in_any_order_of_memory_run_the_same_code(case):
     plain = vi.simulate_many(case, starts(3), 3)
-    compiled = list(integrate_packed.signatures)
+    compiled = list(integrate.signatures)
     for states in (np.asfortranarray(starts(3)), starts(6)[::2], starts(3).astype(">f8")):
         runs = vi.simulate_many(case, states, 3)
         assert len(runs) == 3
-    assert integrate_packed.signatures == compiled
+    assert integrate.signatures == compiled
     for run, other in zip(plain, vi.simulate_many(case, np.asfortranarray(starts(3)), 3), strict=True):
         np.testing.assert_array_equal(run.final, other.final)
 

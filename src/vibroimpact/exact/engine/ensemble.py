@@ -9,7 +9,7 @@ from vibroimpact.exact.engine.all_cores import cores, on_all_cores
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
-from vibroimpact.exact.engine.flow import flow_of
+from vibroimpact.exact.engine.flow import tables_of, unpacked
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
 from vibroimpact.exact.engine.replay import departures
@@ -91,7 +91,7 @@ def ensemble(
     pieces, most = [], min(MOST_AT_ONCE, -(-numbers.size // (SHARES * cores())))
     for system, begin, first, end in zip(known, begins, ends[:-1], ends[1:], strict=True):
         if end - first > most:
-            flow_of(system), squares_of(system), energy and powers_of(system)  # once, before the threads share them
+            tables_of(system), squares_of(system), energy and powers_of(system)  # once, before the threads share them
         pieces += [
             (system, starts, cycles, begin, settle, filled, order[place : min(place + most, end)])
             for place in range(first, end, max(most, 1))
@@ -141,7 +141,8 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     squares = squares_of(system) if observed else NOTHING
     powers = powers_of(system) if observed and len(spent) else NO_POWERS
     phase = phase_at(begin, system.Omega)
-    _loop(flow_of(system), squares, powers, starts, phase, cycles, system.period, settle, status, final, seen, spent)
+    tables = tables_of(system)
+    _loop(*tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent)
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
     for name, place in PLACES.items():
@@ -153,20 +154,24 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
 
 
 @compiled
-def _loop(flow, squares, powers, starts, phase, cycles, period, settle, status, final, seen, spent):
+def _loop(
+    numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen, spent
+):
     """Run the starts (n, 8) of a piece whose status is FINISHED; fill in what they end with and amount to."""
     opening = np.array([settle * period])
     no_times, no_samples = np.empty(0), np.empty((0, 8))
+    flow = unpacked(numbers, series, rotations)
     for n in range(len(starts)):
         s = starts[n]
         if status[n] == FINISHED:
-            boxes, balls = (s[0], s[2], s[4], s[6]), (s[1], s[3], s[5], s[7])
-            events, status[n], _ = integrate(flow, boxes, balls, phase, cycles, 0.0, no_times, no_samples, final[n])
+            events, status[n], _ = integrate(
+                numbers, series, rotations, s, phase, tail, cycles, 0.0, no_times, no_samples, final[n]
+            )
         if status[n] != FINISHED or settle == cycles:
             seen[n, LARGEST:] = np.nan
         else:
             end = final[n, 0], final[n, 2], final[n, 4], final[n, 6]
-            observe(flow, squares, s, events, end, phase[0], (settle * period, cycles * period), seen[n])
+            observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
             if len(powers) > 0:
-                flights = departures(flow.coefficients, s, events, phase[0], cycles * period)
+                flights = departures(flow.coefficients, s, events, phase, cycles * period)
                 account(flow, powers, flights, events, opening, spent[n])

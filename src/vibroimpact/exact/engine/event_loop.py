@@ -14,14 +14,13 @@ Time is the forcing phase, kept modulo one period without loss (phase.ahead), so
 from typing import NamedTuple
 
 import numpy as np
-from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from vibroimpact.exact.engine.compiled import compiled, in_place, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
-from vibroimpact.exact.engine.flow import NUMBERS, SCALARS, Coefficients, Flow
+from vibroimpact.exact.engine.flow import unpacked
 from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
@@ -57,35 +56,26 @@ class Course(NamedTuple):
 
 
 @compiled
-def integrate(flow, boxes, balls, start_phase, cycles, start, sample_times, samples, final):
-    """Run a state over a number of forcing cycles.
+def integrate(numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final):
+    """Run a state (8,), in the order of the library, over a number of forcing cycles.
 
-    start_phase: a float in [0, 2 pi) and what it leaves out; sample_times (n,) ascending, on a clock that shows start
-    when the run starts; samples (n, 8) is filled (at an event: the state after it), and final (8,) if the run is
-    finished. Returns the events (m, ROW) as rows (`event_log`), the status and the ledger of the run.
+    numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
+    times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
+    state after it), and final (8,) if the run is finished. Returns the events (m, ROW) as rows (`event_log`), the
+    status and the ledger of the run.
     """
+    flow = unpacked(numbers, series, rotations)
     log = Log(np.empty((min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM), ROW)), np.zeros(ENTRIES))
+    boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
     motion = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0)
-    course, status = Course(motion, -1, start_phase[0], start_phase[1], 0, 0.0, 0, 0), FULL
+    course, status = Course(motion, -1, phase, tail, 0, 0.0, 0, 0), FULL
     while status == FULL:
-        course, status = _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log)
+        course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, log)
         if status == FULL:
             log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
     if status == FINISHED:
         pack(course.motion.boxes, course.motion.balls, final)
     return log.rows[: int(log.ledger[EVENTS])], status, log.ledger
-
-
-@compiled
-def integrate_packed(numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final):
-    """`integrate` for Python: a state (8,) in the order of the library, `flow.tables_of` the system and the phase.
-
-    All arrays and numbers, since Numba looks at tuples number by number: 4 us for a call, 1.5 without.
-    """
-    n = to_fixed_tuple(numbers, NUMBERS)
-    flow = Flow(Coefficients(*n[:SCALARS]), series, rotations, *n[SCALARS:])
-    boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
-    return integrate(flow, boxes, balls, (phase, tail), cycles, start, times, samples, final)
 
 
 @in_place

@@ -195,7 +195,7 @@ def simulate_many(
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
-    rows, status, ledger = kernel.integrate_packed(
+    rows, status, ledger = kernel.integrate(
         *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
     )
     if status != kernel.FINISHED:

@@ -14,7 +14,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, value
-from vibroimpact.exact.engine.propagators import ORDERS
+from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.system.matrices import rate_matrix
 
 SIZE, ENTRIES = 6, 21

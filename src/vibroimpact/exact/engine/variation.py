@@ -13,8 +13,8 @@ from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.contact import impact
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses
+from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import mode_of
-from vibroimpact.exact.engine.propagators import ORDERS
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH, completes_chatter, start_of, walls_after
 from vibroimpact.system.state import IMPACT, STICK
 

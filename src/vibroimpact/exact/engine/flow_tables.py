@@ -1,4 +1,4 @@
-"""The flow over many equal short times: positions, velocities and phases rounded once, whatever the machine.
+"""Taylor series of the flow at many equally spaced times: positions, velocities, phases rounded once, on any machine.
 
 They are computed in numbers of twice the precision, pairs of a float and what it leaves out (Dekker 1971). Matrices of
 pairs are (2, 6, 6, times), so that the processor multiplies those of several times at once.
@@ -6,7 +6,7 @@ pairs are (2, 6, 6, times), so that the processor multiplies those of several ti
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, literal
+from vibroimpact.exact.engine.compiled import compiled, inlined, literal, unfolded
 from vibroimpact.exact.engine.phase import fused
 
 SIZE, BOXES = 6, 4  # of z = [X1, X2, X1', X2', sin, cos] and of what there is of the boxes
@@ -24,15 +24,14 @@ def tables(rates, spacing, count):
     """
     series, rotations = np.empty((len(rates), count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
-    step, one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
+    one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
     for k in range(len(rates)):
-        _fill_exponential(rates, k, spacing, step, one, other)
-        _fill_unit(power)
-        made = 1
-        while made < count:
-            _multiply(power, min(made, count - made), step, power, made)
-            _multiply(step, 1, step, other, 0)
-            step, other, made = other, step, 2 * made
+        _fill_unit(power, 0)
+        _fill_exponential(rates, k, spacing, power, one, other)
+        last = np.intp(1)  # not the literal, for which `_entries` would be compiled once more
+        while last < count - 1:
+            _multiply(power, last, min(last, count - 1 - last))
+            last *= 2
         _fill_coefficients(rates, k, coefficients, one, other)
         _expand(coefficients, power, series, k)
     for j in range(count):
@@ -40,19 +39,19 @@ def tables(rates, spacing, count):
     return series, rotations
 
 
-@in_place
-def _fill_unit(matrices):
-    """Make the first of some matrices the unit matrix, in pairs."""
+@unfolded
+def _fill_unit(matrices, place):
+    """Make the matrix at a place the unit matrix, in pairs."""
     for i in range(SIZE):
         for j in range(SIZE):
-            matrices[0, i, j, 0], matrices[1, i, j, 0] = 1.0 if i == j else 0.0, 0.0
+            matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
 
 
-@in_place
-def _fill_exponential(rates, k, spacing, total, term, after):
-    """Fill in exp(A_k spacing) in pairs, (2, 6, 6, 1); the others of that shape are room to work in."""
-    _fill_unit(total)
-    _fill_unit(term)
+@unfolded
+def _fill_exponential(rates, k, spacing, powers, term, after):
+    """Fill in the second power, exp(A_k spacing), in pairs. term, after: (2, 6, 6, 1), room to work in."""
+    _fill_unit(powers, 1)
+    _fill_unit(term, 0)
     for order in range(1, TERMS + 1):
         for i in range(SIZE):
             for j in range(SIZE):
@@ -67,16 +66,16 @@ def _fill_exponential(rates, k, spacing, total, term, after):
             for j in range(SIZE):
                 high, low = after[0, i, j, 0], after[1, i, j, 0]
                 term[0, i, j, 0], term[1, i, j, 0] = high, low
-                total[0, i, j, 0], total[1, i, j, 0] = _sum(total[0, i, j, 0], total[1, i, j, 0], high, low)
+                powers[0, i, j, 1], powers[1, i, j, 1] = _sum(powers[0, i, j, 1], powers[1, i, j, 1], high, low)
 
 
-@in_place
+@unfolded
 def _fill_coefficients(rates, k, rows, power, after):
     """Fill in the Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, z' = A_k z.
 
     power, after: (2, 6, 6, 1), room to work in.
     """
-    _fill_unit(power)
+    _fill_unit(power, 0)
     for m in range(ORDERS):
         for n in range(SIZE):
             rows[n, m], rows[n, ORDERS + m] = power[0, 0, n, 0], power[0, 1, n, 0]
@@ -91,7 +90,7 @@ def _fill_coefficients(rates, k, rows, power, after):
                 power[0, i, j, 0] = after[0, i, j, 0]
 
 
-@in_place
+@unfolded
 def _expand(coefficients, powers, series, mode):
     """Fill in series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
     for j in range(powers.shape[3]):
@@ -104,31 +103,32 @@ def _expand(coefficients, powers, series, mode):
                 series[mode, j, m, k] = positions + velocities + (e * coefficients[4, k] + f * coefficients[5, k])
 
 
-@in_place
-def _multiply(a, many, b, product, place):
-    """Fill in so many matrices, from a place on: those of a, from the first on, times the one of b.
+@unfolded
+def _multiply(powers, last, many):
+    """Fill in so many powers behind the last one, each the product of it and of an earlier one.
 
     In all of them the forcing phase does not depend on the boxes.
     """
     for i in range(BOXES):
         for j in range(BOXES):
-            _entries(a, many, b, product, place, i, j, 0, BOXES)
+            _entries(powers, last, many, i, j, 0, BOXES)
         for j in range(BOXES, SIZE):
-            _entries(a, many, b, product, place, i, j, 0, SIZE)
+            _entries(powers, last, many, i, j, 0, SIZE)
     for i in range(BOXES, SIZE):
         for j in range(BOXES, SIZE):
-            _entries(a, many, b, product, place, i, j, BOXES, SIZE)
+            _entries(powers, last, many, i, j, BOXES, SIZE)
 
 
 @inlined
-def _entries(a, many, b, product, place, i, j, first, last):
-    """Entry (i, j) of all of them, where what is not from first to last adds nothing."""
-    for time in range(many):
+def _entries(powers, last, many, i, j, first, end):
+    """Entry (i, j) of all of them, where what is not from first to end adds nothing."""
+    for time in range(1, many + 1):
         high, low = 0.0, 0.0
-        for n in range(first, last):
-            high, low = _plus_product(high, low, a[0, i, n, time], a[1, i, n, time], b[0, n, j, 0], b[1, n, j, 0])
-        there = np.uintp(place + time)  # not counted from the end, so that several times go at once
-        product[0, i, j, there], product[1, i, j, there] = _normal(high, low)
+        for n in range(first, end):
+            a, a_low = powers[0, i, n, time], powers[1, i, n, time]
+            high, low = _plus_product(high, low, a, a_low, powers[0, n, j, last], powers[1, n, j, last])
+        there = np.uintp(last + time)  # not counted from the end, so that several times go at once
+        powers[0, i, j, there], powers[1, i, j, there] = _normal(high, low)
 
 
 @literal
