@@ -28,8 +28,8 @@ from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
 from vibroimpact.figures.companions import companion_modulation as modulation
 from vibroimpact.figures.companions import companion_regime_map as regime_map
 from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
 from vibroimpact.sweeps.rows import rows as rows_of
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}

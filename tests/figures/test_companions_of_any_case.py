@@ -17,8 +17,8 @@ from vibroimpact.figures.companions import (
     companion_response,
     force_sweep,
 )
+from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
 from vibroimpact.sweeps.rows import rows
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
 from vibroimpact.sweeps.rows import rows
 
 BAND = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}

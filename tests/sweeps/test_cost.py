@@ -4,10 +4,11 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.sweeps import cost
-from vibroimpact.sweeps.cost import MOST_TILES, Cost, probe, tiles
+from vibroimpact.sweeps import probe as probing
+from vibroimpact.sweeps.asked import Asked
+from vibroimpact.sweeps.cost import MOST_TILES, Cost, tiles
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
+from vibroimpact.sweeps.probe import probe
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 
@@ -34,16 +35,16 @@ def test_points_are_measured_and_runs_counted():
     grid = Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)])
     found = probe(grid, Asked(("amplitudes", "fixed_points"), starts=3, seed=1, cycles=4, settle=2))
     assert (found.points, found.runs) == (20, 60)
-    assert len(found.seconds) == cost.PROBED
+    assert len(found.seconds) == probing.PROBED
     assert min(found.seconds) >= 0
 
 
 def test_no_point_is_begun_once_enough_was_spent(monkeypatch):
-    monkeypatch.setattr(cost, "ENOUGH", -1.0)
+    monkeypatch.setattr(probing, "ENOUGH", -1.0)
     assert len(probe(Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)]), Asked(("fixed_points",))).seconds) == 1
 
 
 def test_a_point_without_a_system_is_found_before_anything_is_measured(monkeypatch):
-    monkeypatch.setattr(cost, "rows", None)
+    monkeypatch.setattr(probing, "rows", None)
     with pytest.raises(ValueError, match=r"at kappa = 1: kappa: 1\.0 is not between 0 and 1"):
         probe(Grid(BASE, [axis(["kappa"], [0.5, 1.0], 20)]), Asked(("fixed_points",)))

@@ -10,8 +10,9 @@ from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.modulation import PER_CYCLE
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps import observations
+from vibroimpact.sweeps.asked import AMPLITUDES, PEAKS, Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import AMPLITUDES, COLUMNS, OBSERVATIONS, PEAKS, Asked, observed
+from vibroimpact.sweeps.observations import COLUMNS, OBSERVATIONS, observed
 from vibroimpact.sweeps.rows import columns, rows
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)

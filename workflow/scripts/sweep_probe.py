@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 from job import running
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact.sweeps.cost import probe
+from vibroimpact.sweeps.probe import probe
 from vibroimpact.sweeps.request import understood
 
 

@@ -1,7 +1,5 @@
 """What a sweep may observe at a point: each is one function from a system to the numbers of its columns."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from vibroimpact.exact.engine.ensemble import ensemble, finals
@@ -12,10 +10,9 @@ from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.families import FixedPoints
 from vibroimpact.regimes.modulation import PER_CYCLE, cycle_amplitudes, sampled
 from vibroimpact.regimes.settling import Observation, settle
+from vibroimpact.sweeps.asked import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Asked
 from vibroimpact.sweeps.grid import Grid, axis
 
-REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS, ENERGY = "regimes", "amplitudes", "envelopes", "peaks", "energy"
-FIXED_POINTS, ORBITS = "fixed_points", "orbits"
 FROM_REST = "from_rest"
 AMPLITUDE_COLUMNS = (
     *("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2"),
@@ -31,34 +28,8 @@ COLUMNS = {
     ORBITS: ("orbits", "stable_orbits"),
 }
 """The columns of each observation, in their order."""
-SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES, ENERGY)
-"""Observations that simulate, from every start; PEAKS does, too, all along its band."""
 LOW, HIGH = 0.05, 0.95
 """An envelope leaves out so much of the cycles below, and above."""
-
-
-@dataclass(frozen=True)
-class Asked:
-    """What is observed at every point.
-
-    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
-    amplitudes are observed, forcing periods; those before `settle` are left out. band: arguments of `grid.axis`, of the
-    parameters that peaks are sought along. observation: those of `regimes.settling.Observation`.
-    """
-
-    observe: tuple[str, ...]
-    starts: int = 1
-    seed: int = 0
-    cycles: int = 0
-    settle: int = 0
-    band: dict | None = None
-    observation: dict | None = None
-
-    @property
-    def runs(self) -> int:
-        """Starts that are simulated at a point, for each observation anew."""
-        along_band = len(axis(**self.band).values) if PEAKS in self.observe else 0
-        return self.starts * (along_band + sum(name in SIMULATED for name in self.observe))
 
 
 def observed(system, asked: Asked) -> dict:

@@ -4,8 +4,8 @@ import hashlib
 import json
 from collections.abc import Mapping
 
+from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
 from vibroimpact.system import System
 
 
@@ -14,7 +14,7 @@ def understood(request: Mapping) -> tuple[Grid, Asked]:
 
     Args:
         request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "asked", arguments of
-            `observations.Asked`.
+            `asked.Asked`.
 
     Raises:
         ValueError: the parameters are not those of a system.

@@ -2,11 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 
+from vibroimpact.sweeps.asked import FAILED, POINT, Asked
 from vibroimpact.sweeps.grid import Grid
-from vibroimpact.sweeps.observations import COLUMNS, Asked, observed
-
-POINT, FAILED = "point", "failed"
-"""The number of the point, and why it could not be observed, "" if it could."""
+from vibroimpact.sweeps.observations import COLUMNS, observed
 
 
 def columns(grid: Grid, asked: Asked) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
-from vibroimpact.sweeps.rows import FAILED
+from vibroimpact.sweeps.asked import FAILED
 from vibroimpact_pipeline.report.policy import guarded
 from vibroimpact_pipeline.sweeps.places import table_path
 from vibroimpact_pipeline.sweeps.words import announced, axis_words

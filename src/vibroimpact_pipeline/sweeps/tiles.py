@@ -7,8 +7,8 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.figures.kit.tables import read
+from vibroimpact.sweeps.asked import POINT
 from vibroimpact.sweeps.grid import Grid
-from vibroimpact.sweeps.rows import POINT
 
 OF = "of"
 """The column that holds the fingerprint of what was asked for."""

@@ -33,8 +33,8 @@ from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
 from vibroimpact.figures.companions import companion_modulation as modulation
 from vibroimpact.figures.companions import companion_regime_map as regime_map
 from vibroimpact.figures.kit import tables
+from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.observations import Asked
 from vibroimpact.sweeps.rows import rows
 from vibroimpact.system.state import NAMES
 from vibroimpact_pipeline.figure_check import compare as figure_check
