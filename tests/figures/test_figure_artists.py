@@ -4,9 +4,11 @@ import matplotlib.colors
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
+from vibroimpact.figures.kit.artists import describe
 from vibroimpact.figures.kit.tables import select
 
 
@@ -180,3 +182,17 @@ def test_nothing_is_told_by_colour(drawn, name):
                 colour = getattr(artist, getter, lambda: "black")()
                 for red, green, blue, _ in matplotlib.colors.to_rgba_array(colour):
                     assert red == green == blue
+
+
+def scale_of_a_map(lowest, highest):
+    figure = Figure()
+    figure.subplots().pcolormesh([[lowest, highest]], cmap="Greys")
+    return describe(figure)["axes"][0]["collections"][0]["faces"]
+
+
+def test_the_scale_of_a_map_does_not_hang_on_last_digits():
+    for highest in np.random.default_rng(2).uniform(0.3, 0.9, 40):
+        scale = scale_of_a_map(0.1, highest)
+        assert len(set(scale)) == len(scale)
+        assert scale_of_a_map(0.1, np.nextafter(highest, 1)) == scale
+        assert scale_of_a_map(np.nextafter(0.1, 0), highest) == scale

@@ -242,8 +242,11 @@ def _collection(collection, axes):
 
 
 def _scale(collection):
-    """Nine colours from the lowest to the highest value."""
-    return collection.to_rgba(np.linspace(*collection.get_clim(), 9), alpha=collection.get_alpha())
+    """Twelve colours from the lowest to the highest value.
+
+    At elevenths: at eighths a map of 256 colours goes from one to the next, and the last digit of a value decides.
+    """
+    return collection.to_rgba(np.linspace(*collection.get_clim(), 12), alpha=collection.get_alpha())
 
 
 def _text(text, axes):
