@@ -74,7 +74,7 @@ install workflow/install.py "${source[@]}" --editable .
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
 # uv looks in a tenth of the time; what there is to say says pip.
 conflicts=$(.venv/bin/python -m uv pip check --quiet --python .venv/bin/python 2>/dev/null || .venv/bin/python -m pip check) \
-	|| { echo "$conflicts" >&2; exit 1; }
+    || { echo "$conflicts" >&2; exit 1; }
 echo "3 of 3  compiling the simulation engine, its certificate and its rivals (half a minute)"
 env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py
 echo "$stamp" >.venv/.complete

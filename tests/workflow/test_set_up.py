@@ -3,6 +3,13 @@
 import os
 import subprocess
 
+import compile as script
+from chapter import PARAMETERS
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.event_loop import integrate
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.system import System
+
 
 def set_up(tree, **environment):
     return subprocess.run(
@@ -49,3 +56,12 @@ def test_what_a_cluster_needs_is_installed_on_request_alone(tree):
     assert "--require-hashes" in install
     assert install.endswith("--requirement cluster.lock")
     assert "cluster.lock" not in (tree / "workflow/set_up.sh").read_text()
+
+
+def test_the_engine_is_compiled_for_the_arguments_that_runs_give_it(monkeypatch):
+    asked, system = [], System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+    simulate(system, [0] * 8, 1, tau0=1, sample_times=[2])
+    ensemble(system, [0] * 8, 1)
+    monkeypatch.setattr(integrate, "compile", asked.append)
+    script.engine()
+    assert [tuple(signature) for signature in asked] == list(integrate.signatures)

@@ -23,7 +23,7 @@ def beforehand():
 
 
 def engine():
-    """Not run: all others wait for this, and the certificate compiles the tables of a system meanwhile."""
+    """Not run: what comes after waits for this, and the certificate, beside it, compiles the tables of a system."""
     import numpy as np
     from numba import typeof
 

@@ -7,8 +7,9 @@ compiled (`unfolded`), which spares compiling it twice; the rest is compiled onc
 says whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is compiled
 first.
 
-Only what is `compiled` makes arrays or gives them back. All else works in memory that is given, and counts no
-references to it: a count is a locked operation and a call, for which all numbers at hand are put away.
+Only what is `compiled` makes arrays or gives them back, and what is `unfolded` into it alone. All else works in memory
+that is given, and counts no references to it: a count is a locked operation and a call, for which all numbers at hand
+are put away.
 """
 
 from functools import partial

@@ -16,7 +16,9 @@ ORDERS = 8  # of the Taylor polynomials
 
 @compiled
 def tables(rates, spacing, count):
-    """Tables over the times j h, j < count and h = spacing, a power of two, for rate matrices A (k, 6, 6), z' = A z.
+    """Tables over the times j h, j < count, for rate matrices A (k, 6, 6), z' = A z.
+
+    h = spacing, a power of two; count is at least 2.
 
     Returns the Taylor coefficients of the boxes there for each state at the start, (k, count, 6, 16), X_i^(m) / m! of
     box i at place 8 i + m, positions and velocities being exp(A j h) to rounding; and cosine and sine of the forcing
@@ -49,7 +51,7 @@ def _fill_unit(matrices, place):
 
 @unfolded
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Fill in the second power, exp(A_k spacing), in pairs. term, after: (2, 6, 6, 1), room to work in."""
+    """Fill in the first power, exp(A_k spacing), at place 1. term, after: (2, 6, 6, 1), room to work in."""
     _fill_unit(powers, 1)
     _fill_unit(term, 0)
     for order in range(1, TERMS + 1):
@@ -105,7 +107,7 @@ def _expand(coefficients, powers, series, mode):
 
 @unfolded
 def _multiply(powers, last, many):
-    """Fill in so many powers behind the last one, each the product of it and of an earlier one.
+    """Fill in so many powers behind the last one, each its product with one from the first to the last.
 
     In all of them the forcing phase does not depend on the boxes.
     """
