@@ -57,7 +57,7 @@ def ensemble(
     """Run many starts, of one system or of many, on all cores, in memory of the order of the starts.
 
     Besides, each core holds the events of the run it is at, a kilobyte or so for a cycle; a system that is not among
-    the others takes some 2.5 ms for its tables.
+    the others takes a millisecond or two for its tables, and several more where the energy is asked for.
 
     Every run is that of `simulate`, its final state bit by bit; for the events, the samples or the certificate of one
     of them ask `simulate`.

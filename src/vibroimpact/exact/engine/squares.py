@@ -89,29 +89,37 @@ def integrals_of(system, kernels) -> np.ndarray:
         propagators = np.swapaxes(series[:, :, [0, ORDERS, 1, ORDERS + 1]], 1, 2)
         rate = rate_matrix(system, (bool(mode & 1), bool(mode & 2)))
         forms[mode] = _summed(_over_one(rate, flow.spacing, kernels), np.concatenate([propagators, turned], axis=1))
-    return np.ascontiguousarray(forms[..., ROWS, COLUMNS] * np.where(ROWS == COLUMNS, 1.0, 2.0))
+    triangles = np.take(forms.reshape(*forms.shape[:-2], SIZE * SIZE), SIZE * ROWS + COLUMNS, axis=-1)
+    return triangles * np.where(ROWS == COLUMNS, 1.0, 2.0)
 
 
 def _summed(over_one, powers):
     """The forms of 0, 1, 2, ... spacings, from that of one and the propagators (n, 6, 6) over so many."""
-    forms = np.stack([np.zeros_like(over_one), over_one])
-    while len(forms) < len(powers):  # as many again: what follows a flight is carried back to its start
-        power = powers[len(forms) - 1]
-        forms = np.concatenate([forms, forms[-1] + power.T @ forms[1:] @ power])
-    return forms[: len(powers)]
+    forms, made = np.zeros((len(powers), *over_one.shape)), 2
+    forms[1] = over_one
+    while made < len(powers):  # as many again: what follows a flight is carried back to its start
+        last, after = made - 1, min(made - 1, len(powers) - made)
+        forms[made : made + after] = forms[last] + _carried_back(forms[1 : 1 + after], powers[last])
+        made += after
+    return forms
+
+
+def _carried_back(forms, power):
+    """P^T G P for symmetric forms G (n, k, 6, 6): two products of one tall matrix in place of very many small ones."""
+    half = (forms.reshape(-1, SIZE) @ power).reshape(forms.shape)
+    return (np.swapaxes(half, -1, -2).reshape(-1, SIZE) @ power).reshape(forms.shape)
 
 
 def _over_one(rate, spacing, kernels):
     """The forms of one spacing, shape (k, 6, 6)."""
-    forms = np.zeros(kernels.shape)
-    for x, weight in zip(NODES, WEIGHTS, strict=True):
-        scaled, term = rate * spacing * (1 + x) / 2, np.eye(SIZE)
-        power = term.copy()
-        for k in range(1, TERMS):
-            term = term @ scaled / k
-            power += term
-        forms += weight * spacing / 2 * (power.T @ kernels @ power)
-    return forms
+    scaled = rate * spacing * (1 + NODES[:, None, None]) / 2
+    term = np.broadcast_to(np.eye(SIZE), scaled.shape)
+    power = term.copy()
+    for k in range(1, TERMS):
+        term = term @ scaled / k
+        power += term
+    power = power[:, None]
+    return np.tensordot(WEIGHTS * spacing / 2, np.swapaxes(power, -1, -2) @ kernels @ power, 1)
 
 
 @inlined
