@@ -8,10 +8,9 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from pipeline_trees import ROOT, Tree, made_once, with_results
-from vibroimpact_pipeline.environment import prepare
-from vibroimpact_pipeline.sources import Sources
+from vibroimpact_pipeline.builds import set_environment
 
-prepare(ROOT, Sources())
+set_environment(ROOT)
 os.environ["PYTHONPATH"] = str(ROOT / "src")
 
 UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -3,8 +3,6 @@
 from importlib import import_module
 from importlib.metadata import version
 
-__version__ = version("vibroimpact")
-
 _PUBLIC = {
     "System": "vibroimpact.system",
     "PhysicalSystem": "vibroimpact.system",
@@ -33,6 +31,8 @@ __all__ = [*_PUBLIC, "__version__"]
 
 def __getattr__(name: str):
     """Load a public name on first use, so that the import itself stays light."""
+    if name == "__version__":
+        return version("vibroimpact")
     if name not in _PUBLIC:
         raise AttributeError(f"module 'vibroimpact' has no attribute {name!r}")
     value = getattr(import_module(_PUBLIC[name]), name)

@@ -40,6 +40,23 @@ def as_in_the_chapter(config: dict, figure: str, scene: dict) -> bool:
     return config["system"] == PARAMETERS and all(shown[name] == value for name, value in forces.items())
 
 
+def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
+    """Entries of the config that differ from those that the claims were written with, a line each.
+
+    Args:
+        seen: the digest of each entry (see `digest`) by its dotted path.
+    """
+    return [f"{path} is not the one that docs/claims.yaml knows" for path in seen if _digest_at(config, path) != seen[path]]
+
+
+def _digest_at(config, path):
+    for key in path.split("."):
+        if key not in config:
+            return None
+        config = config[key]
+    return digest(config)
+
+
 def digest(entry) -> str:
     """Tells whether an entry of the config is the one that somebody has seen."""
     return hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()[:12]

@@ -1,83 +1,63 @@
 # How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
+# `accuracy: {full: true}` in the config repeats every timing for longer, and tries every method on every stress test.
 
-TIMED = {"work_precision": (True, "short_seconds"), "work_precision_full": (False, "full_seconds")}
+ACCURACY = config["accuracy"]
 # Without a number of cores nothing is run: a summary, a graph, the report of Snakemake.
 ALL_CORES = workflow.resource_settings.cores or 1
-JUDGED = {"hazards": False, "hazards_full": True}
-COMPARED = "every method, in float64, against a reference with enough digits that more would not change it"
 
 
-def accuracy_outputs(name):
-    return figure_files(f"results/accuracy/{name}")
+rule work_precision:
+    output:
+        **in_report(figure_files("results/accuracy/work_precision", SPECS["work_precision"]), "Accuracy and speed"),
+    params:
+        figure="work_precision",
+        problems={name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()},
+        seconds=ACCURACY["full_seconds" if ACCURACY["full"] else "short_seconds"],
+        short=not ACCURACY["full"],
+        config={"accuracy": ACCURACY, "cases": all_systems()},
+        code=FIGURES,
+    threads: ALL_CORES
+    log:
+        "results/logs/accuracy/work_precision.log",
+    benchmark:
+        "results/benchmarks/accuracy/work_precision.tsv"
+    script:
+        "../scripts/work_precision.py"
 
 
-def accuracy_problems():
-    """Test problems of the chart with the parameters of their cases."""
-    problems = config["accuracy"]["problems"]
-    return {name: {"system": system_of(problem["case"]), "settings": problem} for name, problem in problems.items()}
+rule hazards:
+    output:
+        **in_report(figure_files("results/accuracy/hazards", SPECS["hazards"]), "Accuracy and speed"),
+    params:
+        figure="hazards",
+        full=ACCURACY["full"],
+        config={"accuracy.full": ACCURACY["full"]},
+        code=FIGURES,
+    log:
+        "results/logs/accuracy/hazards.log",
+    benchmark:
+        "results/benchmarks/accuracy/hazards.tsv"
+    script:
+        "../scripts/hazards.py"
 
 
-def accuracy_provenance(name, seconds):
-    problems = config["accuracy"]["problems"]
-    cases = sorted({problem["case"] for problem in problems.values()})
-    own = step(f"{COMPARED}; run times measured", DOUBLE, "workflow/scripts/work_precision.py")
-    return provenance(name, ["accuracy.problems", f"accuracy.{seconds}"], cases, [own])
-
-
-for name, (short, seconds) in TIMED.items():
-
-    rule:
-        name:
-            name
-        output:
-            **in_report(accuracy_outputs(name), "Accuracy and speed"),
-        params:
-            problems=accuracy_problems(),
-            seconds=config["accuracy"][seconds],
-            short=short,
-            provenance=accuracy_provenance(name, seconds),
-        threads: ALL_CORES
-        log:
-            f"results/logs/accuracy/{name}.log",
-        benchmark:
-            f"results/benchmarks/accuracy/{name}.tsv"
-        script:
-            "../scripts/work_precision.py"
-
-
-for name, all_of_them in JUDGED.items():
-
-    rule:
-        name:
-            name
-        output:
-            **in_report(accuracy_outputs(name), "Accuracy and speed"),
-        params:
-            all_of_them=all_of_them,
-            provenance=provenance(name, [], [], [step(COMPARED, DOUBLE, "workflow/scripts/hazards.py")]),
-        log:
-            f"results/logs/accuracy/{name}.log",
-        benchmark:
-            f"results/benchmarks/accuracy/{name}.tsv"
-        script:
-            "../scripts/hazards.py"
-
-
-MODELLED = {figure: scene for figure, scene in config["figures"].items() if "model" in scene}
+# For each figure the cheapest model that its lines cannot tell from the exact result.
+MODELLED = {figure: scene for figure, scene in CHAPTER.items() if "model" in scene and figure in PLANS}
 
 
 rule scene_models:
     input:
-        [path for scene in MODELLED.values() for path in figure_inputs(scene).values()],
-        expand(rules.orbits.output.csv, case=sorted(SIMULATED_CASES)),
-        tables=[figure_outputs(figure, scene)["csv"] for figure, scene in MODELLED.items()],
+        [path for figure in MODELLED for path in PLANS[figure][1]["inputs"].values()],
+        expand("results/fixed_points/{case}.csv", case=all_systems()),
+        expand("results/orbits/{case}.csv", case={scene["case"] for scene in MODELLED.values() if scene["model"] == "simulation"}),
+        [f"results/figures/{figure}.csv" for figure in MODELLED],
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
-        figures={figure: [scene, figure_settings(scene), drawn_by(figure, scene)] for figure, scene in MODELLED.items()},
+        figures={figure: [scene, PLANS[figure][1]["params"]] for figure, scene in MODELLED.items()},
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
-        seconds=config["accuracy"]["short_seconds"],
-        code=code("workflow/scripts/scene_models.py", modules={drawn_by(*figure) for figure in MODELLED.items()}),
+        seconds=ACCURACY["short_seconds"],
+        code=FIGURES,
     threads: ALL_CORES
     log:
         "results/logs/accuracy/scene_models.log",
@@ -89,5 +69,6 @@ rule scene_models:
 
 rule accuracy:
     input:
-        "results/accuracy/scene_models.csv",
-        [path for name in ("work_precision", "hazards") for path in accuracy_outputs(name).values()],
+        rules.work_precision.output,
+        rules.hazards.output,
+        rules.scene_models.output,

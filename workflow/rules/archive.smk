@@ -1,32 +1,19 @@
-# One file to cite and to run elsewhere: the checkout with the results of the default build, described as an RO-Crate.
+# One file to cite and to run elsewhere.
 
 import tomllib
 
-from vibroimpact_pipeline.archive.obstacles import obstacles
 from vibroimpact_pipeline.git import git
 
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT) or "no-commit"
 
 
-def archived(wildcards):
-    """All results of the default build; asked for only where an archive is to be made."""
-    overrides = [name for name, entries in CONFIG_ORIGINS.items() if entries and name != from_start(CONFIG_FILE)]
-    if found := obstacles(ROOT, Path.cwd(), overrides):
-        refuse(found)
-    return rules.all.input
-
-
-# Made anew each time it is asked for: Snakemake does not know all that goes in.
 rule archive:
     input:
-        archived,
+        rules.all.input,
     output:
-        f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
+        archive=f"results/archive/vibroimpact-{VERSION}-{git('rev-parse', '--short=12', 'HEAD', root=ROOT)}.tar.gz",
     params:
-        texts=config["figure_texts"],
-        asked=time.time_ns(),
-        code=code("workflow/scripts/archive.py"),
+        code=PIPELINE,
     log:
         "results/logs/archive.log",
     benchmark:

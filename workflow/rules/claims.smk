@@ -1,26 +1,6 @@
 # The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
 # parameters and lean on some settings: with others none is judged, and the files say why.
 
-import yaml
-
-from vibroimpact_pipeline.chapter import digest
-
-CLAIMS = own("docs/claims.yaml")
-BEHIND = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))["judged_with"]
-
-
-def seen(path):
-    """Whether the config has an entry, and the one that the claims lean on."""
-    try:
-        return digest(config_at(path)) == BEHIND[path]
-    except KeyError:
-        return False
-
-
-OTHERS = [] if DEPARTURES else [path for path in BEHIND if not seen(path)]
-UNLIKE = DEPARTURES + [f"{path} is not the one that docs/claims.yaml knows" for path in OTHERS]
-# Cases whose direct integrations the claims are judged by.
-CLAIMED_SIMULATIONS = ["equal", "weak"]
 EVIDENCE = {
     "fixed_points": "results/fixed_points.csv",
     "orbits": "results/orbits.csv",
@@ -32,23 +12,25 @@ EVIDENCE = {
     "absorber": "results/absorber.csv",
     "clearance": "results/sweeps/clearance.csv",
     "design": "results/sweeps/design.csv",
-} | {
-    f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
-    for case in CLAIMED_SIMULATIONS
-    for name in ("samples.csv", "events.csv", "summary.json")
+    "equal_samples": "results/simulations/equal/samples.csv",
+    "equal_events": "results/simulations/equal/events.csv",
+    "equal_summary": "results/simulations/equal/summary.json",
+    "weak_samples": "results/simulations/weak/samples.csv",
+    "weak_events": "results/simulations/weak/events.csv",
+    "weak_summary": "results/simulations/weak/summary.json",
 }
 
 
 rule claims:
     input:
-        **({} if UNLIKE else EVIDENCE),
-        claims=CLAIMS,
+        **(EVIDENCE if {"equal", "weak"} <= config["cases"].keys() and {"clearance", "design"} <= SWEEPS.keys() else {}),
+        claims=own("docs/claims.yaml"),
     output:
-        **in_report({"json": "results/claims.json", "markdown": "results/claims.md"}, "Tables", ("json",)),
+        json=report("results/claims.json", category="Tables", labels={"name": "claims", "kind": "json"}),
+        markdown="results/claims.md",
     params:
-        systems=all_systems(),
-        unlike=UNLIKE,
-        code=code("workflow/scripts/claims.py"),
+        config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
+        code=LIBRARY,
     log:
         "results/logs/claims.log",
     benchmark:

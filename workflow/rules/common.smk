@@ -1,84 +1,131 @@
-# What every stage needs: settled surroundings, a valid config, fingerprints of code.
+# What every stage needs: where the files are, the checked config, fingerprints of the code, the figures' SPECs.
 
-from snakemake_logger_plugin_brief.results import from_start
-from vibroimpact_pipeline import config as config_checks
-from vibroimpact_pipeline.chapter import departures
-from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
-from vibroimpact_pipeline.config.labels import remembered
-from vibroimpact_pipeline.data_dictionary import compared
-from vibroimpact_pipeline.environment import prepare
-from vibroimpact_pipeline.report.figure_texts import figure_texts
-from vibroimpact_pipeline.sources import sources
+import importlib.util
+import json
+import os
+import shlex
+import sys
+from pathlib import Path
+from types import SimpleNamespace
 
+from snakemake.logging import logger
+from snakemake.utils import update_config, validate
+from snakemake_interface_logger_plugins.common import LogEvent
+
+ROOT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
 IS_MODULE = not workflow.modifier.is_main_snakefile()
-CONFIG = "config/config.yaml"
-CONFIG_FILE = CONFIG if Path(CONFIG).is_file() and not IS_MODULE else own(CONFIG)
-CAPTION = str(ROOT / "report/caption.rst")
-SOURCES = sources()
-demand(prepare, ROOT, SOURCES)
 
 
-def config_origins():
-    """What sets entries of the config, by the name under which to complain about it; a later one overrides."""
-    given = workflow.config_settings
-    files = [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
-    if IS_MODULE:
-        return in_file(CONFIG_FILE) | as_typed(f"config of module {__name__}", config)
-    return {name: entries for file in files for name, entries in in_file(file).items()} | as_typed(
-        "--config", dict(given.config)
-    )
+def refuse(message):
+    """End with a message in place of a traceback."""
+    print(message, file=sys.stderr)
+    sys.exit(1)
 
 
-def in_file(file):
-    name = from_start(file)
+def own(path):
+    """A file of the checkout: by its short path in the checkout itself, so that this can be moved."""
+    return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
+
+
+# Jobs run the library beside these rules, with this Python, also where its path has a space.
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [os.getenv("PYTHONPATH"), str(ROOT / "src")]))
+sys.path.append(str(ROOT / "src"))
+if os.path.exists(sys.executable):
+    sys.executable = shlex.quote(sys.executable)
+
+from vibroimpact.figures.specs import spec_of, specs
+from vibroimpact_pipeline import builds
+from vibroimpact_pipeline.code import fingerprint
+
+if not os.access(".", os.W_OK):
+    refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
+builds.set_environment(ROOT)
+
+
+# The config: entries of --config and --configfile over config/config.yaml, of the working directory or else the checkout.
+CONFIG_FILE = "config/config.yaml" if Path("config/config.yaml").is_file() else own("config/config.yaml")
+
+
+def checked_config(given):
+    """The config with defaults; where Pydantic is not installed, what the schema made from its model says."""
+    if not all(map(importlib.util.find_spec, ("pydantic", "numpy"))):
+        validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
+        return given
+    ConfigError, checked = ValueError, dict
+
     try:
-        return {name: config_checks.read(file)}
-    except ValueError as error:
-        refuse([f"{name}: {error}"])
+        return checked(given)
+    except ConfigError as error:
+        refuse(error)
 
 
-def as_typed(origin, entries):
-    try:
-        return {origin: config_checks.typed(entries)}
-    except ValueError as error:
-        refuse([f"{origin}: {error}"])
-
-
-def checked_config(origins):
-    """The config that its origins make together, if all is right with it."""
-    made = config_checks.combined(origins.values())
-    labels = remembered(".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
-    if found := config_checks.problems(made, labels):
-        refuse(config_checks.complaints(found, origins))
-    return made | {"figure_texts": figure_texts(ROOT, made)}
-
-
-def code(*files, modules=()):
-    """Fingerprint of a rule's script or notebook (paths from the root) and of the library modules it uses."""
-    return SOURCES.fingerprint(*(ROOT / file for file in files), modules=modules)
+# Fingerprints of the code behind a job, which it checks again when it ends.
+LIBRARY = {"library": fingerprint("library")}
+FIGURES = LIBRARY | {"figures": fingerprint("figures")}
+PIPELINE = FIGURES | {"pipeline": fingerprint("pipeline")}
 
 
 def system_of(case):
-    return config_checks.case_parameters(config, case)
+    """Parameters of System for one case."""
+    return config["system"] | {name: config["cases"][case][name] for name in ("f10_hat", "f20_hat")}
 
 
 def all_systems():
-    """Parameters of every case, in an order that overrides on the command line do not change."""
     return {case: system_of(case) for case in sorted(config["cases"])}
 
 
-def in_report(outputs, category, kinds=("svg", "csv")):
-    """The outputs of a figure by kind, its picture and its numbers marked for `snakemake --report`."""
+def entry(path):
+    """The entry of the config at "section.key"; KeyError without it."""
+    value = config
+    for key in path.split("."):
+        value = value[key]
+    return value
+
+
+SPECS = specs(ROOT / "src/vibroimpact/figures")
+
+
+def figure_files(stem, spec):
+    """The files of a figure by kind: pictures, where they come from, and its tables."""
+    kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
+    return kinds | {name: table.get("file", f"{stem}.csv") for name, table in spec.get("tables", {}).items()}
+
+
+def in_report(outputs, category):
+    """Named outputs, the picture and the plotted table marked for `snakemake --report`."""
+    caption = str(ROOT / "report/caption.rst")
     marked = {
-        kind: report(path, caption=CAPTION, category=category, labels={"name": Path(path).stem, "kind": kind})
+        kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
-        if kind in kinds
+        if kind in ("svg", "csv")
     }
     return outputs | marked
 
 
-CONFIG_ORIGINS = config_origins()
+# Before a build looks at what is there, results go that are not what a job wrote as it would write them today.
+def params_today(made):
+    """The parameters that the job of a record would have today, None if there is no such job."""
+    wildcards = SimpleNamespace(**made["wildcards"])
+    try:
+        params = next(rule.params for rule in workflow.rules if rule.name == made["rule"])
+        return {name: value(wildcards) if callable(value) else value for name, value in params.items()}
+    except (StopIteration, KeyError):
+        return None
 
 
-wildcard_constraints:
-    case="[a-z][a-z0-9_]+",
+def makes(path):
+    return any(output.match(path) for rule in workflow.rules for output in rule.output)
+
+
+def begin_build(record):
+    """Called with each event of Snakemake; `--summary`, `--lint` and the like have none that starts a workflow."""
+    if getattr(record, "event", None) == LogEvent.WORKFLOW_STARTED and workflow.is_main_process:
+        dry_run = workflow.output_settings.dryrun
+        if not dry_run and (missing := builds.missing_libraries()):
+            refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
+        results = Path(rules.fixed_points.output.csv).parents[1]
+        builds.begin(results, params_today, makes, dry_run)
+    return True
+
+
+logger.addFilter(begin_build)

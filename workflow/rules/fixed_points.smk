@@ -3,10 +3,11 @@
 
 rule fixed_points:
     output:
-        "results/fixed_points/{case}.csv",
+        csv="results/fixed_points/{case}.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=code("workflow/scripts/fixed_points.py"),
+        code=LIBRARY,
+    priority: 10
     log:
         "results/logs/fixed_points/{case}.log",
     benchmark:

@@ -1,8 +1,4 @@
-# Is it stable? Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, what is
-# proved of them, how complete both lists are. The tables of all cases feed no figure of the chapter.
-
-# Tables of all cases, gathered from those of each: fixed points with the verdicts on them, and orbits.
-GATHERED = {"fixed_points": "results/verdicts/{case}.csv", "orbits": "results/orbits/{case}.csv"}
+# Exact 1:1 responses of each case, the verdict of every criterion on them and on the fixed points, and what is proved.
 
 
 rule orbits:
@@ -11,7 +7,7 @@ rule orbits:
         search="results/orbits/{case}.search.json",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=code("workflow/scripts/orbits.py"),
+        code=LIBRARY,
     log:
         "results/logs/orbits/{case}.log",
     benchmark:
@@ -25,10 +21,10 @@ rule verdicts:
         fixed_points="results/fixed_points/{case}.csv",
         orbits="results/orbits/{case}.csv",
     output:
-        "results/verdicts/{case}.csv",
+        csv="results/verdicts/{case}.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=code("workflow/scripts/verdicts.py"),
+        code=LIBRARY,
     log:
         "results/logs/verdicts/{case}.log",
     benchmark:
@@ -37,34 +33,33 @@ rule verdicts:
         "../scripts/verdicts.py"
 
 
-for name, per_case in GATHERED.items():
-
-    rule:
-        name:
-            f"gather_{name}"
-        input:
-            expand(per_case, case=all_systems()),
-        output:
-            **in_report({"csv": f"results/{name}.csv"}, "Tables"),
-        params:
-            code=code("workflow/scripts/gather.py"),
-        log:
-            f"results/logs/gather_{name}.log",
-        benchmark:
-            f"results/benchmarks/gather_{name}.tsv"
-        script:
-            "../scripts/gather.py"
+# The tables of all cases: fixed points with the verdicts on them, and orbits.
+rule gather:
+    input:
+        fixed_points=expand("results/verdicts/{case}.csv", case=all_systems()),
+        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
+    output:
+        **in_report({"csv": "results/fixed_points.csv"}, "Tables"),
+        orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
+    params:
+        code=LIBRARY,
+    log:
+        "results/logs/gather.log",
+    benchmark:
+        "results/benchmarks/gather.tsv"
+    script:
+        "../scripts/gather.py"
 
 
 rule proofs:
     input:
-        tables=expand("results/orbits/{case}.csv", case=all_systems()),
+        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
         searches=expand("results/orbits/{case}.search.json", case=all_systems()),
     output:
-        "results/proofs.json",
+        json="results/proofs.json",
     params:
         systems=all_systems(),
-        code=code("workflow/scripts/proofs.py"),
+        code=LIBRARY,
     log:
         "results/logs/proofs.log",
     benchmark:
@@ -73,13 +68,14 @@ rule proofs:
         "../scripts/proofs.py"
 
 
+# The theory's verdicts over a plane of forces, against exact orbits at several epsilon.
 rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
     params:
         system=next(iter(all_systems().values())),
         settings=config["stability"]["verdict_grid"],
-        code=code("workflow/scripts/verdict_grid.py"),
+        code=LIBRARY,
     log:
         "results/logs/verdict_grid.log",
     benchmark:
@@ -90,8 +86,6 @@ rule verdict_grid:
 
 rule stability:
     input:
-        [f"results/{name}.csv" for name in GATHERED],
-        # What these are made of: if it is missing, Snakemake takes them as they are.
-        [expand(rule.output, case=all_systems()) for rule in (rules.fixed_points, rules.orbits, rules.verdicts)],
+        rules.gather.output,
         rules.proofs.output,
         rules.verdict_grid.output,

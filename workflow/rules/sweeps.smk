@@ -1,172 +1,74 @@
-# Sweeps: snakemake sweep_NAME; the default build makes the tables that companion figures draw. A few points are measured,
-# and by what they took a sweep is cut into tiles, a job each, so that it spreads over the cores of any executor.
+# Parameters moved over a grid: snakemake sweep_NAME. A sweep is cut into tiles, a job each; how many follows from its
+# predicted cost (vibroimpact.sweeps.cost), or from `--set-scatter NAME=8`, and changes no byte of its table.
 
-import json
-
-from vibroimpact_pipeline.config.sweeps import DRAWN, LIMIT_HOURS
-from vibroimpact_pipeline.sweeps.places import table_path, tile_path
-from vibroimpact_pipeline.sweeps.words import announced
+from vibroimpact.sweeps.cost import points, tiles
 
 SWEEPS = config.get("sweeps", {})
-OBSERVED_BY = ("observe", "starts", "seed", "cycles", "settle", "band")
-ANNOUNCED = set()
+ASKED = ("observe", "starts", "seed", "cycles", "settle", "band")
 
 
-def sweep_request(wildcards):
+def sweep_request(sweep):
     """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
-    sweep = SWEEPS[wildcards.sweep]
-    asked = {name: sweep[name] for name in OBSERVED_BY if name in sweep}
+    asked = {name: sweep[name] for name in ASKED if name in sweep}
     if "regimes" in sweep["observe"]:
-        asked["observation"] = REGIMES["observation"]
+        asked["observation"] = config["regimes"]["observation"]
     return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "asked": asked}
 
 
-def sweep_tiles(wildcards):
-    """The tiles that the plan cuts a sweep into; what they cost is said once, before the first of them is begun."""
-    sweep = wildcards.sweep
-    with open(checkpoints.plan_of_sweep.get(sweep=sweep).output[0], encoding="utf-8") as file:
-        plan = json.load(file)
-    number = plan["tiles"]
-    tiles = [str(tile_path(sweep, tile, number)) for tile in range(1, number + 1)]
-    if workflow.is_main_process and sweep not in ANNOUNCED and not all(map(os.path.exists, tiles)):
-        ANNOUNCED.add(sweep)
-        print(announced(sweep, plan), file=sys.stderr, flush=True)
-    return tiles
+scattergather:
+    **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
 
 
-def table_of(name):
-    return table_path(name, SWEEPS[name]["axes"])
+for name, sweep in SWEEPS.items():
 
+    rule:
+        name:
+            f"tile_{name}"
+        output:
+            csv=f"results/sweeps/{name}/tiles/{{scatteritem}}.csv",
+        params:
+            request=sweep_request(sweep),
+            code=LIBRARY,
+        threads: 1
+        log:
+            f"results/logs/sweeps/{name}/{{scatteritem}}.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
+        script:
+            "../scripts/sweep_tile.py"
 
-def sweep_keys(name):
-    """Entries of the config that decide on the numbers of a sweep."""
-    keys = [f"sweeps.{name}.{key}" for key in SWEEPS[name] if key != "limit_hours"]
-    return keys + ["regimes.observation"] * ("regimes" in SWEEPS[name]["observe"])
-
-
-def sweep_provenance(wildcards):
-    name = wildcards.sweep
-    return provenance(f"sweep_{name}", sweep_keys(name), [SWEEPS[name]["case"]], SWEEP_STEPS)
-
-
-SWEEP_PICTURE = "vibroimpact.figures.companions.sweep"
-SWEEP_STEPS = [
-    step(*STEPS["tile_of_sweep"]),
-    step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),
-]
-
-
-wildcard_constraints:
-    sweep="[a-z][a-z0-9_]+",
-    kind="csv|parquet",
-    tile=r"\d+",
-    tiles=r"\d+",
-
-
-rule probe_of_sweep:
-    output:
-        "results/sweeps/{sweep}/probe.json",
-    params:
-        request=sweep_request,
-        code=code("workflow/scripts/sweep_probe.py"),
-    log:
-        "results/logs/sweeps/{sweep}/probe.log",
-    benchmark:
-        "results/benchmarks/sweeps/{sweep}/probe.tsv"
-    script:
-        "../scripts/sweep_probe.py"
-
-
-# How long a tile takes is a matter of the executor, not of the question: `set-resources` of a profile, or on the command
-# line `--set-resources plan_of_sweep:tile_seconds=600`, in whole seconds, 0 for a tile per point. A plan that is there is
-# kept: another target cuts no sweep anew.
-checkpoint plan_of_sweep:
-    input:
-        rules.probe_of_sweep.output,
-    output:
-        "results/sweeps/{sweep}/plan.json",
-    params:
-        request=sweep_request,
-        limit_hours=lambda wildcards: SWEEPS[wildcards.sweep].get("limit_hours", LIMIT_HOURS),
-        code=code("workflow/scripts/sweep_plan.py"),
-    resources:
-        tile_seconds=20,
-    log:
-        "results/logs/sweeps/{sweep}/plan.log",
-    benchmark:
-        "results/benchmarks/sweeps/{sweep}/plan.tsv"
-    script:
-        "../scripts/sweep_plan.py"
-
-
-rule tile_of_sweep:
-    output:
-        "results/sweeps/{sweep}/tiles/{tile}-of-{tiles}.csv",
-    params:
-        request=sweep_request,
-        code=code("workflow/scripts/sweep_tile.py"),
-    threads: 1
-    log:
-        "results/logs/sweeps/{sweep}/{tile}-of-{tiles}.log",
-    benchmark:
-        "results/benchmarks/sweeps/{sweep}/{tile}-of-{tiles}.tsv"
-    script:
-        "../scripts/sweep_tile.py"
-
-
-rule table_of_sweep:
-    input:
-        sweep_tiles,
-    output:
-        "results/sweeps/{sweep}.{kind}",
-    params:
-        request=sweep_request,
-        code=code("workflow/scripts/sweep_table.py"),
-    log:
-        "results/logs/sweeps/{sweep}/table_{kind}.log",
-    benchmark:
-        "results/benchmarks/sweeps/{sweep}/table_{kind}.tsv"
-    script:
-        "../scripts/sweep_table.py"
-
-
-rule picture_of_sweep:
-    input:
-        table=lambda wildcards: table_of(wildcards.sweep),
-    output:
-        **figure_files("results/sweeps/{sweep}/figure"),
-    params:
-        module=SWEEP_PICTURE,
-        settings=lambda wildcards: {"axes": SWEEPS[wildcards.sweep]["axes"]},
-        provenance=sweep_provenance,
-    log:
-        "results/logs/sweeps/{sweep}/figure.log",
-    script:
-        "../scripts/companion.py"
-
-
-rule page_of_sweep:
-    input:
-        table=lambda wildcards: table_of(wildcards.sweep),
-        plan="results/sweeps/{sweep}/plan.json",
-        svg=rules.picture_of_sweep.output.svg,
-    output:
-        "results/sweeps/{sweep}.html",
-    params:
-        request=sweep_request,
-        code=code("workflow/scripts/sweep_page.py"),
-    log:
-        "results/logs/sweeps/{sweep}/page.log",
-    script:
-        "../scripts/sweep_page.py"
-
-
-for name in SWEEPS:
+    rule:
+        name:
+            f"table_{name}"
+        input:
+            getattr(gather, name)(f"results/sweeps/{name}/tiles/{{scatteritem}}.csv"),
+        output:
+            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables"),
+        params:
+            points=points(sweep["axes"]),
+            code=LIBRARY,
+        log:
+            f"results/logs/sweeps/{name}/table.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/table.tsv"
+        script:
+            "../scripts/sweep_table.py"
 
     rule:
         name:
             f"sweep_{name}"
         input:
-            table_of(name),
-            f"results/sweeps/{name}.html",
-            figure_files(f"results/sweeps/{name}/figure").values(),
+            table=f"results/sweeps/{name}.csv",
+        output:
+            **figure_files(f"results/sweeps/{name}/figure", SPECS["sweep"]),
+        params:
+            figure="sweep",
+            settings={"axes": sweep["axes"]},
+            config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
+            code=FIGURES,
+        log:
+            f"results/logs/sweeps/{name}/figure.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/figure.tsv"
+        script:
+            "../scripts/figure.py"

@@ -1,9 +1,11 @@
 """The docstrings of the library -> pages of the report."""
 
-from job import running
-from vibroimpact_pipeline.checkout import root_of
-from vibroimpact_pipeline.report.api import write
+import yaml
 
-if "snakemake" in globals():
-    with running(snakemake):
-        write(snakemake.output[0], snakemake.params.modules, root_of(snakemake) / "report/api")
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.report.api import documented, write
+
+with running(snakemake) as out:
+    settings = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+    write(out.site, documented(settings["api"]["left_out"]), ROOT / "report/api")

@@ -9,12 +9,13 @@ from pathlib import Path
 import pandas as pd
 import yaml
 
-from job import running
 from vibroimpact.claims.evidence import Evidence, Simulation
 from vibroimpact.claims.judge import judge, leave_open, to_markdown
-from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES
+from vibroimpact_pipeline.chapter import departures, unknown_entries
+from vibroimpact_pipeline.config import case_parameters
+from vibroimpact_pipeline.jobs import running
 
 TABLES = (
     *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
@@ -22,21 +23,12 @@ TABLES = (
 )
 
 
-def main(claims, systems: dict, unlike: list[str], inputs: dict, outputs: dict) -> None:
-    listed = yaml.safe_load(Path(claims).read_text(encoding="utf-8"))["claims"]
-    judged = leave_open(listed) if unlike else judge(listed, evidence(systems, inputs))
-    texts = {"json": json.dumps(judged, indent=1) + "\n", "markdown": to_markdown(judged, unlike)}
-    for name, text in texts.items():
-        with replacing(outputs[name]) as partial:
-            partial.write_text(text, encoding="utf-8")
-
-
-def evidence(systems: dict, inputs: dict) -> Evidence:
+def evidence(config: dict, inputs: dict) -> Evidence:
     """What the checks look at, of the chapter's cases alone; simulations are the inputs <case>_samples, and so on."""
     simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
     proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
     return Evidence(
-        systems={case: System(**systems[case]) for case in CASES},
+        systems={case: System(**case_parameters(config, case)) for case in CASES},
         proofs={case: proofs[case] for case in CASES},
         simulations={case: simulation(case, inputs) for case in sorted(simulated)},
         **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES},
@@ -54,8 +46,10 @@ def simulation(case: str, inputs: dict) -> Simulation:
     return Simulation(samples, events, summary)
 
 
-if "snakemake" in globals():
-    with running(snakemake):
-        inputs, outputs = dict(snakemake.input.items()), dict(snakemake.output.items())
-        claims = inputs.pop("claims")
-        main(claims, snakemake.params.systems, snakemake.params.unlike, inputs, outputs)
+with running(snakemake) as out:
+    config, inputs = snakemake.params.config, dict(snakemake.input.items())
+    listed = yaml.safe_load(Path(inputs["claims"]).read_text(encoding="utf-8"))
+    unlike = departures(config) or unknown_entries(config, listed["judged_with"])
+    judged = leave_open(listed["claims"]) if unlike else judge(listed["claims"], evidence(config, inputs))
+    Path(out.json).write_text(json.dumps(judged, indent=1) + "\n", encoding="utf-8")
+    Path(out.markdown).write_text(to_markdown(judged, unlike), encoding="utf-8")

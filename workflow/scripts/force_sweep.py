@@ -1,26 +1,15 @@
 """Fixed points over a range of one forcing amplitude -> CSV, JSON for the report's control, and a picture."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 
-from job import running
-from vibroimpact.figures.companions.force_sweep import VERDICTS, compute, draw
+from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
 from vibroimpact.system import System
-
-
-def main(parameters: dict, settings: dict, outputs: dict) -> None:
-    low, high = settings["range"]
-    values = np.round(np.linspace(low, high, settings["values"]), 6).tolist()
-    systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
-    found = compute(systems, settings["C_max"])
-    tables.write(found["points"], outputs["csv"])
-    with replacing(outputs["json"]) as partial:
-        partial.write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
-    save(draw(found, r"\hat f_{20}"), outputs)
+from vibroimpact_pipeline.jobs import running
 
 
 def for_page(found: dict, values: list) -> dict:
@@ -42,6 +31,11 @@ def for_page(found: dict, values: list) -> dict:
     return {"manifold": manifold, "values": values, **lists}
 
 
-if "snakemake" in globals():
-    with running(snakemake):
-        main(snakemake.params.system, snakemake.params.settings, dict(snakemake.output.items()))
+with running(snakemake) as out:
+    parameters, settings = snakemake.params.system, snakemake.params.settings
+    values = np.round(np.linspace(*settings["range"], settings["values"]), 6).tolist()
+    systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
+    found = compute(systems, settings["C_max"])
+    tables.write(found["points"], out.csv)
+    Path(out.json).write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
+    save(draw(found, r"\hat f_{20}"), vars(out))

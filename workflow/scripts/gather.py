@@ -1,15 +1,10 @@
-"""Tables of all cases -> one table."""
+"""Tables of all cases -> one table of fixed points, one of orbits."""
 
 import pandas as pd
 
-from job import running
 from vibroimpact.figures.kit import tables
+from vibroimpact_pipeline.jobs import running
 
-
-def main(inputs, output) -> None:
-    tables.write(pd.concat([pd.read_csv(path) for path in inputs], ignore_index=True), output)
-
-
-if "snakemake" in globals():
-    with running(snakemake):
-        main(snakemake.input, snakemake.output[0])
+with running(snakemake) as out:
+    for paths, path in ((snakemake.input.fixed_points, out.csv), (snakemake.input.orbits, out.orbits)):
+        tables.write(pd.concat([pd.read_csv(case) for case in paths], ignore_index=True), path)

@@ -1,44 +1,24 @@
 """Results -> the report: a site that reads offline, and a PDF."""
 
+import json
 import shutil
 from pathlib import Path
 
 import yaml
 
-from job import running
+from vibroimpact.claims.judge import NOT_JUDGED
 from vibroimpact.figures.kit.markdown import plain
-from vibroimpact_pipeline.checkout import root_of
+from vibroimpact_pipeline.chapter import departures
+from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.report.offline import linked
 from vibroimpact_pipeline.report.pages import Pages, anchor
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import write
+from vibroimpact_pipeline.results import RECORDS
 
 SETTINGS = "report/report.yaml"
-
-
-def main(root, results, shown: dict, tables, config: dict, departures: list[str], judged: bool, folder) -> None:
-    """Write the report into a new folder.
-
-    Args:
-        root: the checkout.
-        results: directory of the results.
-        shown: names of figures by group.
-        tables: paths of further results to download.
-        config: of the pipeline.
-        departures: where it departs from the chapter's parameters, a line each.
-        judged: whether the claims have been judged.
-    """
-    settings = yaml.safe_load((Path(root) / SETTINGS).read_text(encoding="utf-8"))
-    results, folder = Results(results, judged), Path(folder)
-    for group in shown.values():
-        for figure in group:
-            collect(results, figure, folder)
-    for table in tables:
-        copy(table, folder / "data")
-    shutil.copytree(results.root / "api", folder / "api")
-    pages = Pages(root, results, settings, config, shown, tables, departures)
-    write(folder, root, pages, settings, f"Built from {plain(version(root))}.")
 
 
 def collect(results, figure: str, folder: Path) -> None:
@@ -64,8 +44,32 @@ def version(root) -> str:
     return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 
-if "snakemake" in globals():
-    with running(snakemake):
-        params, tables, folder = snakemake.params, snakemake.input.tables, Path(snakemake.output[0])
-        root, results = root_of(snakemake), folder.parent
-        main(root, results, params.shown, tables, params.config, params.departures, params.judged, folder)
+def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
+    """The figures of the report in groups, in the order in which they are shown."""
+    chapter = [figure for figure in figures if figure.startswith("fig10_")]
+    companions = [figure for figure in figures if figure.startswith("companion_")]
+    return {
+        "chapter": chapter,
+        "own": [figure for figure in figures if figure not in chapter + companions],
+        "companions": companions,
+        "accuracy": ["work_precision", "hazards"],
+        "models": ["scene_models"],
+        "animations": list(config["report"]["animations"]),
+        "force_sweep": ["force_sweep"],
+    }
+
+
+with running(snakemake) as out:
+    params, folder = snakemake.params, Path(out.site)
+    results_folder = Path(snakemake.output.site).parent
+    settings = yaml.safe_load((ROOT / SETTINGS).read_text(encoding="utf-8"))
+    judged = all(claim["verdict"] != NOT_JUDGED for claim in json.loads((results_folder / "claims.json").read_text()))
+    results, shown = Results(results_folder, judged), groups(params.figures, params.config)
+    tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
+    for figure in (figure for group in shown.values() for figure in group):
+        collect(results, figure, folder)
+    for table in tables:
+        copy(table, folder / "data")
+    shutil.copytree(results_folder / "api", folder / "api", ignore=shutil.ignore_patterns(RECORDS))
+    pages = Pages(ROOT, results, settings, params.config, shown, tables, departures(params.config))
+    write(folder, ROOT, pages, settings, f"Built from {plain(version(ROOT))}.")

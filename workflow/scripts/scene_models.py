@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from job import running
 from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
@@ -15,19 +14,7 @@ from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
-
-
-def main(figures: dict, simulations: dict, folder, seconds: float, output) -> None:
-    """Measure the rungs of every figure: its scene in the config, the settings it is drawn from, the module's name."""
-    rows = []
-    for figure, (scene, settings, drawn_by) in figures.items():
-        module, table = import_module(drawn_by), tables.read(Path(folder) / f"figures/{figure}.csv")
-        simulation = simulations.get(scene.get("case"))
-        rungs = rungs_of(figure, scene, settings, simulation, module, table, Path(folder))
-        print(f"{figure}: {len(rungs)} rungs")
-        in_use = scene_models.in_use(scene, simulation)
-        rows += scene_models.rows(figure, smallest_visible_error(module.draw(table)), rungs, in_use, seconds)
-    tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), output)
+from vibroimpact_pipeline.jobs import running
 
 
 def rungs_of(figure, scene, settings, simulation, module, table, folder):
@@ -48,12 +35,14 @@ def rungs_of(figure, scene, settings, simulation, module, table, folder):
     return scene_models.motion_rungs(system, simulation, summary, points, stable, samples)
 
 
-if "snakemake" in globals():
-    with running(snakemake):
-        main(
-            snakemake.params.figures,
-            snakemake.params.simulations,
-            Path(snakemake.output[0]).parents[1],
-            snakemake.params.seconds,
-            snakemake.output[0],
-        )
+with running(snakemake) as out:
+    rows, results = [], Path(snakemake.output.csv).parents[1]
+    for figure, (scene, params) in snakemake.params.figures.items():
+        module = module_of(figure, scene)
+        table = tables.read(results / f"figures/{figure}.csv")
+        simulation = snakemake.params.simulations.get(scene.get("case"))
+        rungs = rungs_of(figure, scene, params, simulation, module, table, results)
+        print(f"{figure}: {len(rungs)} rungs")
+        visible, used = smallest_visible_error(module.draw(table)), scene_models.in_use(scene, simulation)
+        rows += scene_models.rows(figure, visible, rungs, used, snakemake.params.seconds)
+    tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), out.csv)

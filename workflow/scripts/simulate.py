@@ -5,22 +5,22 @@ With `digits` in the settings the run is carried with that many decimal digits a
 """
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from job import running
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.files import replacing
 from vibroimpact.system import System
 from vibroimpact.system.state import KINDS, NAMES
+from vibroimpact_pipeline.jobs import running
 
 WINDOW = ("transient_cycles", "window_cycles", "samples_per_cycle")
 
 
-def main(case: str, parameters: dict, settings: dict, outputs) -> None:
+def main(case: str, parameters: dict, settings: dict, out) -> None:
     system = System(**parameters)
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     strobe = np.arange(settings["transient_cycles"]) * system.period
@@ -28,14 +28,13 @@ def main(case: str, parameters: dict, settings: dict, outputs) -> None:
     run, trust = integrate(system, settings, cycles, np.concatenate([strobe, times]))
     samples, events = run.samples[len(strobe) :], run.events[run.events["tau"] >= times[0]]
     every = slice(None, None, settings["samples_per_cycle"])
-    tables.write(states_table(times, samples), outputs["samples"])
-    tables.write(events_table(events), outputs["events"])
+    tables.write(states_table(times, samples), out.samples)
+    tables.write(events_table(events), out.events)
     starts = np.concatenate([run.samples[: len(strobe)], samples[every]])
-    tables.write(states_table(np.concatenate([strobe, times[every]]), starts), outputs["strobe"])
-    with replacing(outputs["summary"]) as partial:
-        numbers = summarise(times, samples, events, settings)
-        summary = {"case": case, "system": parameters, "settings": settings, **numbers, "trust": trust}
-        partial.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    tables.write(states_table(np.concatenate([strobe, times[every]]), starts), out.strobe)
+    numbers = summarise(times, samples, events, settings)
+    summary = {"case": case, "system": parameters, "settings": settings, **numbers, "trust": trust}
+    Path(out.summary).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
 
 
 def integrate(system: System, settings: dict, cycles: int, times: np.ndarray):
@@ -85,6 +84,5 @@ def summarise(times: np.ndarray, samples: np.ndarray, events: np.ndarray, settin
     }
 
 
-if "snakemake" in globals():
-    with running(snakemake):
-        main(snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings, snakemake.output)
+with running(snakemake) as out:
+    main(snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings, out)

@@ -1,26 +1,15 @@
-"""All tiles of a sweep -> one table, a row per point."""
+"""All tiles of a sweep -> one table, a row per point in their order."""
 
 import sys
 
-from job import running
+import pandas as pd
+
 from vibroimpact.figures.kit import tables
-from vibroimpact.sweeps.request import fingerprint, understood
-from vibroimpact_pipeline.sweeps.tiles import NotOfThisSweep, gathered
+from vibroimpact.sweeps.asked import POINT
+from vibroimpact_pipeline.jobs import running
 
-
-def main(request: dict, paths, output) -> None:
-    """Gather tiles.
-
-    Raises:
-        SystemExit: they are not those of the sweep.
-    """
-    grid, _ = understood(request)
-    try:
-        tables.write(gathered(paths, fingerprint(request), grid), output)
-    except NotOfThisSweep as error:
-        sys.exit(str(error))
-
-
-if "snakemake" in globals():
-    with running(snakemake):
-        main(snakemake.params.request, list(snakemake.input), snakemake.output[0])
+with running(snakemake) as out:
+    table = pd.concat(map(tables.read, snakemake.input), ignore_index=True).sort_values(POINT, ignore_index=True)
+    if table[POINT].tolist() != list(range(snakemake.params.points)):
+        sys.exit(f"{len(table)} rows with {table[POINT].nunique()} points, not {snakemake.params.points} once each")
+    tables.write(table, out.csv)

@@ -1,35 +1,44 @@
-"""What a sweep costs, and into how many tiles that cuts it."""
+"""The predicted cost of a sweep, and the number of tiles that it is cut into; with the standard library alone."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
 
+CYCLE = 5e-6
+"""Core seconds of a forcing cycle of one start, observed (`make benchmark`; a settled cycle has four impacts)."""
+POINT = 0.01
+"""Core seconds of a point beside its simulations: flow tables, fixed points, orbits."""
+RETESTED = 0.1
+"""The share of starts whose motion does not repeat, so that its name is tried over `retest` cycles."""
 MOST_TILES = 10_000
 """A file and a job each."""
 
 
-@dataclass(frozen=True)
-class Cost:
-    """What was measured. points, runs: of the whole sweep. seconds: core seconds of each point that was measured."""
-
-    points: int
-    runs: int
-    seconds: list[float]
-
-    @property
-    def core_seconds(self) -> float:
-        """Estimate for the whole sweep."""
-        return self.points * sum(self.seconds) / len(self.seconds)
+def points(axes: list[Mapping]) -> int:
+    """Return the number of points of a grid over axes as the config has them."""
+    return math.prod(_values(axis) for axis in axes)
 
 
-def tiles(cost: Cost, target: float) -> int:
-    """How many tiles to cut it into, so that each takes about `target` core seconds: points or MOST_TILES at most.
+def core_seconds(request: Mapping) -> float:
+    """Predict the core seconds of a sweep, within a factor of some two.
 
-    For a target of 0 every point is a tile.
-
-    Raises:
-        ValueError: the target is below 0.
+    Args:
+        request: "axes" and "asked", as for `vibroimpact.sweeps.request.parsed`.
     """
-    if target < 0:
-        raise ValueError(f"tile_seconds: {target:g} is below 0")
-    wanted = math.ceil(cost.core_seconds / target) if target else cost.points
-    return max(1, min(wanted, cost.points, MOST_TILES))
+    asked, observation = request["asked"], request["asked"].get("observation")
+    starts, cycles = asked.get("starts", 0), asked.get("cycles", 0)
+    simulated = cycles * sum(name in ("amplitudes", "envelopes", "energy") for name in asked["observe"])
+    if "peaks" in asked["observe"]:
+        simulated += cycles * _values(asked["band"])
+    if "regimes" in asked["observe"]:
+        settling = observation["cycles"] * observation["rounds"] + observation["blocks"] * observation["block"]
+        simulated += settling + RETESTED * observation["retest"]
+    return points(request["axes"]) * (POINT + CYCLE * starts * simulated)
+
+
+def tiles(request: Mapping, seconds: float) -> int:
+    """Return the number of tiles of about so many core seconds each, at most one per point."""
+    return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
+
+
+def _values(axis):
+    return axis.get("cells") or axis.get("values") or len(axis.get("listed") or axis["tuples"])

@@ -1,0 +1,74 @@
+"""One file to cite and to run elsewhere: the committed sources, the results with their records, and an RO-Crate."""
+
+import subprocess
+import tarfile
+import tempfile
+from pathlib import Path
+
+import yaml
+from rocrate.model import ContextEntity
+from rocrate.rocrate import ROCrate
+
+from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.results import record_of
+
+WORKFLOW = "Snakefile"
+
+
+def write(root: Path, results: list[str], titles: dict[str, str], output) -> None:
+    """Write the archive of a clean checkout.
+
+    Args:
+        root: the checkout, in which the build worked.
+        results: paths of the results from the root.
+        titles: of the figures, by their names.
+        output: path of the archive, a .tar.gz.
+
+    Raises:
+        ValueError: the checkout is no git checkout, or differs from its commit.
+    """
+    commit = git("rev-parse", "HEAD", root=root)
+    if commit is None or git("status", "--porcelain", root=root):
+        raise ValueError("archive: commit all changes first: the archive holds a commit and what it makes")
+    cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
+    time = int(git("log", "-1", "--format=%ct", root=root))
+    with tempfile.TemporaryDirectory(dir=Path(output).parent) as folder:
+        staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
+        staged.mkdir()
+        sources = subprocess.run(["git", "archive", commit], cwd=root, stdout=subprocess.PIPE, check=True).stdout
+        subprocess.run(["tar", "--extract", "--directory", staged], input=sources, check=True)
+        for path in (Path(name) for result in results for name in (result, record_of(result))):
+            (staged / path).parent.mkdir(parents=True, exist_ok=True)
+            (staged / path).hardlink_to(root / path)
+        crate(staged, cited, commit, titles).metadata.write(staged)
+        with tarfile.open(output, "w:gz", compresslevel=6) as archive:
+            archive.add(staged, staged.name, filter=lambda member: _plain(member, time))
+
+
+def crate(folder: Path, cited: dict, commit: str, titles: dict[str, str]) -> ROCrate:
+    """The RO-Crate of a folder: who made it, of what, under which licence, and what each file is."""
+    made = ROCrate()
+    workflow = made.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
+    authors = [
+        ContextEntity(made, f"#author-{number}", properties={"@type": "Organization", "name": author["name"]})
+        for number, author in enumerate(cited["authors"], 1)
+    ]
+    made.add(*authors)
+    made.name, made.description = cited["title"], f"Sources of commit {commit} and what the default build made of them."
+    made.license = f"https://spdx.org/licenses/{cited['license']}"
+    made.root_dataset["author"] = workflow["author"] = authors
+    made.root_dataset["version"], made.root_dataset["identifier"] = cited["version"], commit
+    for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        name = str(path.relative_to(folder))
+        if name != WORKFLOW:
+            about = titles.get(path.name.split(".")[0], name)
+            made.add_file(None, name, properties={"name": about, "contentSize": str(path.stat().st_size)})
+    return made
+
+
+def _plain(member: tarfile.TarInfo, time: int) -> tarfile.TarInfo:
+    """The same bytes for the same files, whoever packs them and when."""
+    member.uid = member.gid = 0
+    member.uname = member.gname = ""
+    member.mtime, member.mode = time, 0o755 if member.isdir() or member.mode & 0o100 else 0o644
+    return member

@@ -1,0 +1,96 @@
+"""The frame of every job: its log, its code and inputs checked before and after, its outputs put in place at the end."""
+
+import ctypes
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+
+from vibroimpact_pipeline import code
+from vibroimpact_pipeline.results import (
+    PARTIAL,
+    NotAsMade,
+    checked_digests,
+    digest_of_data,
+    put_in_place,
+    write_record,
+)
+
+TOKEN = Path(".cache/build")
+"""Holds a random word for each build: the job of a build that was killed finds another one there."""
+PR_SET_PDEATHSIG = 1
+
+
+class Refused(RuntimeError):
+    """Something changed while the job ran, so that its outputs cannot be used."""
+
+
+@contextmanager
+def running(job) -> Iterator[SimpleNamespace]:
+    """Run the script of a Snakemake job, whose outputs are named; give their temporary paths by name.
+
+    What the script prints goes to the job's log. The job fails, with one line there, and replaces nothing, if its code
+    is not the code that the rules saw (`params.code`: fingerprints by part), if an input is not what its job wrote, if
+    either changes meanwhile, or if another build has begun.
+    """
+    end_with_parent()
+    with ExitStack() as stack:
+        if job.log:
+            stack.enter_context(logging_to(job.log[0]))
+        try:
+            parts, token = dict(job.params.get("code", {})), build_token()
+            before = code.stamps(parts)
+            if any(code.fingerprint_now(part) != seen for part, seen in parts.items()):
+                raise Refused("the code has changed since the build began. Build again.")
+            inputs = checked_digests(job.input)
+            outputs = {name: Path(path) for name, path in job.output.items()}
+            partial = {name: _beside(path, stack) for name, path in outputs.items()}
+            yield SimpleNamespace(**{name: str(path) for name, path in partial.items()})
+            if code.stamps(parts) != before:
+                raise Refused("the code has changed while this job ran. Build again.")
+            if build_token() != token:
+                raise Refused("another build has begun meanwhile; this job's outputs are left out.")
+            made = made_by(job, inputs)
+            for name, path in outputs.items():
+                put_in_place(partial[name], path)
+                write_record(path, made)
+        except (Refused, NotAsMade) as error:
+            sys.exit(str(error))
+
+
+def made_by(job, inputs: dict[str, str]) -> dict:
+    """What the records of a job's outputs say of it."""
+    params = digest_of_data(dict(job.params.items()))
+    return {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": params, "inputs": inputs}
+
+
+def _beside(path, stack) -> Path:
+    """A temporary path of the same name, in a folder beside it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=PARTIAL, dir=path.parent)), path.name)
+
+
+@contextmanager
+def logging_to(path) -> Iterator[None]:
+    """Send everything that this process and its children print to a log file."""
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", encoding="utf-8") as log:
+        for stream in (sys.stdout, sys.stderr):
+            stream.flush()
+            os.dup2(log.fileno(), stream.fileno())
+        yield
+
+
+def build_token() -> str | None:
+    """The word of the build that goes on, None where none was begun here."""
+    return TOKEN.read_text(encoding="ascii") if TOKEN.is_file() else None
+
+
+def end_with_parent() -> None:
+    """Have the system end this process with the one that started it (Linux)."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

@@ -1,0 +1,135 @@
+"""Where a figure comes from: a record beside it and in its metadata, and whether the checkout would still make it so.
+
+    python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
+"""
+
+import argparse
+import json
+import platform
+import re
+import sys
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+from xml.etree import ElementTree
+
+from PIL import Image
+
+from vibroimpact_pipeline import code
+from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.results import digest_of, read_record
+
+LOCK = "environment.lock"
+PACKAGES = ("numpy", "scipy", "numba", "matplotlib")
+DUBLIN_CORE = "{http://purl.org/dc/elements/1.1/}description"
+
+
+def record(job) -> dict:
+    """What decides on a figure, the same in every build of one commit: it goes into the metadata of the pictures."""
+    return {
+        "figure": job.params.figure,
+        "config": job.params.config,
+        "code": dict(job.params.code),
+        "inputs": {str(path): digest_of(path) for path in job.input},
+        "lock": digest_of(code.ROOT / LOCK),
+        "versions": {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}},
+    }
+
+
+def write(path, made: dict) -> None:
+    """Write the record beside the figure, with the commit of the checkout and whether it is clean."""
+    changes = git("status", "--porcelain", root=code.ROOT)
+    tree = {None: None, "": "clean"}.get(changes, "modified")
+    full = {**made, "commit": git("rev-parse", "HEAD", root=code.ROOT), "tree": tree}
+    Path(path).write_text(json.dumps(full, indent=1) + "\n", encoding="utf-8")
+
+
+def read(path) -> dict:
+    """The record of a figure's file: the one beside it, else the one in the metadata of a PNG, SVG or PDF file.
+
+    Raises:
+        ValueError: the file has none.
+    """
+    path = Path(path)
+    beside = path.with_name(path.name.split(".")[0] + ".provenance.json")
+    try:
+        return json.loads(beside.read_text(encoding="utf-8") if beside.is_file() else METADATA[path.suffix](path))
+    except (KeyError, TypeError, ValueError, ElementTree.ParseError):
+        raise ValueError(f"{path} has no record of where it comes from") from None
+
+
+def _in_png(path):
+    with Image.open(path) as picture:
+        return picture.info["Description"]
+
+
+def _in_svg(path):
+    return ElementTree.parse(path).findtext(f".//{DUBLIN_CORE}")
+
+
+def _in_pdf(path):
+    """Matplotlib writes the entry as plain text, with a backslash before brackets and backslashes."""
+    found = re.search(rb"/Subject \(((?:[^\\()]|\\.)*)\)", path.read_bytes(), re.DOTALL)
+    return found and re.sub(rb"\\(.)", rb"\1", found[1])
+
+
+METADATA = {".png": _in_png, ".svg": _in_svg, ".pdf": _in_pdf}
+
+
+def differences(path, made: dict, config: dict) -> Iterator[str]:
+    """What has changed since the figure was made, a line each.
+
+    Args:
+        path: of the figure's file.
+        made: its record.
+        config: the config of today, checked.
+    """
+    for place, value in made["config"].items():
+        if (now := _at(config, place)) != value:
+            yield f"config, {place}: is {now}, was {value}"
+    for part, fingerprint in made["code"].items():
+        if code.fingerprint(part) != fingerprint:
+            yield f"code of the {part}: has changed"
+    for name, digest in {**made["inputs"], str(code.ROOT / LOCK): made["lock"]}.items():
+        if not Path(name).is_file() or digest_of(name) != digest:
+            yield f"{name}: has changed"
+    written = read_record(path)
+    if written and written["sha256"] != digest_of(path):
+        yield "the file itself: is not what its job wrote"
+
+
+def _at(config, place):
+    """The entry of the config at "section.key"; of a case, what the systems of the library are made of."""
+    from vibroimpact_pipeline.config import case_parameters
+
+    section, _, name = place.partition(".")
+    if place == "cases":
+        return {case: case_parameters(config, case) for case in config["cases"]}
+    if section == "cases" and "." not in name:
+        return case_parameters(config, name) if name in config["cases"] else None
+    for key in place.split("."):
+        config = config.get(key) if isinstance(config, dict) else None
+    return config
+
+
+def main() -> int:
+    """Exit status: 0 the file matches, 1 it does not, 2 it has no record."""
+    from vibroimpact_pipeline.config import checked, read as read_config
+
+    parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
+    parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
+    file = parser.parse_args().file
+    settings = next(path for path in (Path("config/config.yaml"), code.ROOT / "config/config.yaml") if path.is_file())
+    try:
+        made, config = read(file), checked(read_config(settings))
+    except (OSError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    found = list(differences(file, made, config))
+    print(f"{file}: {made['figure']}, made from commit {made.get('commit') or 'unknown'} ({made.get('tree') or 'no git'})")
+    print(*found, f"{len(found)} difference(s)." if found else "It is what this checkout makes.", sep="\n")
+    return int(bool(found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,1 +1,0 @@
-"""What the pipeline adds to sweeps: tiles as files, and the page."""
