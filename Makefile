@@ -11,8 +11,11 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive check-bytes benchmark attack test test-all explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive benchmark attack test test-all explore lock wheels cluster-tools clean set-up
 .DEFAULT_GOAL := help
+
+# A progress bar in a terminal; plain lines elsewhere, and with V=1 all that Snakemake says.
+BUILD = .venv/bin/snakemake --cores $(CORES) $(if $(V),--quiet host,$$([ ! -t 2 ] || echo --logger rich))
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { name[++n] = $$1; does[n] = $$2; if (length($$1) > w) w = length($$1) } \
@@ -22,27 +25,23 @@ help:  ## list these commands
 		'WHEELS=folder  set-up takes all packages from there, none from the network'
 
 figures: set-up  ## build every figure into results/
-	.venv/bin/snakemake --cores $(CORES)
+	@$(BUILD)
 
 check-figures: set-up  ## compare results/figures/ with the reference set figures/ (STRICT=1: it fails if pixels cannot be)
-	.venv/bin/snakemake --cores $(CORES) figure_check$(if $(STRICT),_strict)
+	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
 
 report: set-up  ## build the report, results/report/index.html and a PDF of the same
-	.venv/bin/snakemake --cores $(CORES) report
+	@$(BUILD) -- report
 
 archive: set-up  ## pack sources, results and what describes them into one file to cite and to run elsewhere, results/archive/
-	.venv/bin/snakemake --cores $(CORES) archive
+	@$(BUILD) -- archive
 
 accept: export REASON := $(REASON)
 accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pixels alone)
-	.venv/bin/snakemake --cores $(CORES) compare_figures
 	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(if $(PICTURES),--pictures) $(FIGURES)
 
 benchmark: set-up  ## time per impact of every method, with its error (a minute or two, one core)
 	.venv/bin/python workflow/scripts/benchmark.py
-
-check-bytes: set-up  ## build the commit twice from nothing and compare the bytes
-	CORES=$(CORES) workflow/build_twice.sh
 
 attack: set-up  ## attack what the certificates of runs say, 20 000 runs of each kind (RUNS=20000; a core for a quarter of an hour)
 	.venv/bin/pytest tests/exact/engine/test_attack.py --attack=$(RUNS)
