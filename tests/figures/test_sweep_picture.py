@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from vibroimpact.figures.companions import sweep
+from vibroimpact.figures import sweep
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.observations import COLUMNS
 

@@ -49,8 +49,8 @@ def test_same_figure_and_record_same_bytes(figures, tmp_path):
         tables.write(figures[like].compute(), tmp_path / f"{name}.csv")
     code = (
         "import json, sys\nfrom pathlib import Path\n"
-        "from vibroimpact.figures.chapter import fig10_06\n"
-        "from vibroimpact.figures.chapter import fig10_08\n"
+        "from vibroimpact.figures import fig10_06\n"
+        "from vibroimpact.figures import fig10_08\n"
         "from vibroimpact.figures.kit import style\n"
         "from vibroimpact.figures.kit import tables\n"
         "source, target, record = Path(sys.argv[1]), sys.argv[2], json.loads(sys.argv[3])\n"
@@ -79,7 +79,7 @@ def tree(figures, tmp_path):
     shutil.copytree(ROOT / "src", root / "src")
     (root / "results/figures").mkdir(parents=True)
     (root / "results/input.csv").write_text("x\n1\n")
-    step = {"files": ["notebooks/closed_form.ipynb"], "modules": ["vibroimpact.figures.chapter.fig10_04"]}
+    step = {"files": ["notebooks/closed_form.ipynb"], "modules": ["vibroimpact.figures.fig10_04"]}
     fingerprint = Sources().fingerprint(root / step["files"][0], modules=step["modules"])
     record = {
         "figure": "fig10_04",

@@ -58,7 +58,7 @@ def test_an_edited_library_module_rebuilds_what_uses_it(rebuilt):
 
 
 def test_an_edited_figure_module_rebuilds_the_figures_it_draws(rebuilt):
-    with open(rebuilt / "src/vibroimpact/figures/chapter/fig10_04.py", "a") as module:
+    with open(rebuilt / "src/vibroimpact/figures/fig10_04.py", "a") as module:
         module.write("\n# edited\n")
     assert rebuilt.planned("figures") == {"fig10_04"}
 

@@ -18,7 +18,7 @@ import verdicts
 from chapter import PARAMETERS
 from notebook import main as notebook
 from vibroimpact.exact.engine.simulation import simulate as integrate
-from vibroimpact.figures.companions import companion_stability
+from vibroimpact.figures import companion_stability
 from vibroimpact.system import System
 from vibroimpact_pipeline.report.offline import linked, markdown_to_html
 

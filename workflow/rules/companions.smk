@@ -1,5 +1,5 @@
 # Figures that the chapter does not show. One entry makes the rule; it bears the figure's name, and so does the module
-# that draws it (vibroimpact.figures.companions.<name>). `method` says how, `settings` gives each argument of its
+# that draws it (vibroimpact.figures.<name>). `method` says how, `settings` gives each argument of its
 # `compute` a place in the config, `system` or `systems` the system of one case or those of all; `inputs` are tables
 # it reads, made by the steps `before`; `tables` are tables it writes beside the one it plots. `config` names what
 # else decides on it.
@@ -190,7 +190,7 @@ def companion_outputs(name):
 
 
 def companion_module(name):
-    return f"vibroimpact.figures.companions.{name}"
+    return f"vibroimpact.figures.{name}"
 
 
 def companion_settings(name):

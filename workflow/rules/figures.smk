@@ -59,12 +59,12 @@ def figure_settings(scene):
 def drawn_by(figure, scene):
     """The module that draws a figure; those of one notebook share the module of a figure of the chapter."""
     shared = {
-        "fixed_points": "chapter.fig10_06",
-        "theoretical_response": "chapter.fig10_10" if "C_max" in scene else "chapter.fig10_07",
-        "simulation": "chapter.fig10_08",
-        "physical_units": "companions.physical_units",
+        "fixed_points": "fig10_06",
+        "theoretical_response": "fig10_10" if "C_max" in scene else "fig10_07",
+        "simulation": "fig10_08",
+        "physical_units": "machines",
     }
-    return f"vibroimpact.figures.{shared.get(scene['notebook'], f'chapter.{figure}')}"
+    return f"vibroimpact.figures.{shared.get(scene['notebook'], f'{figure}')}"
 
 
 def figure_step(figure, scene):

@@ -49,7 +49,7 @@ def sweep_provenance(wildcards):
     return provenance(f"sweep_{name}", sweep_keys(name), [SWEEPS[name]["case"]], SWEEP_STEPS)
 
 
-SWEEP_PICTURE = "vibroimpact.figures.companions.sweep"
+SWEEP_PICTURE = "vibroimpact.figures.sweep"
 SWEEP_STEPS = [
     step(*STEPS["tile_of_sweep"]),
     step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),

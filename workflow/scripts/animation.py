@@ -3,7 +3,7 @@
 import json
 
 from job import running
-from vibroimpact.figures.companions.animation import PLACES, compute, draw
+from vibroimpact.figures.animation import PLACES, compute, draw
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save
 from vibroimpact.figures.kit.tables import read

@@ -1,8 +1,8 @@
 """Where chaos and periodic motions coexist -> CSV: mean lives, tori, and where these begin."""
 
 from job import running
-from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.figures.kit import tables
+from vibroimpact.regimes.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.system import System
 
 

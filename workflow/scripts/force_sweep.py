@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from job import running
-from vibroimpact.figures.companions.force_sweep import VERDICTS, compute, draw
+from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact.figures.kit.style import save

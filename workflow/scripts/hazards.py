@@ -4,7 +4,7 @@ import pandas as pd
 
 from job import running
 from vibroimpact.accuracy.hazards import hazards, judge
-from vibroimpact.figures.companions.hazards import draw
+from vibroimpact.figures.hazards import draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from job import running
-from vibroimpact.figures.companions.companion_ladder import verdicts
+from vibroimpact.figures.companion_ladder import verdicts
 from vibroimpact.figures.kit import tables
 from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.ladder import rungs

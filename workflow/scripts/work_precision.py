@@ -6,9 +6,9 @@ from job import running
 from problems import problem_of
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import measure
-from vibroimpact.figures.companions.work_precision import draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.work_precision import draw
 from vibroimpact.rivals import METHODS
 from vibroimpact_pipeline.provenance.record import recorded
 

@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from pipeline_trees import ROOT
-from vibroimpact.figures.companions import physical_units
+from vibroimpact.figures import machines
 from vibroimpact.figures.kit.tables import select
 
 SCENE = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))["figures"]["machines"]
@@ -15,7 +15,7 @@ SETTINGS |= {"frequencies": SCENE["frequencies"] | {"values": 5}, "cycles": 250,
 
 @pytest.fixture(scope="module")
 def made():
-    return physical_units.compute(**SETTINGS)
+    return machines.compute(**SETTINGS)
 
 
 def velocities(p, hertz):
@@ -43,14 +43,14 @@ def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_tho
 def test_twice_the_force_and_twice_the_clearance_swing_twice_as_far(made):
     plant = SCENE["plant"] | {name: 2 * SCENE["plant"][name] for name in ("F10", "F20")}
     wider = SETTINGS | {"plant": plant, "clearances": [2 * L for L in SCENE["clearances"]]}
-    found = physical_units.compute(**wider)["summary"]
+    found = machines.compute(**wider)["summary"]
     scale = {"frequency": 1, "swing": 2, "power": 4, "share": 1, "force": 2}
     for name, factor in scale.items():
         np.testing.assert_allclose(found[name], factor * made["summary"][name], rtol=1e-9)
 
 
 def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
-    box, ball, hits = (select(made["csv"], "motion", name) for name in physical_units.MOTION)
+    box, ball, hits = (select(made["csv"], "motion", name) for name in machines.MOTION)
     at = np.interp(hits["time"], box["time"], box["place"])
     straight = np.abs(np.diff(box["place"], 2)).max() / 4  # bounds the error of a line between samples, kinks included
     np.testing.assert_allclose(np.abs(at - hits["place"]), 1000 * SCENE["shown"]["L"], rtol=0, atol=straight)
@@ -60,8 +60,8 @@ def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
 
 
 def test_the_figure_shows_every_clearance(made):
-    response, motion = physical_units.draw(made["csv"]).axes
+    response, motion = machines.draw(made["csv"]).axes
     assert [line.get_label() for line in response.lines][2:] == [
         f"balls, $L = {1000 * L:g}$ mm" for L in SCENE["clearances"]
     ]
-    assert len(motion.lines) == len(physical_units.MOTION)
+    assert len(motion.lines) == len(machines.MOTION)

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.companions.companion_response import FORCES, frequencies, linear_systems, per_force, ratios
-from vibroimpact.figures.companions.sweep import SYMBOLS, edges
+from vibroimpact.figures.companion_response import FORCES, frequencies, linear_systems, per_force, ratios
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, LEAST, LINES, MOST, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.sweep import SYMBOLS, edges
 from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps.grid import LOGARITHMIC

@@ -10,7 +10,6 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.absorbers.tuning import compared
-from vibroimpact.figures.companions.sweep import SYMBOLS
 from vibroimpact.figures.kit.absorber_looks import DOTS, LEAST, MOST, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import (
     BLACK,
@@ -22,6 +21,7 @@ from vibroimpact.figures.kit.style import (
     styled,
 )
 from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact.figures.sweep import SYMBOLS
 from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
 from vibroimpact.regimes.one_to_one import by_theory, exact
 from vibroimpact.sweeps.grid import axis

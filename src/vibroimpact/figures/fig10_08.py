@@ -1,4 +1,4 @@
-"""Figures 10.8 and 10.11: the simulated motion of the second module."""
+"""Figure 10.8: the simulated motion of the second module."""
 
 from vibroimpact.figures.kit.simulated import compute, draw
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.companions import spectra
+from vibroimpact.figures.kit import spectra
 from vibroimpact.figures.kit.style import (
     BLACK,
     DOUBLE_COLUMN,

@@ -1,4 +1,4 @@
-"""Figures 10.6 and 10.9: fixed points and singular points on the slow invariant manifold."""
+"""Figure 10.6: fixed points and singular points on the slow invariant manifold."""
 
 import numpy as np
 import pandas as pd

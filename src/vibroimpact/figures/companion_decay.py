@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from vibroimpact.absorbers.decay import decay_time
-from vibroimpact.figures.companions.companion_response import linear_systems
+from vibroimpact.figures.companion_response import linear_systems
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select

@@ -3,7 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.chapter import fig10_06, fig10_07
+from vibroimpact.figures import fig10_06, fig10_07
 from vibroimpact.figures.kit.fixed_point_table import labelled_point
 from vibroimpact.figures.kit.style import SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import join
