@@ -207,7 +207,7 @@ def companion_provenance(name):
         sorted(config["cases"]) if "systems" in companion else [companion["system"]] if "system" in companion else []
     )
     keys = [*companion.get("settings", {}).values(), *companion.get("config", [])]
-    own = step(companion["method"], DOUBLE, "workflow/scripts/companion.py", modules=[companion_module(name)])
+    own = step(companion["method"], DOUBLE, "workflow/scripts/figure.py", modules=[companion_module(name)])
     return provenance(name, keys, cases, [*companion.get("before", []), own])
 
 
@@ -229,7 +229,7 @@ for name, companion in COMPANIONS.items():
         benchmark:
             f"results/benchmarks/companions/{name}.tsv"
         script:
-            "../scripts/companion.py"
+            "../scripts/figure.py"
 
 
 rule companions:

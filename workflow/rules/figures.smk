@@ -2,7 +2,7 @@
 # so that `snakemake --cores 2 fig10_06` builds this figure and what it needs.
 
 CASE_FILES = {
-    "fixed_points": "results/fixed_points/{case}.csv",
+    "points": "results/fixed_points/{case}.csv",
     "samples": "results/simulations/{case}/samples.csv",
     "events": "results/simulations/{case}/events.csv",
     "summary": "results/simulations/{case}/summary.json",
@@ -11,8 +11,8 @@ CASE_FILES = {
 MODEL_INPUTS = {
     None: [],
     "closed_form": [],
-    "slow_flow": ["fixed_points"],
-    "simulation": ["fixed_points", "samples", "events", "summary"],
+    "slow_flow": ["points"],
+    "simulation": ["points", "samples", "events", "summary"],
 }
 WITHOUT_TABLE = "drawings"
 
@@ -44,16 +44,18 @@ def figure_outputs(figure, scene):
     files = figure_files(f"results/figures/{figure}", with_table=scene["notebook"] != WITHOUT_TABLE)
     if scene["notebook"] == "simulation" and exact(scene["case"]):
         files["statistics"] = f"results/figures/{figure}.statistics.csv"
+    if scene["notebook"] == "physical_units":
+        files["summary"] = f"results/figures/{figure}.summary.csv"
     return files
 
 
 def figure_settings(scene):
     """The figure's own slice of the config: its scene and the system parameters that it depends on."""
-    used = scene.get("parameters", [])
-    system = system_of(scene["case"]) if "case" in scene else {name: config["system"][name] for name in used}
+    used = {name: config["system"][name] for name in scene.get("parameters", [])}
+    system = {"system": system_of(scene["case"])} if "case" in scene else used
     observed = {"observation": config["regimes"]["observation"]} if simulated(scene) else {}
     given = {name: value for name, value in scene.items() if name not in ("notebook", "model", "parameters")}
-    return {**given, "system": system, **observed}
+    return {**given, **system, **observed}
 
 
 def drawn_by(figure, scene):
@@ -61,7 +63,7 @@ def drawn_by(figure, scene):
     shared = {
         "fixed_points": "fig10_06",
         "theoretical_response": "fig10_10" if "C_max" in scene else "fig10_07",
-        "simulation": "fig10_08",
+        "simulation": "fig10_11" if "case" in scene and exact(scene["case"]) else "fig10_08",
         "physical_units": "machines",
     }
     return f"vibroimpact.figures.{shared.get(scene['notebook'], f'{figure}')}"
@@ -80,7 +82,7 @@ def figure_provenance(figure, scene):
     keys = [f"figures.{figure}", *(f"system.{name}" for name in scene.get("parameters", []))]
     keys += [f"cases.{case}.simulation" for case in cases if simulated(scene)]
     keys += ["regimes.observation"] if simulated(scene) else []
-    before = [step(*STEPS["fixed_points"])] if "fixed_points" in read else []
+    before = [step(*STEPS["fixed_points"])] if "points" in read else []
     before += [simulation_step(scene["case"])] if simulated(scene) else []
     return provenance(figure, keys, cases, [*before, figure_step(figure, scene)])
 

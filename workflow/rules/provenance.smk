@@ -70,5 +70,5 @@ def provenance(figure, keys, cases, steps):
 
 def figure_files(stem, with_table=True):
     """Files of a figure by kind: pictures, what they show, where they come from, and the table that is plotted."""
-    kinds = ["png", "pdf", "svg", "artists.json", "provenance.json"] + ["csv"] * with_table
+    kinds = ["png", "pdf", "svg", "provenance.json"] + ["csv"] * with_table
     return {kind.removesuffix(".json"): f"{stem}.{kind}" for kind in kinds}

@@ -52,7 +52,7 @@ def sweep_provenance(wildcards):
 SWEEP_PICTURE = "vibroimpact.figures.sweep"
 SWEEP_STEPS = [
     step(*STEPS["tile_of_sweep"]),
-    step("as computed", DOUBLE, "workflow/scripts/companion.py", modules=[SWEEP_PICTURE]),
+    step("as computed", DOUBLE, "workflow/scripts/figure.py", modules=[SWEEP_PICTURE]),
 ]
 
 
@@ -142,7 +142,7 @@ rule picture_of_sweep:
     log:
         "results/logs/sweeps/{sweep}/figure.log",
     script:
-        "../scripts/companion.py"
+        "../scripts/figure.py"
 
 
 rule page_of_sweep:

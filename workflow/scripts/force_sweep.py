@@ -20,7 +20,7 @@ def main(parameters: dict, settings: dict, outputs: dict) -> None:
     tables.write(found["points"], outputs["csv"])
     with replacing(outputs["json"]) as partial:
         partial.write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
-    save(draw(found, r"\hat f_{20}"), outputs)
+    save(draw(found), outputs)
 
 
 def for_page(found: dict, values: list) -> dict:

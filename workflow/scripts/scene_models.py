@@ -12,6 +12,7 @@ from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
+from vibroimpact.figures.kit.style import drawn
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
@@ -26,16 +27,14 @@ def main(figures: dict, simulations: dict, folder, seconds: float, output) -> No
         rungs = rungs_of(figure, scene, settings, simulation, module, table, Path(folder))
         print(f"{figure}: {len(rungs)} rungs")
         in_use = scene_models.in_use(scene, simulation)
-        rows += scene_models.rows(figure, smallest_visible_error(module.draw(table)), rungs, in_use, seconds)
+        rows += scene_models.rows(figure, smallest_visible_error(drawn(module, {"csv": table})), rungs, in_use, seconds)
     tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), output)
 
 
 def rungs_of(figure, scene, settings, simulation, module, table, folder):
     """The rungs of one figure, from the results that it shows."""
     if scene["model"] == "closed_form":
-        arguments = {name: value for name, value in settings.items() if name != "system"} | settings["system"]
-        work = partial(module.compute, **arguments)
-        return scene_models.closed_form_rungs(figure, scene, settings["system"], table, work)
+        return scene_models.closed_form_rungs(figure, scene, settings, table, partial(module.compute, **settings))
     case = scene["case"]
     system = System(**settings["system"])
     points = labelled_points(tables.read(folder / f"fixed_points/{case}.csv"))

@@ -7,6 +7,17 @@ from matplotlib.patches import Circle, Rectangle
 
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
 
+SPEC = {
+    "title": "The motion of case {case}",
+    "caption": r"Six instants of the motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
+        "{f20_hat}`. :math:`T` is the forcing period; a star marks a wall that is hit before the next instant.",
+    "alt": "Six small pictures of two boxes on springs with a ball in each, at successive instants of the motion of "
+        "case {case}.",
+    "method": "the window of a simulation, frame by frame",
+    "made_by": "animation",
+    "tables": {},
+}  # fmt: skip
+
 PLACES = {1: -3.0, 2: 3.0}
 """Where the boxes rest, in units of L; far enough from each other for every motion of the chapter."""
 BALL, WALL, HALF_HEIGHT, EDGE = 0.28, 0.12, 0.62, 6.2

@@ -13,6 +13,31 @@ from vibroimpact.theory.masri import lower_limit, upper_limit
 from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.penetration import largest_C
 
+SPEC = {
+    "title": "The manifold with the limits as derived",
+    "caption": "Companion of Fig. 10.4. The manifold with the limits of stability as derived from Masri's analysis: "
+        "stable piece bold solid on a shaded band, unstable pieces dashed; square: the printed limit (10.26). Inset: "
+        r"the piece from there to :math:`C_{\min}`, which (10.26) calls stable.",
+    "alt": "V-shaped curve B over C; a shaded band between C_min and the limit of symmetry breaking holds the only "
+        "stable piece. A square marks the printed limit, on the unstable left arm; an inset magnifies the unstable "
+        "piece from there to C_min.",
+    "equations": [r"C_{\min} = \frac{1}{1+\rho^2} < C < \frac{\pi^2}{\pi^2 - 4}"],
+    "method": "closed form: (10.16), (10.26), limits of Masri's analysis",
+    "settings": {"kappa": "system.kappa", "C_max": "stability.companion_10_04.C_max"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": "pieces of the manifold below, between and above the limits as derived; points: "
+                    r"(10.26), $C_{\min}$, $\pi^2/(\pi^2 - 4)$", "values": ["SIM left", "SIM stable", "SIM right",
+                    "printed", "fold", "symmetry breaking"]},
+                "C": {"compared": "algebra"},
+                "B": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
 PIECES = {"SIM left": UNSTABLE, "SIM stable": STABLE, "SIM right": UNSTABLE}
 """The manifold from left to right: below the fold, between the limits, above the upper one."""
 LIMITS = {

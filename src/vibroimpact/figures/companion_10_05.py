@@ -11,6 +11,31 @@ from vibroimpact.theory.masri import lower_limit, upper_limit
 from vibroimpact.theory.masri_printed import printed_limit
 from vibroimpact.theory.penetration import largest_C
 
+SPEC = {
+    "title": "Stability regions as derived",
+    "caption": "Companion of Fig. 10.5. The region where the motion exists and is stable (shaded), as derived; dashed: "
+        "where the ball leaves the box; dotted: the printed limit (10.26).",
+    "alt": "Plane of kappa and C. The shaded region of stable motion lies between the curve C_min and a horizontal "
+        "line, cut off at small kappa by the dashed limit at which the ball leaves the box. The printed limit is "
+        "dotted, below the region.",
+    "equations": [r"p\cot p = \frac{1}{1+\kappa}, \qquad \frac{1}{C_{\mathrm g}} = 1 - "
+        r"\frac{2p}{\pi}\big(1+\kappa\cot^2p\big)"],
+    "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
+    "settings": {"C_range": "stability.companion_10_05.C_range"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": r"outline of the stable region; lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of "
+                    "the $C$ at which the ball grazes the wall that it has left, and of (10.26); ends of the axes",
+                    "values": ["stable", "fold", "symmetry breaking", "penetration", "printed", "range"]},
+                "kappa": {"compared": "algebra"},
+                "C": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
 BORDER = {"color": BLACK, "linewidth": 1.0, "linestyle": "-"}
 LIMITS = {"fold": BORDER, "symmetry breaking": BORDER, "penetration": UNSTABLE, "printed": LEVEL}
 NAMES = {

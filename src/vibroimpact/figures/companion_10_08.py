@@ -10,6 +10,35 @@ from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.slow_variables import amplitude_and_lag
 from vibroimpact.theory.response import impact_times, leading_order
 
+SPEC = {
+    "title": "Two motions, one figure",
+    "caption": "Companion of Figs. 10.7 and 10.8: the relative displacement :math:`W_2` over the phase of the forcing, "
+        "by the theory at the fixed point nearest to the simulated motion, and as simulated, with the length of each "
+        "flight in forcing periods :math:`T`. Grey: the mirror image of the simulated motion, half a period later with "
+        "all signs changed, which the equations allow as well.",
+    "alt": "W2 over two forcing periods. By the theory it goes from wall to wall in flights of equal length, half a "
+        "period each. As simulated, long and short flights take turns; another curve shows the mirror image of that "
+        "motion.",
+    "equations": [r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}"],
+    "method": "(10.10) at the fixed point nearest to the simulated motion, and that motion",
+    "case": "figures.fig10_08.case",
+    "inputs": {"points": "results/fixed_points/{case}.csv", "samples": "results/simulations/{case}/samples.csv",
+        "events": "results/simulations/{case}/events.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["theory", "simulation"]},
+                "series": {"meaning": "the motion; its mirror image, half a period later with all signs changed; the "
+                    "impacts", "values": ["W_2", "mirror image", "impact"]},
+                "label": {"meaning": "label of the fixed point", "unit": "text"},
+                "phase": {"meaning": r"time since a forcing period began, $\tau/T$", "unit": "forcing periods",
+                    "compared": "trajectory"},
+                "W2": {"meaning": "$W_2 = X_2 - Y_2$", "unit": "dimensionless", "compared": "trajectory"},
+            },
+        },
+    },
+}  # fmt: skip
+
 PANELS = {"theory": "theory: fixed point ({})", "simulation": "simulated"}
 PERIODS = 2
 MOST_FLIGHTS = 4

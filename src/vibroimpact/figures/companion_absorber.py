@@ -18,6 +18,65 @@ from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps.grid import LOGARITHMIC
 
+SPEC = {
+    "title": "Which balls serve best",
+    "caption": r"The highest :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat "
+        "f_{i0}`, in a band of frequencies. a: over the clearance; triangles: from rest only one ball ever meets a "
+        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the same over the "
+        "restitution, too. Stars: the lowest peak, with a bar where it is at most 1.25 times as high.",
+    "alt": "Two panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
+        "around its lowest dots. b: a map in grey with the lowest peak marked by a star.",
+    "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
+    "case": "sweeps.clearance.case",
+    "settings": {"band": "sweeps.clearance.band", "number": "sweeps.clearance.starts", "seed": "sweeps.clearance.seed",
+        "observation": "regimes.observation"},
+    "inputs": {"response": "results/sweeps/frequency_response.csv", "clearance": "results/sweeps/clearance.csv",
+        "design": "results/sweeps/design.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["clearance", "design"]},
+                "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, or "
+                    "the linear system", "values": ["balls", "one ball", "without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls "
+                    "also of all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory",
+                    "balls": "extremes", "one ball": "extremes", "others": "algebra"}},
+                "kappa": {"compared": "algebra"},
+            },
+        },
+        "summary": {
+            "file": "results/absorber.csv",
+            "about": "What the balls are good for, in numbers, at the system of the sweep `clearance` and along its "
+                "band.",
+            "columns": {
+                "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls at the "
+                    "clearance (and kappa) where it is lowest. Of balls against who, at one force: frequencies won, "
+                    "the share of frequencies at which the boxes move less with balls; least and greatest of the "
+                    r"largest $\lvert X_i\rvert$ over that of who", "unit": "text", "values": ["peak",
+                    "frequencies won", "least", "greatest"]},
+                "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
+                    "one ball at the kappa of the config while the other meets no wall, or what they are held against",
+                    "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "value": {"meaning": "what the quantity says", "unit": "dimensionless", "compared": "extremes"},
+                "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
+                    "over that without balls", "unit": "dimensionless", "compared": "extremes"},
+                "kappa, f10_hat, f20_hat": {"compared": "extremes"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
+                    "unit": "dimensionless", "compared": "free"},
+                "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "
+                    "the peak is lowest; and how far about it, on the grid of the sweep, it is at most 1.25 times as "
+                    "high", "unit": "dimensionless", "compared": "extremes"},
+                "regime": {"meaning": "the `regime` that most starts end in there", "unit": "text",
+                    "compared": "few outcomes"},
+            },
+        },
+    },
+}  # fmt: skip
+
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 SWEPT = {
     BALLS: {**DOTS, "linestyle": "-", "linewidth": 0.6},

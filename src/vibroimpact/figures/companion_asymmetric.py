@@ -18,6 +18,97 @@ from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
 from vibroimpact.theory.relaxation import lost_at, relax
 
+SPEC = {
+    "title": "The asymmetric branch of the manifold",
+    "caption": "Motions whose balls take unequal time for their two flights. a: the manifold; where symmetry breaks, "
+        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch (grey). Circles: fixed "
+        r"points of the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the "
+        r"cases. Then, per case, how unequal the flights of the exact pairs are as :math:`\varepsilon` falls "
+        "(:math:`v`: difference of the flight times over the period), and the fixed points that they lead to. The pair "
+        "A3 of the equal case is the response of Fig. 10.8.",
+    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a grey curve rises "
+        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon that end in circles "
+        "at epsilon 0; the lowest line crosses zero just before.",
+    "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
+        r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
+    "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
+    "systems": True,
+    "settings": {"epsilon": "regimes.asymmetric.epsilon", "values": "regimes.asymmetric.values",
+        "fit_below": "regimes.asymmetric.fit_below", "C_max": "stability.companion_10_04.C_max"},
+    "inputs": {"orbits": "results/orbits.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "manifold, or the case"},
+                "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair "
+                    r"as $\varepsilon$ falls, and its end, the fixed point that it leads to"},
+                "label": {"meaning": "case and label of the point or orbit; of a way and its end the label of the "
+                    "orbit", "unit": "text"},
+                "C": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
+                "B": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
+                "epsilon": {"compared": "algebra"},
+                "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
+                    "compared": "roots"},
+            },
+        },
+        "points": {
+            "file": "results/asymmetric_fixed_points.csv",
+            "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
+                r"cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs that "
+                r"lead to them as $\varepsilon$ falls.",
+            "columns": {
+                "case": {},
+                "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
+                "squared1, squared2": {"meaning": "$v_i^2$, $v_i$ the difference of the two flight times of ball $i$ "
+                    "over the period, 0 where they are equal; below 0 no motion at leading order, but where the branch "
+                    "goes on beyond symmetry breaking", "unit": "dimensionless"},
+                "C1, C2, B1, B2, psi1, psi2": {},
+                "real": {"meaning": r"a motion at leading order, $v_i^2 \ge 0$", "unit": "true or false"},
+                "admissible": {"meaning": "one in which, at leading order, both balls stay between their walls",
+                    "unit": "true or false"},
+                "impact_map": {"meaning": "Masri's analysis for equal and unequal flights: the impact maps of both "
+                    r"modules, $B_i$ and $\phi_i$ held", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "slow_flow": {"meaning": "the real parts of all eigenvalues of the slow flow on this branch are "
+                    "negative", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "modulus": {"meaning": "largest modulus of the multipliers that impact maps and slow flow predict, "
+                    "over a forcing period", "unit": "dimensionless"},
+                "lost_at": {"meaning": "of a point that the slow flow calls stable: the factor of both forces, below "
+                    "1, at which its symmetric module sinks to the fold of the manifold; blank if there is none above "
+                    "a half", "unit": "dimensionless"},
+                "orbit": {"meaning": "label in `orbits.csv` of the exact orbit (one of two mirror images) that leads "
+                    "here; blank if there is none", "unit": "text"},
+                "distance": {"meaning": r"of that orbit, at the $\varepsilon$ of the case: norm of the difference in "
+                    "$C_1$, $C_2$, $v_1^2$, $v_2^2$ and the phases [radians] half-way between the impacts of each "
+                    "module", "unit": "dimensionless"},
+                "onset": {"meaning": r"the $\varepsilon$ at which the exact pair is born from a symmetric orbit; 0 if "
+                    r"it reaches $\varepsilon = 0$", "unit": "dimensionless"},
+                "order": {"meaning": r"the exponent $p$ of distance $\sim \varepsilon^p$, fitted to the smallest "
+                    r"$\varepsilon$", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless"},
+                "slow_error": {"meaning": "at `at_epsilon`: largest error of a predicted slow rate, "
+                    r"$\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$", "unit": "dimensionless"},
+                "fast_error": {"meaning": "at `at_epsilon`: largest error of a predicted fast multiplier",
+                    "unit": "dimensionless"},
+                "at_epsilon": {"meaning": r"the smallest $\varepsilon$ that the pair was followed to",
+                    "unit": "dimensionless"},
+            },
+        },
+        "relaxation": {
+            "file": "results/regimes/relaxation.csv",
+            "about": "The modulated response as the slow flow sees it, drift to the fold of the manifold and return at "
+                "$B = 1$ ([derivation](derivation.md), section 12), of every case, a row per module.",
+            "columns": {
+                "case": {},
+                "module": {},
+                "burst": {"meaning": "mean length of a stretch in resonance; blank if none ends",
+                    "unit": "forcing periods"},
+                "share": {"meaning": "part of the time in resonance", "unit": "share"},
+                "largest": {"meaning": "largest $B_i$", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
 MANIFOLD, THEORY, EXACT, WAY, END = "manifold", "fixed point", "exact orbit", "way", "end"
 GREYED = {"color": GREY}
 PIECES = {

@@ -25,6 +25,44 @@ from vibroimpact.regimes.classification import (
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.system.state import NAMES
 
+SPEC = {
+    "title": "Basins of coexisting responses",
+    "caption": "Basins: in which response a start ends, on the plane of starts whose boxes and velocities, printed "
+        "below, are those of the stable asymmetric orbit (circle). Diamond: its mirror image, whose boxes are "
+        "elsewhere at that time.",
+    "alt": "Map of a plane of starts, each cell in the shade of the response in which the start ends, with the case as "
+        "heading. A circle marks the stable orbit in its own shade, a diamond its mirror image. Below, the coordinates "
+        "that all starts share, and a key.",
+    "method": "direct integration of (10.1) from many starts, until it repeats",
+    "case": "regimes.basins.case",
+    "settings": {"case": "regimes.basins.case", "points": "regimes.basins.points", "observation": "regimes.observation"
+        },
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "the case"},
+                "series": {"meaning": r"a start, the stable asymmetric orbit at $\tau = 0$, its mirror image there, or "
+                    "what all starts share", "values": ["start", "orbit", "mirror image", "shared"]},
+                "label": {"meaning": "regime that the start ends in; of two mirrored asymmetric responses one is "
+                    "called mirrored", "unit": "text", "compared": {"start": "cells of a basin"}},
+                "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": {
+                    "start": "algebra", "others": "roots"}},
+                "X1, X2, dX1, dY1, dX2, dY2": {"meaning": "place or velocity (d is d/dtau) that all starts share, at "
+                    r"$\tau = 0$", "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+        "shares": {
+            "file": "results/regimes/basin_shares.csv",
+            "about": "Share of the plane of `companion_basins` that leads to each regime.",
+            "columns": {
+                "regime": {"meaning": "the `label` of `companion_basins`", "unit": "text", "values": []},
+                "share": {"meaning": "share of the starts", "unit": "share"},
+                "uncertainty": {"meaning": "its binomial standard error", "unit": "share"},
+            },
+        },
+    },
+}  # fmt: skip
+
 SHADES = {
     STRONGLY_MODULATED: "white",
     ASYMMETRIC: "0.25",

@@ -29,6 +29,86 @@ from vibroimpact.regimes.families import (
 from vibroimpact.regimes.lifetimes import bracket
 from vibroimpact.regimes.settling import Observation, settle
 
+SPEC = {
+    "title": "Branches of 1:1 responses and what attracts",
+    "caption": "Branches of 1:1 responses over the forcing, from the theory and exact: stable bold solid, unstable "
+        "dashed. Marked are their folds and ends, and where stability is lost; all other special points are in "
+        "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end. Shaded: "
+        "chaos and the stable asymmetric pair coexist, from the Neimark-Sacker point up to the crisis (dotted). Below: "
+        "the mean life of the chaos, with standard errors; triangles: lower bounds, where none of the starts left it.",
+    "alt": "Curves of the saw-tooth amplitude C2 over the forcing amplitude: theory and exact branches, stable bold "
+        "solid and unstable dashed, symmetric ones blue and asymmetric ones red, both named, with marked special "
+        "points, thin vertical lines at the cases, and dots where simulations from several starts end. Below, the mean "
+        "life of the chaos over one of the amplitudes, which grows without bound towards the crisis; the window of "
+        "coexistence is shaded.",
+    "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
+        "many starts, until it repeats",
+    "case": "regimes.branches.case",
+    "systems": True,
+    "settings": {"paths": "regimes.branches.paths", "longest_step": "regimes.branches.longest_step",
+        "seeds": "regimes.branches.seeds", "attractors": "regimes.branches.attractors",
+        "observation": "regimes.observation"},
+    "inputs": {"lifetimes": "results/regimes/lifetimes.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "a letter for each path, in the order of the config, or mean life"},
+                "series": {"meaning": "family of the branch, attractor, mean life, the window of coexistence, or a "
+                    "case", "values": ["symmetric orbit", "asymmetric orbit", "fixed point", "attractor", "mean life",
+                    "coexistence", "case"]},
+                "label": {"meaning": "of a node of a branch what is special about it, of an attractor its regime, of a "
+                    "case its name, else the path; blank for other nodes", "unit": "text", "compared": {
+                    "attractor": "outcomes"}},
+                "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special "
+                    "points, from 0", "unit": "number", "compared": "algebra"},
+                "p": {"compared": {"attractor": "algebra", "mean life": "algebra", "others": "roots"}},
+                "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11); of an attractor that of half the ball's mean "
+                    "way per cycle", "compared": {"attractor": "sample", "others": "roots"}},
+                "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, "
+                    "Masri's analysis and the slow flow say so", "unit": "true or false"},
+                "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always "
+                    "True", "unit": "true or false"},
+                "life": {"meaning": "mean life of the chaos at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
+                    "compared": "life"},
+                "uncertainty": {"meaning": "its standard error", "unit": "forcing periods", "compared": "life"},
+                "least": {"meaning": "its lower bound where no start escaped", "unit": "forcing periods",
+                    "compared": "life"},
+            },
+        },
+        "special_points": {
+            "file": "results/regimes/special_points.csv",
+            "about": "The special points of the branches in `companion_branches`.",
+            "columns": {
+                "path": {},
+                "family": {"meaning": "exact symmetric or asymmetric orbits, or fixed points of the theory",
+                    "unit": "text", "values": ["symmetric orbit", "asymmetric orbit", "fixed point"]},
+                "kind": {"meaning": "what happens there; of fixed points with the module, where only one is concerned",
+                    "unit": "text", "values": ["fold", "symmetry breaking", "period doubling", "Neimark-Sacker", "Hopf",
+                    "grazing", "speed zero", "fold of the SIM, module 1", "fold of the SIM, module 2",
+                    "symmetry breaking, module 1", "symmetry breaking, module 2"]},
+                "p, C1, C2": {"compared": "roots"},
+                "admissible": {"meaning": "the orbits on one side at least are motions of the system; of fixed points "
+                    "always True", "unit": "true or false"},
+            },
+        },
+        "onsets": {
+            "file": "results/regimes/modulation_onsets.csv",
+            "about": "Where modulated responses are along the paths of `companion_branches`, as the slow flow predicts "
+                "it and as its attractors show it ([derivation](derivation.md), section 12), two rows per path.",
+            "columns": {
+                "path": {},
+                "who": {"meaning": "slow flow: a ball goes in and out of resonance for good, by the picture of "
+                    "`relaxation.csv`. simulation: a start ends in a strongly modulated or chaotic response",
+                    "unit": "text", "values": ["slow flow", "simulation"]},
+                "first, last": {"meaning": "ends of the longest range of `p` in which that is so at every value, blank "
+                    "without one", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "of the ends: from one value of `p` to the next", "unit": "dimensionless"},
+                "agreement": {"meaning": "part of the values of `p` at which both say the same", "unit": "share"},
+            },
+        },
+    },
+}  # fmt: skip
+
 MARKERS = {
     FOLD: "o",
     SYMMETRY_BREAKING: "^",

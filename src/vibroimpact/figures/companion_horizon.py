@@ -10,6 +10,34 @@ from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 
+SPEC = {
+    "title": "Where double precision leaves the true trajectory",
+    "caption": "Where a simulation in double precision leaves the true trajectory of Fig. 10.11, which is computed "
+        "with many digits and proved by doubling them.",
+    "alt": "Distance between the trajectory in double precision and the proved one over forcing cycles, on a "
+        "logarithmic axis: it grows from rounding to the size of the motion, then stays there.",
+    "method": "the same in float64, and the error that the certificate of every run expects",
+    "case": "figures.fig10_11.case",
+    "settings": {"state": "cases.{case}.simulation.initial_state",
+        "transient_cycles": "cases.{case}.simulation.transient_cycles"},
+    "needs": ["cases.{case}.simulation.digits"],
+    "inputs": {"strobe": "results/simulations/{case}/strobe.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"values": ["measured", "expected", "horizon", "window"]},
+                "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes "
+                    "$10^{-3}$, in window both ends of figure 10.11", "unit": "forcing periods", "compared": {
+                    "measured": "algebra", "others": "trajectory"}},
+                "error": {"meaning": "largest difference of a component of the state from the truth, and what the "
+                    "certificate of the run expects of it", "unit": "dimensionless", "compared": {
+                    "measured": "rounding", "others": "certificate"}},
+            },
+        },
+    },
+}  # fmt: skip
+
 
 def compute(system: System, state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
     """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.

@@ -16,6 +16,64 @@ from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.ladder import EXACT, LEADING, TWO_TERMS, error, harmonics_name, of_harmonics, rungs
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
+SPEC = {
+    "title": "From leading order to the exact orbit, rung by rung",
+    "caption": "How much model it needs. a: the largest relative error of :math:`C_i` over all symmetric motions of "
+        "the three cases, against the number of terms of the boxes' response that are summed to find them: leading "
+        "order; two terms; N odd harmonics of the balls' force with exact receptances (grey); the same where the part "
+        "of the free mass is kept in closed form, so that N harmonics are those of :math:`U_i`. b, c: over the plane "
+        "of forces, the lowest rung that has all symmetric motions, and no other, to 5 % and 1 %; at the lowest forces "
+        "there is none, which leading order says too.",
+    "alt": "First panel: error over cost on logarithmic axes; leading order at the upper left, two terms far below it, "
+        "and two lines of marks for growing numbers of harmonics that fall, the one of harmonics of U ten times lower. "
+        "Other panels: maps of the plane of forces in shades of grey, one shade for each rung.",
+    "method": "fixed points to leading and next order, N harmonics with exact receptances, exact symmetric responses",
+    "systems": True,
+    "settings": {"harmonics": "regimes.ladder.harmonics", "f10_range": "regimes.ladder.f10_range",
+        "f20_range": "regimes.ladder.f20_range", "points": "regimes.ladder.points",
+        "fold_range": "regimes.ladder.fold_range"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "cases: errors and costs; plane: the cheapest rung", "values": ["cases", "plane"]},
+                "series": {"meaning": "in cases the kind of rung; in plane how far off it may be", "values": ["theory",
+                    "harmonics of U", "harmonics of the force", "exact", "5 %", "1 %"]},
+                "label": {"meaning": "in cases rung and case; in plane the lowest rung that has all motions, and no "
+                    "other, within the limit", "unit": "text", "compared": {"5 %": "counts of a map",
+                    "1 %": "counts of a map"}},
+                "cost": {"meaning": "terms of the boxes' response that are summed until all motions are found",
+                    "unit": "number", "compared": "algebra"},
+                "error": {"meaning": "largest error of $C_1$, $C_2$ over the larger of both, of all motions; blank if "
+                    "their number is wrong", "unit": "dimensionless", "compared": "logarithm"},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+            },
+        },
+        "verdicts": {
+            "file": "results/regimes/ladder_verdicts.csv",
+            "about": "What each rung of `companion_ladder` says of its motions over the plane of forces, and what is "
+                "true.",
+            "columns": {
+                "rung": {"meaning": "leading order; two terms; N harmonics of $U_i$; exact", "unit": "text"},
+                "said": {"meaning": "the verdict of the rung", "unit": "text"},
+                "true": {"meaning": "the verdict of the multipliers of the exact orbit, or no orbit", "unit": "text"},
+                "motions": {"meaning": "number of motions", "unit": "number", "compared": "algebra"},
+            },
+        },
+        "limits": {
+            "file": "results/regimes/ladder_limits.csv",
+            "about": "Limits of the symmetric motions to leading and next order, and exact (docs/ladder.md).",
+            "columns": {
+                "limit": {"meaning": "C at symmetry breaking; f20_hat at the fold", "unit": "text"},
+                "leading": {"meaning": "its value at leading order", "unit": "dimensionless", "compared": "roots"},
+                "slope": {"meaning": r"its change per $\varepsilon$", "unit": "dimensionless", "compared": "roots"},
+                "two_terms": {"meaning": r"to the next order, at the $\varepsilon$ of the system",
+                    "unit": "dimensionless", "compared": "roots"},
+                "exact": {"meaning": "of exact orbits", "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
 CASES, PLANE, THEORY, OF_U, OF_FORCE = "cases", "plane", "theory", "harmonics of U", "harmonics of the force"
 LIMITS = {"5 %": 0.05, "1 %": 0.01}
 STYLES = {

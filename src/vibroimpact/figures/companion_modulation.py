@@ -32,6 +32,118 @@ from vibroimpact.regimes.modulation import (
 )
 from vibroimpact.regimes.settling import Observation, settle
 
+SPEC = {
+    "title": "Modulated responses in numbers",
+    "caption": "Modulated responses. a, b: how long resonant bursts last. They are watched over a window (dotted) and "
+        r"cut off at its end: where a line drops there, they last longer. c: Lyapunov exponents :math:`\lambda_1` to "
+        r":math:`\lambda_6` of the motion that every start ends in, with their standard errors; in modulated motions, "
+        r"where a ball sticks at times, the other two are :math:`-\infty`. d: their estimates after more and more "
+        "cycles, means over the modulated starts, within twice the error that the bootstrap expects.",
+    "alt": "Panels of equal axes with the share of resonant bursts that last longer than a given number of cycles, for "
+        "both modules, and a dotted line at the length of the window, at which the line of bursts that last longer "
+        "drops; a panel with groups of dots for six Lyapunov exponents, in the weak case two of them positive and the "
+        "third next to zero; and a panel with six lines that settle within narrowing bands.",
+    "method": "direct integration of (10.1) from many starts, until it repeats; Lyapunov exponents along the "
+        "linearised flow",
+    "systems": True,
+    "settings": {"starts": "regimes.modulation.starts", "seed": "regimes.modulation.seed",
+        "cycles": "regimes.modulation.cycles", "blocks": "regimes.modulation.blocks",
+        "block": "regimes.modulation.block", "windows": "regimes.modulation.windows",
+        "observation": "regimes.observation"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["bursts", "exponents", "running"]},
+                "series": {"meaning": "the case, of bursts with the module, else with the number of the exponent; or "
+                    "the window that bursts are watched over"},
+                "label": {"meaning": "of exponents: rest or spread, and the regime that the start ends in; blank else",
+                    "unit": "text", "compared": "few outcomes"},
+                "number": {"meaning": "number of the exponent, the largest has 1", "unit": "number",
+                    "compared": "algebra"},
+                "exponent": {"meaning": "Lyapunov exponent of the motion that a start ends in; blank where it is "
+                    r"$-\infty$", "unit": "per forcing period", "compared": "mean"},
+                "error": {"meaning": "its standard error, by block bootstrap", "unit": "per forcing period",
+                    "compared": "mean"},
+                "length": {"meaning": "length of a resonant burst: two or more flights in a row that lead to the other "
+                    "wall and last between a quarter and three quarters of the period; or that of the window",
+                    "unit": "forcing periods", "compared": {"window": "algebra", "others": "sample"}},
+                "longer": {"meaning": "part of the bursts, of all strongly modulated spread starts of the case, that "
+                    "are at least this long", "unit": "share", "compared": "sample"},
+                "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods",
+                    "compared": "algebra"},
+                "estimate": {"meaning": "the exponent after so many cycles, mean over the strongly modulated spread "
+                    "starts", "unit": "per forcing period", "compared": "running means"},
+                "spread": {"meaning": "the standard error that the bootstrap expects of it",
+                    "unit": "per forcing period", "compared": "running means"},
+            },
+        },
+        "measures": {
+            "file": "results/regimes/modulation.csv",
+            "about": "What the responses of each case are like, mean over the starts that end in a regime.",
+            "columns": {
+                "case": {},
+                "start": {"meaning": "the start from rest, or the spread ones", "unit": "text", "values": ["rest",
+                    "spread"]},
+                "regime": {},
+                "starts": {"meaning": "starts behind the mean; of the share of starts, all spread ones",
+                    "unit": "number"},
+                "quantity": {"meaning": "amplitude variation: standard deviation over mean of the amplitude of $X_i$, "
+                    "cycle by cycle. impacts per cycle. sticks per 1000 cycles. resonant share: part of the time in "
+                    "bursts, unbroken sequences of two or more flights to the other wall that last between a quarter "
+                    "and three quarters of the period. burst length: their mean. largest Lyapunov exponent. share of "
+                    "starts: spread ones that end in this regime", "unit": "text", "values": ["amplitude variation",
+                    "impacts per cycle", "sticks per 1000 cycles", "resonant share", "burst length",
+                    "largest Lyapunov exponent", "share of starts"]},
+                "module": {"meaning": "the module, 1 or 2; 0 for quantities of both together", "unit": "number"},
+                "mean": {"meaning": "mean of the quantity: pure numbers, but for burst length (forcing periods), the "
+                    "exponent and impacts (per forcing period), and sticks (per 1000 of them)",
+                    "unit": "of its quantity"},
+                "uncertainty": {"meaning": "standard error over the starts, binomial for their share; of one start "
+                    "that of its exponent, blank else", "unit": "of its quantity"},
+            },
+        },
+        "windows": {
+            "file": "results/regimes/modulation_windows.csv",
+            "about": "Two measures of modulation over windows of several lengths, for spread starts that end strongly "
+                "modulated.",
+            "columns": {
+                "case, module": {},
+                "cycles": {"meaning": "length of the window", "unit": "forcing periods"},
+                "quantity": {"meaning": "amplitude variation: standard deviation over mean of the amplitude of $X_i$, "
+                    "cycle by cycle. depth from extremes: (largest - smallest) over (largest + smallest), which grows "
+                    "with the window", "unit": "text", "values": ["amplitude variation", "depth from extremes"]},
+                "mean": {"meaning": "mean over at most four starts", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "its standard error, blank for one start", "unit": "dimensionless"},
+            },
+        },
+        "spectra": {
+            "file": "results/regimes/spectra.csv",
+            "about": "Lyapunov spectra of the responses of each case, of the map from one forcing cycle to the next "
+                "([regimes](regimes.md)).",
+            "columns": {
+                "case": {},
+                "start": {"meaning": "the start from rest, or the spread ones", "unit": "text", "values": ["rest",
+                    "spread"]},
+                "regime": {},
+                "starts": {"meaning": "starts behind the mean", "unit": "number"},
+                "quantity": {"meaning": "exponent 1 to exponent 8: per forcing period, largest first. Kaplan-Yorke "
+                    "dimension: of the attractor, seen once per cycle; a ball that idles adds to it. sum of exponents: "
+                    "over the cycles in which no ball sticks. contraction: what damping and impacts say it is, "
+                    r"$2\ln\kappa$ for every impact, less $2\pi/\Omega$ times the trace of the damping matrix",
+                    "unit": "text", "values": ["exponent 1", "exponent 2", "exponent 3", "exponent 4", "exponent 5",
+                    "exponent 6", "exponent 7", "exponent 8", "Kaplan-Yorke dimension", "sum of exponents",
+                    "contraction"]},
+                "mean": {"meaning": "its mean over the starts, -inf where a ball sticks at times: the motion forgets "
+                    "two directions", "unit": "of its quantity"},
+                "uncertainty": {"meaning": "its standard error over the starts, blank for one start",
+                    "unit": "of its quantity"},
+                "bootstrap": {"meaning": "the standard error of one start by block bootstrap, mean over the starts; "
+                    "blank for sums", "unit": "of its quantity"},
+            },
+        },
+    },
+}  # fmt: skip
+
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": (0, (4.5, 1.5))}}
 SHORTEST = 0.5

@@ -17,6 +17,41 @@ from vibroimpact.figures.kit.tables import curve, select
 from vibroimpact.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 
+SPEC = {
+    "title": "Map of regimes over both forcing amplitudes",
+    "caption": "Over the plane of both forcing amplitudes the regime that most of several starts end in, with a stroke "
+        "where others coexist. Started from rest, which is not counted, a ball may stay idle. Dotted: the theory's "
+        "number of fixed points changes; solid: that of the stable ones does; crosses: the cases.",
+    "alt": "Map over the plane of f10 and f20 in patches of one colour and letter for each regime. Strongly modulated "
+        "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
+        "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
+        "stable fixed point; chaos has an island below.",
+    "method": "the points of a sweep, with the cases; borders of the theory by bisection",
+    "systems": True,
+    "settings": {"starts": "sweeps.regime_map.starts"},
+    "inputs": {"table": "results/sweeps/regime_map.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "map"},
+                "series": {"meaning": "cell of the map, case of the config, or what changes on a border", "values": [
+                    "cell", "case", "fixed points", "stable points"]},
+                "label": {"meaning": "regime that the start from rest ends in; name of the case; number of the "
+                    "straight piece of the border, whose two ends are two rows", "unit": "text", "compared": {
+                    "cell": "cells of a map"}},
+                "f10_hat, f20_hat": {"compared": {"cell": "algebra", "case": "algebra", "others": "roots"}},
+                "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text", "compared": {
+                    "cell": "cells of a map"}},
+                "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
+                    "compared": {"cell": "cells of a map"}},
+                "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball "
+                "idle, no impacts, unsettled": {"compared": "cells of a map"},
+                "fixed_points, stable_points": {"compared": "counts of a map"},
+            },
+        },
+    },
+}  # fmt: skip
+
 BORDERS = {
     "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 1.1},
     "stable points": {"linestyles": "solid", "linewidths": 1.6},
@@ -35,14 +70,14 @@ TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
 
-def compute(table: pd.DataFrame, systems: dict, starts: int) -> dict:
+def compute(table: pd.DataFrame, systems: dict, starts: int) -> pd.DataFrame:
     """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Args:
         systems: case -> system, whose forcing amplitudes are marked; they differ in nothing else.
         starts: of each point, the first of them rest.
 
-    Returns "csv": columns panel, series ("cell", "case", or what changes on a border), label (regime from rest; name
+    Returns columns panel, series ("cell", "case", or what changes on a border), label (regime from rest; name
     of the case; number of the piece of the border), f10_hat, f20_hat, the share of each regime, fixed_points,
     stable_points, and what is drawn: the regime that most starts other than rest end in, and how many regimes they do.
     """
@@ -52,7 +87,7 @@ def compute(table: pd.DataFrame, systems: dict, starts: int) -> dict:
     borders = _borders(next(iter(systems.values())), cells)
     table = pd.concat([cells, marks.assign(series="case"), *borders], ignore_index=True).assign(panel="map")
     shown = ["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]
-    return {"csv": table[["panel", "series", *shown]]}
+    return table[["panel", "series", *shown]]
 
 
 def _dominant(cells, starts):
@@ -112,9 +147,8 @@ def _pieces(corners, crossing):
 
 
 @styled
-def draw(tables: dict) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: a colour and a letter for each regime, a stroke where several coexist; borders."""
-    table = tables["csv"]
     cells, cases = (select(table, "map", name) for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     numbers = cells.assign(number=cells["regime"].map({name: n for n, name in enumerate(REGIMES)}))

@@ -26,6 +26,59 @@ from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIM
 from vibroimpact.regimes.one_to_one import by_theory, exact
 from vibroimpact.sweeps.grid import axis
 
+SPEC = {
+    "title": "How far the boxes move with balls",
+    "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, :math:`f` the larger "
+        r"of the forces :math:`\varepsilon\hat f_{i0}`. a to c: over the frequency, forces on both boxes and on one; "
+        "d: over the force. Dots: the largest of three starts, filled where most of them repeat; grey: between 5 % and "
+        "95 % of the cycles; dashes and crosses: symmetric 1:1 responses by the theory and exact, bold where stable; "
+        "lines: linear systems in closed form.",
+    "alt": "Four panels. a to c: response over the detuning; high resonance peaks without balls and with balls fixed, "
+        "dots and a grey band of the balls below them near resonance and above them beside it, two flat lines of tuned "
+        "absorbers below nearly all dots; dashes and crosses lie in pairs, on both sides of the dots, few of them "
+        "bold. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
+        "slowly.",
+    "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
+    "case": "sweeps.frequency_response.case",
+    "settings": {"band": "sweeps.clearance.band"},
+    "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["frequency", "force"]},
+                "series": {"meaning": "balls, as simulated; symmetric 1:1 responses by the theory and exact; or the "
+                    "linear system", "values": ["balls", "theory", "symmetric orbits", "without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "label": {"meaning": "of balls: the `regime` that most starts end in", "unit": "text", "compared": {
+                    "balls": "few outcomes"}},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of balls also of all "
+                    "starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
+                    "theory": "roots", "symmetric orbits": "roots", "others": "algebra"}},
+                "low, high": {"meaning": "of balls: amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in "
+                    "5 % of the cycles", "unit": "dimensionless", "compared": "extremes"},
+                "impact_share": {"compared": {"balls": "mean", "others": "roots"}},
+                "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
+                    "analysis and the slow flow say so", "unit": "true or false"},
+            },
+        },
+        "shares": {
+            "file": "results/impact_shares.csv",
+            "about": "What impacts take of the work of the forces, over the frequencies of `companion_response`.",
+            "columns": {
+                "source": {"meaning": "balls, as simulated, or the symmetric 1:1 responses by the theory or exact, "
+                    "stable or not", "unit": "text", "values": ["balls", "theory", "symmetric orbits"]},
+                "f10_hat, f20_hat": {},
+                "points": {"meaning": "how many frequencies, or responses at all of them, there are", "unit": "number"},
+                "least, middle, greatest": {"meaning": "the least share, the median, and the greatest", "unit": "share"
+                    },
+            },
+        },
+    },
+}  # fmt: skip
+
 FORCES = ["f10_hat", "f20_hat"]
 PLACE = [*FORCES, "sigma_e_hat"]
 OF_BALLS = ("label", *PLACE, "ratio", "low", "high", "impact_share")

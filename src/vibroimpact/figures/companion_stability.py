@@ -25,6 +25,35 @@ from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import lower_limit, upper_limit
 from vibroimpact.theory.masri_printed import printed_limit
 
+SPEC = {
+    "title": "Four criteria side by side",
+    "caption": "Four criteria on every fixed point and every exact orbit of the three cases. Above: the region that "
+        "Masri's analysis allows (shaded) and that of (10.26), to the upper right of the dotted lines; lines join "
+        "fixed points to the orbits that continue them. Below: what each criterion says. In a ring: verdicts that the "
+        "multipliers of the exact orbit refute.",
+    "alt": "One column per case. Above, the plane of C1 and C2 with the stable region shaded and fixed points joined "
+        "to their exact orbits; below, a table of marks, black for stable and white for unstable, that shows the "
+        "verdict of each of four criteria on each of them, in a ring where the exact orbit refutes it.",
+    "method": "verdicts and places as computed, limits in closed form",
+    "systems": True,
+    "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "the case"},
+                "series": {"meaning": "fixed points, exact orbits that are motions of the system, links from one to "
+                    'the other, and lower left and upper right corner of the region that (10.26) ("printed") and '
+                    "Masri's analysis (\"stable\") allow", "values": ["fixed point", "symmetric", "asymmetric", "link",
+                    "printed", "stable"]},
+                "label": {"meaning": "label of the fixed point or orbit, as in `fixed_points.csv` and `orbits.csv`; "
+                    "blank for links and corners", "unit": "text"},
+                "C1, C2": {"compared": "roots", "infinite": True},
+                "printed_10_26, masri_derived, slow_flow, floquet": {},
+            },
+        },
+    },
+}  # fmt: skip
+
 HEADINGS = ("(10.26)", "Masri", "slow\nflow", "exact")
 FACES = {STABLE: BLACK, UNSTABLE: "white", UNDECIDED: GREY}
 KINDS = {"fixed point": "o", "symmetric": "s", "asymmetric": "D"}

@@ -5,6 +5,17 @@ from matplotlib.figure import Figure
 from vibroimpact.figures.kit import drawing
 from vibroimpact.figures.kit.style import SINGLE_COLUMN, styled
 
+SPEC = {
+    "title": "A single module",
+    "caption": "Fig. 10.2. A single module of the system and the characteristic dimension :math:`L`.",
+    "alt": "Technical drawing of one box with a ball in its cavity and the characteristic dimension L, the free path "
+        "of the ball to either wall from the middle.",
+    "equations": [r"|x_i - y_i| \le L, \qquad X_i = x_i/L, \quad Y_i = y_i/L, \quad W_i = X_i - Y_i"],
+    "method": "drawn to scale, nothing computed",
+    "notebook": "drawings",
+    "tables": {},
+}  # fmt: skip
+
 WIDTH, HEIGHT = SINGLE_COLUMN, 46.0
 L, RADIUS, OFFSET = 20.0, 5.0, 8.0
 """Free travel of the ball to either side, its radius, and its displacement y - x from the middle, in mm on paper."""

@@ -10,6 +10,31 @@ from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figur
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.sawtooth import sawtooth
 
+SPEC = {
+    "title": "The saw-tooth function",
+    "caption": r"Fig. 10.3. The saw-tooth function :math:`Z_i(\tau_0)` of (10.11) for constant :math:`C_i` and "
+        r":math:`\theta_i`; its corners are the impacts.",
+    "alt": "Triangle wave Z over tau_0 between C and -C; its corners, the impacts, are half a period apart, at theta, "
+        "theta + pi and so on.",
+    "equations": [r"Z_i = \frac{2}{\pi}\,C_i \arcsin\left[\cos(\tau_0 - \theta_i)\right] \tag{10.11}"],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"amplitude": "figures.{figure}.amplitude", "theta": "figures.{figure}.theta",
+        "tau0_max": "figures.{figure}.tau0_max"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"values": ["Z", "impacts"]},
+                "tau0": {"meaning": r"fast time $\tau_0$ as a phase; impacts at $\theta + j\pi$", "unit": "radians",
+                    "compared": "algebra"},
+                "Z": {"meaning": r"saw-tooth $Z(\tau_0)$, (10.11); the impacts are its corners",
+                    "unit": "dimensionless", "compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
 
 def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
     """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, on [0, tau0_max].

@@ -8,6 +8,32 @@ from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styl
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
 
+SPEC = {
+    "title": "The slow invariant manifold",
+    "caption": "Fig. 10.4. Slow invariant manifold (SIM): stable branch bold solid, unstable branch dashed, as (10.26) "
+        r"divides them; dotted: the level :math:`B_{\min}`.",
+    "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min; the left arm is dashed, "
+        "unstable, the bottom and the right arm are bold, stable.",
+    "equations": [
+        r"B_i^2 = 1 - 2C_i + (1 + \rho^2)\,C_i^2, \qquad \rho = \frac{2(1-\kappa)}{\pi(1+\kappa)} \tag{10.16}",
+        r"B_{\min} = \frac{\rho}{\sqrt{1+\rho^2}}, \qquad C_{\min} = \frac{1}{1+\rho^2} \tag{10.25}",
+    ],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"kappa": "system.kappa", "C_max": "figures.{figure}.C_max"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)",
+                    "values": ["SIM stable", "SIM unstable", "B_min"]},
+                "C": {"compared": "algebra"},
+                "B": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
     """The manifold B(C), (10.16), with its branches by (10.26) and the level B_min, (10.25), for 0 <= C <= C_max.

@@ -9,6 +9,29 @@ from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
 from vibroimpact.theory.masri_printed import printed_limit
 
+SPEC = {
+    "title": "Stability regions as printed",
+    "caption": r"Fig. 10.5. Stable (shaded) and unstable (white) regions on the plane :math:`(\kappa, C_i)` by "
+        r"(10.26); dotted: :math:`C_{\min}(\kappa)`.",
+    "alt": "Plane of kappa and C, shaded above a rising line, stable, and white below it, unstable. The dotted curve "
+        "C_min of kappa runs inside the shaded region and meets the line at kappa = 1.",
+    "equations": [r"C_i > \frac{4}{4 + \pi\rho} \tag{10.26}"],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"C_range": "figures.{figure}.C_range"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ "
+                    "of (10.25)", "values": ["stable", "unstable", "C_min"]},
+                "kappa": {"compared": "algebra"},
+                "C": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
 REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
 
 

@@ -10,6 +10,47 @@ from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, letter_pan
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.fixed_points.singular_points import singular_points
 
+SPEC = {
+    "title": "Fixed points for equal forces",
+    "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
+        "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
+        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "
+        "arrow after :math:`S_2`: there is one further up the SIM, off the frame. The chapter's verdicts: a unstable, "
+        "b stable, c stable.",
+    "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
+        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
+        "singular points; in row b an arrow points to an S2 beyond the frame.",
+    "own": {
+        "title": "Fixed points of case {case}",
+        "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
+            "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
+            ":math:`S_2` (grey squares), one row per fixed point.",
+        "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
+            "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
+            "row, grey squares S1, S2 the singular points.",
+    },
+    "equations": [
+        r"h_{B_1}^* = h_{\psi_1}^* = h_{B_2}^* = h_{\psi_2}^* = 0 \tag{10.23}",
+        r"h_1(B_1, C_1, B_2, C_2) = 0, \quad h_2(B_1, C_1, B_2, C_2) = 0 \tag{10.24}",
+    ],
+    "method": "manifold in closed form, singular points as real zeros of (10.24)",
+    "notebook": "fixed_points",
+    "case": "figures.{figure}.case",
+    "settings": {"C_max": "figures.{figure}.C_max"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
+                "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection "
+                    'P_i, singular points S_i of (10.24); "beyond" those outside the frame'},
+                "C": {"compared": "roots"},
+                "B": {"compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
 MODULES = (1, 2)
 NAME = {"textcoords": "offset points", "fontsize": 10}
 CLOSE = 0.12

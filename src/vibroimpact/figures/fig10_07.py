@@ -9,6 +9,42 @@ from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, new_figure
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.response import impact_times, leading_order
 
+SPEC = {
+    "title": "Theoretical response of fixed point (c)",
+    "caption": r"Fig. 10.7. Theoretical steady-state response of fixed point (c) for :math:`\hat f_{10} = {f10_hat}`, "
+        r":math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, :math:`Y_i` black.",
+    "alt": "Two panels over two forcing periods, one for each module: the sine-like U and X in grey, the relative "
+        "displacement W and the zigzag of the ball Y in black.",
+    "own": {
+        "title": "Theoretical response of fixed point ({fixed_point}) of case {case}",
+        "caption": r"Theoretical steady-state response of fixed point ({fixed_point}) of case *{case}*, :math:`\hat "
+            r"f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, "
+            ":math:`Y_i` black.",
+        "alt": "A panel for each module over {periods} forcing periods: the sine-like U and X in grey, the relative "
+            "displacement W and the zigzag of the ball Y in black.",
+    },
+    "equations": [
+        r"U_{i0} = B_i\sin(\tau_0 + \phi_i) \tag{10.9}",
+        r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}",
+    ],
+    "method": "leading order, (10.9) and (10.10), at a fixed point",
+    "notebook": "theoretical_response",
+    "case": "figures.{figure}.case",
+    "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["module 1", "module 2"]},
+                "series": {"values": ["U_1", "X_1", "W_1", "Y_1", "U_2", "X_2", "W_2", "Y_2"]},
+                "tau": {"compared": "roots"},
+                "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), "
+                    "(10.10)", "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
 MODULES = (1, 2)
 COORDINATES = {
     "U": {"color": GREY, "linestyle": "-", "linewidth": 1.8},

@@ -18,6 +18,35 @@ from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
 from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.search import fixed_points
 
+SPEC = {
+    "title": "Fixed points over the second force",
+    "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`. Filled markers: stable by "
+        "both time scales; hollow: not; in a ring: the exact orbit is stable. Broad and pale: exact asymmetric orbits, "
+        "which belong to no fixed point, darker where they are stable. Letters, right: as in the chapter, where they "
+        "change.",
+    "alt": "Two panels with C1 and C2 of every fixed point over f20, one line style per point, filled markers where "
+        "both time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad "
+        "pale dots for the asymmetric orbits.",
+    "method": "fixed points and exact orbits at every value of the force",
+    "made_by": "force_sweep",
+    "tables": {
+        "csv": {
+            "file": "results/force_sweep/force_sweep.csv",
+            "columns": {
+                "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
+                "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value "
+                    "grows", "unit": "number"},
+                "C1, B1, C2, B2": {},
+                "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
+                "printed_10_26, masri_derived, slow_flow": {},
+                "fast_and_slow": {"meaning": "by both time scales of the theory, Masri's analysis and the slow flow",
+                    "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "floquet": {},
+            },
+        },
+    },
+}  # fmt: skip
+
 LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GREY, (0, (4.5, 1.5)), "D")]
 """Colour, line and marker of each track."""
 EVERY = 6
@@ -86,8 +115,8 @@ def _continued(names, last, now, tracks):
 
 
 @styled
-def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
-    """C_1 and C_2 of each track over the parameter, which `name` names as mathematics.
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """C_1 and C_2 of each track over the second force.
 
     Filled markers: stable by both time scales; in a ring: its exact orbit is stable. Letters: where the label changes.
     Broad and pale: exact asymmetric orbits, darker where they are stable.
@@ -109,7 +138,7 @@ def draw(tables: dict[str, pd.DataFrame], name: str) -> Figure:
             for shown, face, size in ((theory, colour, 3.6), (~theory, "white", 3.6), (exact, "none", 6.6)):
                 style = {"color": colour, "markerfacecolor": face, "markersize": size, "linestyle": "none"}
                 axes.plot(marked["value"][shown], marked[f"C{module}"][shown], marker=marker, **style)
-        axes.set(xlabel=f"${name}$", ylabel=f"$C_{module}$")
+        axes.set(xlabel=r"$\hat f_{20}$", ylabel=f"$C_{module}$")
         if len(points):
             axes.set_xlim(points["value"].min(), points["value"].max())
         letter_panel(axes, letter)

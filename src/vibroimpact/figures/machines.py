@@ -11,6 +11,62 @@ from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_pan
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.system import PhysicalSystem
 
+SPEC = {
+    "title": "Machines in kilograms, newtons and metres",
+    "caption": "Two machines on springs, in SI units. a: the largest displacement of the box that swings more over the "
+        "frequency, from rest, without balls, with balls at several clearances :math:`L`, and with the best linear "
+        "absorbers of the mass of the balls. b: box 1 and its ball over the time, from rest.",
+    "alt": "Two panels. a: largest displacement in millimetres over frequency in hertz: a tall resonance without "
+        "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: box "
+        "1 swings up from rest until its wall strikes the ball, which then flies from wall to wall; dots mark the "
+        "impacts.",
+    "own": {
+        "title": "Machines in kilograms, newtons and metres",
+        "caption": "Two machines on springs, in SI units. a: the largest displacement over the frequency, from rest, "
+            "of linear systems and with balls at several clearances :math:`L`. b: box 1 and its ball over the time, "
+            "from rest.",
+        "alt": "Two panels: the largest displacement in millimetres over the frequency in hertz, a line for each "
+            "linear system and each clearance; and the displacements of box 1 and of its ball over the time, with dots "
+            "at impacts.",
+    },
+    "equations": [r"\tau = \omega_{10} t, \quad \omega_{10}^2 = k_1/M, \quad X_i = x_i/L, \quad \varepsilon = m/M, "
+        r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
+    "method": "direct integration of (10.1) from rest; linear systems in closed form",
+    "notebook": "physical_units",
+    "settings": {"plant": "figures.{figure}.plant", "clearances": "figures.{figure}.clearances",
+        "frequencies": "figures.{figure}.frequencies", "cycles": "figures.{figure}.cycles",
+        "settle": "figures.{figure}.settle", "shown": "figures.{figure}.shown"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in "
+                    "panel b", "unit": "text"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
+                    "compared": "algebra"},
+                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
+                    "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
+                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+                "place": {"meaning": "displacement $x_1$ of the box or $y_1$ of the ball", "unit": "millimetres",
+                    "compared": "trajectory"},
+            },
+        },
+        "summary": {
+            "file": "results/figures/machines.summary.csv",
+            "about": "The machines at each clearance, at the frequency at which the boxes swing most.",
+            "columns": {
+                "L": {"meaning": "clearance $L$", "unit": "metres"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz"},
+                "power": {"meaning": "mean power of the forces", "unit": "watts"},
+                "share": {"meaning": "what impacts take of it", "unit": "share"},
+                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres"},
+                "force": {"meaning": "$F_{10}$ that the clearance suits as the best of them suits the force of the "
+                    "machines", "unit": "newtons"},
+            },
+        },
+    },
+}  # fmt: skip
+
 MM = 1000.0
 """Millimetres in a metre."""
 LINES = {
@@ -38,8 +94,8 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
 
     Returns "csv": columns panel ("response": series "without balls", "best absorbers" or the clearance as "L = 5 mm",
     frequency [Hz], swing [mm]; "motion": series "box", "ball", "ball at a wall", time [s], place [mm]). "summary": at
-    each clearance the worst frequency [Hz], there swing [mm], power [W] and the share of it that impacts take, and the
-    force F10 [N] that it suits as the best of them suits that of the plant: a clearance counts over the force alone.
+    each clearance L [m] the worst frequency [Hz], there swing [mm], power [W], the share of it that impacts take, and
+    the force F10 [N] that it suits as the best suits that of the plant: a clearance counts over the force alone.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
@@ -51,8 +107,9 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         curves.append(curve("response", f"L = {MM * L:g} mm", frequency=hertz, swing=swing))
         worst = int(swing.argmax())
         rows.append(_at_worst(machines[worst], runs["energy"][worst], cycles - settle) | {"swing": swing[worst]})
-    summary = pd.DataFrame(rows, index=pd.Index(clearances, name="L"))
-    summary["force"] = plant["F10"] * np.array(clearances) / summary["swing"].idxmin()
+    summary = pd.DataFrame(rows)
+    summary.insert(0, "L", clearances)
+    summary["force"] = plant["F10"] * summary["L"] / summary["L"][summary["swing"].idxmin()]
     machine = _machines(plant, shown["L"], shown["frequency"])
     return {"csv": join([*curves, *_motion(machine, shown["cycles"])]), "summary": summary}
 
@@ -92,8 +149,9 @@ def _motion(machine, cycles):
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw the table "csv" of `compute`: swings over the frequency, a motion over the time."""
+    table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 74.0)
     response, motion = figure.subplots(1, 2)
     for name, look in LINES.items():

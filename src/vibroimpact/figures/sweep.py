@@ -9,7 +9,7 @@ from vibroimpact.figures.kit.method_looks import looks
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
-from vibroimpact.sweeps.grid import LOGARITHMIC
+from vibroimpact.sweeps.grid import LINEAR, LOGARITHMIC
 
 SYMBOLS = {
     "epsilon": r"$\varepsilon$",
@@ -42,14 +42,14 @@ HEIGHT = 48.0
 """Of a panel, in mm."""
 
 
-def compute(table: pd.DataFrame, axes: list[dict]) -> dict:
+def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
     """What is drawn of the table of a sweep.
 
     Args:
         axes: `along`, names of the parameters that move together, and maybe `scale`, of each axis.
 
-    Returns "csv": columns panel, series, the first parameter of each axis, value; regimes in which no start ends are
-    left out. And "axes", as given.
+    Returns columns panel, series, the first parameter of each axis, value, along and scale (of the axes, "; " between);
+    regimes in which no start ends are left out.
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [
@@ -58,13 +58,15 @@ def compute(table: pd.DataFrame, axes: list[dict]) -> dict:
         for column, series in columns.items()
         if column in table and (column not in REGIMES or table[column].any())
     ]
-    return {"csv": join(curves), "axes": axes}
+    along, scale = ([" ".join(axis["along"]) for axis in axes], [axis.get("scale", LINEAR) for axis in axes])
+    return join(curves).assign(along="; ".join(along), scale="; ".join(scale))
 
 
 @styled
-def draw(computed: dict) -> Figure:
-    """Draw what `compute` returns."""
-    table, axes = computed["csv"], computed["axes"]
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`."""
+    along, scale = (table[name].iloc[0].split("; ") for name in ("along", "scale"))
+    axes = [{"along": names.split(), "scale": name} for names, name in zip(along, scale, strict=True)]
     names = ["panel"] if len(axes) == 1 else ["panel", "series"]
     panels = list(table.groupby(names, sort=False))
     columns, rows = side_by_side(len(panels), most=2 if len(axes) == 1 else 3)

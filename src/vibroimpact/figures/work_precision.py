@@ -8,6 +8,38 @@ from matplotlib.lines import Line2D
 from vibroimpact.figures.kit.method_looks import looks
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, GREY, LIGHT_GREY, letter_panel, new_figure, styled
 
+SPEC = {
+    "title": "Error against time, method by method",
+    "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
+        "forcing cycle, for every method and setting on three test problems: the nearer to the lower left, the better. "
+        "Hollow markers: impacts missed or spurious. In the lane at the right: runs that failed, with their reason.",
+    "alt": "Six panels, one column per test problem, with the error of the final state and of the impact times against "
+        "the time per forcing cycle, both on logarithmic axes, one marked line per method. Runs that failed stand in a "
+        "lane at the right, numbered.",
+    "method": "error against a reference of extended precision, run time as measured",
+    "made_by": "work_precision",
+    "tables": {
+        "csv": {
+            "file": "results/accuracy/work_precision.csv",
+            "columns": {
+                "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},
+                "method, family, setting, error_state, error_time, missed, spurious": {},
+                "seconds_per_cycle": {"meaning": "run time per forcing cycle, the shortest of several runs",
+                    "unit": "seconds"},
+                "steps": {},
+                "evaluations": {"meaning": "evaluations of the right-hand side, 0 where the method does not count "
+                    "them", "unit": "number"},
+                "outcome": {"meaning": "finished; refused: an error; unfinished: out of steps; unavailable",
+                    "unit": "text", "values": ["finished", "refused", "unfinished", "unavailable"]},
+                "reason": {"meaning": "why there is no result, or what the method itself calls undecidable",
+                    "unit": "text"},
+                "order": {"meaning": "order of convergence: slope of log error over log step, for methods that have "
+                    "one", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
 ERRORS = {"error_state": "error of the final state", "error_time": r"error of impact times [$\tau$]"}
 SMALLEST, LARGEST = 1e-16, 30.0
 LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4

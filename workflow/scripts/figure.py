@@ -1,28 +1,25 @@
-"""One companion figure -> the files of the figure and the tables beside it."""
+"""One figure that no notebook draws -> its tables, and its pictures of the tables as they were written."""
 
 from importlib import import_module
 
 from job import running
-from vibroimpact.figures.kit.style import save
-from vibroimpact.figures.kit.tables import read, write
+from vibroimpact.figures.kit.style import write_and_draw
+from vibroimpact.figures.kit.tables import read
 from vibroimpact.system import System
 from vibroimpact_pipeline.provenance.record import recorded
 
 
 def main(module: str, settings: dict, inputs: dict, outputs: dict, provenance: dict) -> None:
-    """Compute the figure of a library module, write every table that has a file, and draw.
+    """Compute and draw the figure of a library module.
 
     Args:
         module: its full name.
         settings: arguments of its `compute`, systems as their parameters.
-        inputs: further arguments, as paths of tables or lists of such paths.
+        inputs: further arguments, as paths of tables.
     """
     figure = import_module(module)
-    computed = figure.compute(**with_systems(settings), **{name: read_all(paths) for name, paths in inputs.items()})
-    tables = computed if isinstance(computed, dict) else {"csv": computed}
-    for name in tables.keys() & outputs.keys():
-        write(tables[name], outputs[name])
-    save(figure.draw(computed), outputs, provenance)
+    given = with_systems(settings) | {name: read(path) for name, path in inputs.items()}
+    write_and_draw(figure, figure.compute(**given), outputs, provenance)
 
 
 def with_systems(settings: dict) -> dict:
@@ -33,10 +30,6 @@ def with_systems(settings: dict) -> dict:
     if "systems" in made:
         made["systems"] = {case: System(**parameters) for case, parameters in made["systems"].items()}
     return made
-
-
-def read_all(paths):
-    return read(paths) if isinstance(paths, str) else [read(path) for path in paths]
 
 
 if "snakemake" in globals():
