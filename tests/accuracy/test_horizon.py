@@ -8,7 +8,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.accuracy.horizon import departure
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.figures.companions import companion_horizon
+from vibroimpact.figures import companion_horizon
 from vibroimpact.system.state import NAMES
 
 WEAK = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)

@@ -8,7 +8,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures.chapter import (
+from vibroimpact.figures import (
     fig10_01,
     fig10_02,
     fig10_03,

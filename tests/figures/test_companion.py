@@ -15,7 +15,7 @@ from verdict_tables import verdicts_of
 from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.companions import companion_10_04, companion_10_05, companion_stability
+from vibroimpact.figures import companion_10_04, companion_10_05, companion_stability
 from vibroimpact.figures.kit.tables import read, select, write
 
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures.companions import companion_10_11
+from vibroimpact.figures import companion_10_11
 from vibroimpact.figures.kit.tables import select
 
 SYSTEM = vi.System(**PARAMETERS, **dict(zip(("f10_hat", "f20_hat"), FORCES["weak"], strict=True)))

@@ -15,18 +15,18 @@ from chapter import FORCES, PARAMETERS
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.absorbers.references import fixed_balls, without_balls
-from vibroimpact.figures.companions import (
+from vibroimpact.figures import (
     companion_absorber,
     companion_asymmetric,
     companion_decay,
     companion_ladder,
     companion_response,
 )
-from vibroimpact.figures.companions import companion_basins as basins
-from vibroimpact.figures.companions import companion_branches as branches
-from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
-from vibroimpact.figures.companions import companion_modulation as modulation
-from vibroimpact.figures.companions import companion_regime_map as regime_map
+from vibroimpact.figures import companion_basins as basins
+from vibroimpact.figures import companion_branches as branches
+from vibroimpact.figures import companion_epsilon as epsilon_limit
+from vibroimpact.figures import companion_modulation as modulation
+from vibroimpact.figures import companion_regime_map as regime_map
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis

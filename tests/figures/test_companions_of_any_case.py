@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.figures.companions import (
+from vibroimpact.figures import (
     coexistence,
     companion_asymmetric,
     companion_basins,

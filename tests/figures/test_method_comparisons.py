@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from vibroimpact.figures.companions import hazards, work_precision
+from vibroimpact.figures import hazards, work_precision
 
 ROW = dict(problem="s", method="a", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0)
 ROW |= dict(seconds_per_cycle=1e-3, outcome="finished", reason="", order=None)

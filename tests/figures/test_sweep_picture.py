@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from vibroimpact.figures.companions import sweep
+from vibroimpact.figures import sweep
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.observations import COLUMNS
 
@@ -34,7 +34,7 @@ def test_a_line_has_the_values_of_its_column():
 
 @pytest.mark.parametrize("axes", [LINE, PLANE])
 def test_regimes_that_no_start_ends_in_are_left_out(axes):
-    drawn = sweep.compute(table(axes, ["regimes"]), axes)["csv"]
+    drawn = sweep.compute(table(axes, ["regimes"]), axes)
     assert set(drawn["series"]) == set(REGIMES) - {"unsettled"}
 
 

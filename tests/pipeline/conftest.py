@@ -8,7 +8,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.figures.chapter import fig10_01, fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
+from vibroimpact.figures import fig10_01, fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
 from vibroimpact.theory.fixed_points.labels import labels
 
 CHAPTER = {

@@ -7,7 +7,7 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.figures.companions import animation, force_sweep
+from vibroimpact.figures import animation, force_sweep
 from vibroimpact.system.state import KINDS
 from vibroimpact.theory.manifold import B_of_C, rho
 

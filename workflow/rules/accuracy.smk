@@ -47,14 +47,14 @@ MODELLED = {figure: scene for figure, scene in CHAPTER.items() if "model" in sce
 
 rule scene_models:
     input:
-        [path for figure in MODELLED for path in PLANS[figure][1]["inputs"].values()],
+        [path for figure in MODELLED for path in PLANS[figure][1].values()],
         expand("results/fixed_points/{case}.csv", case=all_systems()),
         expand("results/orbits/{case}.csv", case={scene["case"] for scene in MODELLED.values() if scene["model"] == "simulation"}),
         [f"results/figures/{figure}.csv" for figure in MODELLED],
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
-        figures={figure: [scene, PLANS[figure][1]["params"]] for figure, scene in MODELLED.items()},
+        figures={figure: [scene, PLANS[figure][2]] for figure, scene in MODELLED.items()},
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=ACCURACY["short_seconds"],
         code=FIGURES,

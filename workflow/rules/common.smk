@@ -33,7 +33,7 @@ sys.path.append(str(ROOT / "src"))
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact.figures.specs import spec_of, specs
+from vibroimpact.figures.specs import request, spec_of, specs
 from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.code import fingerprint
 
@@ -74,21 +74,13 @@ def all_systems():
     return {case: system_of(case) for case in sorted(config["cases"])}
 
 
-def entry(path):
-    """The entry of the config at "section.key"; KeyError without it."""
-    value = config
-    for key in path.split("."):
-        value = value[key]
-    return value
-
-
-SPECS = specs(ROOT / "src/vibroimpact/figures")
+SPECS = specs()
 
 
 def figure_files(stem, spec):
     """The files of a figure by kind: pictures, where they come from, and its tables."""
     kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
-    return kinds | {name: table.get("file", f"{stem}.csv") for name, table in spec.get("tables", {}).items()}
+    return kinds | {name: table["file"] for name, table in spec["tables"].items()}
 
 
 def in_report(outputs, category):

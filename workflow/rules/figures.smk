@@ -5,27 +5,23 @@ CHAPTER = config["figures"]
 
 
 def figure_plan(figure, spec):
-    """Params and inputs of a figure's rule; None if the config lacks an entry or a sweep that it shows."""
+    """Inputs and params of a figure's rule; None if the config lacks an entry or a sweep that it shows."""
     try:
-        case = entry(spec["case"].format(figure=figure)) if "case" in spec else None
-        paths = {name: path.format(figure=figure, case=case) for name, path in spec.get("settings", {}).items()}
-        params = {"settings": {name: entry(path) for name, path in paths.items()}}
-        decides = {path: params["settings"][name] for name, path in paths.items()}
-    except KeyError:
+        asked = request(figure, spec, config)
+    except LookupError:
         return None
-    inputs = {name: path.format(case=case) for name, path in spec.get("inputs", {}).items()}
-    sweeps = {path.removeprefix("results/sweeps/").removesuffix(".csv") for path in inputs.values() if "/sweeps/" in path}
-    if not sweeps <= SWEEPS.keys():
-        return None
-    if case:
-        params["system"], decides[f"cases.{case}"] = system_of(case), system_of(case)
+    decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
+    systems = {}
+    if asked["case"]:
+        systems["system"] = decides[f"cases.{asked['case']}"] = system_of(asked["case"])
     if spec.get("systems"):
-        params["systems"], decides["cases"] = all_systems(), all_systems()
-    return {"inputs": inputs, "params": {"figure": figure, "config": decides, **params}}
+        systems["systems"] = decides["cases"] = all_systems()
+    params = {"figure": figure, "case": asked["case"], "settings": asked["settings"], "config": decides, **systems}
+    return asked["inputs"], params
 
 
 PLANS = {
-    figure: (spec, plan)
+    figure: (spec, *plan)
     for figure, spec in [
         *((figure, spec_of(figure, scene, SPECS)) for figure, scene in CHAPTER.items()),
         *((figure, spec) for figure, spec in SPECS.items() if figure.startswith("companion_")),
@@ -33,7 +29,7 @@ PLANS = {
     if (plan := figure_plan(figure, spec))
 }
 
-for figure, (spec, plan) in PLANS.items():
+for figure, (spec, inputs, params) in PLANS.items():
 
     if "notebook" in spec:
 
@@ -41,13 +37,13 @@ for figure, (spec, plan) in PLANS.items():
             name:
                 figure
             input:
-                **plan["inputs"],
+                **inputs,
                 notebook=own(f"notebooks/{spec['notebook']}.ipynb"),
             output:
                 **in_report(figure_files(f"results/figures/{figure}", spec), "Figures of the chapter"),
                 html=f"results/notebooks/{figure}.html",
             params:
-                **plan["params"],
+                **params,
                 code=FIGURES,
             priority: 10
             log:
@@ -63,11 +59,11 @@ for figure, (spec, plan) in PLANS.items():
             name:
                 figure
             input:
-                **plan["inputs"],
+                **inputs,
             output:
                 **in_report(figure_files(f"results/figures/{figure}", spec), "Companion figures"),
             params:
-                **plan["params"],
+                **params,
                 code=FIGURES,
             log:
                 f"results/logs/figures/{figure}.log",
@@ -78,7 +74,7 @@ for figure, (spec, plan) in PLANS.items():
 
 
 def files_of_figures(of_notebooks):
-    plans = {figure: spec for figure, (spec, _) in PLANS.items() if ("notebook" in spec) == of_notebooks}
+    plans = {figure: spec for figure, (spec, *_) in PLANS.items() if ("notebook" in spec) == of_notebooks}
     return [path for figure, spec in plans.items() for path in figure_files(f"results/figures/{figure}", spec).values()]
 
 

@@ -72,7 +72,7 @@ rule report:
         site=directory("results/report"),
     params:
         figures=list(PLANS),
-        tables=sorted({path for spec, _ in PLANS.values() for table in spec.get("tables", {}).values() if (path := table.get("file"))}),
+        tables=sorted({table["file"] for spec, *_ in PLANS.values() for name, table in spec["tables"].items() if name != "csv"}),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes")},
         code=PIPELINE,
     log:

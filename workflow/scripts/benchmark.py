@@ -15,7 +15,6 @@ SECONDS, STARTS = 0.5, 1_000_000
 
 
 def main(config: dict, output) -> None:
-    from problems import problem_of
     from vibroimpact.accuracy import work_precision
     from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
     from vibroimpact.accuracy.throughput import throughput

@@ -1,7 +1,7 @@
 """Where chaos and periodic motions coexist -> CSV: mean lifetimes, tori, and where these begin."""
 
-from vibroimpact.figures.companions.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.figures.kit import tables
+from vibroimpact.regimes.coexistence import compute_lifetimes, compute_tori
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

@@ -11,20 +11,20 @@ from vibroimpact.accuracy import scene_models
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
+from vibroimpact.figures.kit.style import drawn
+from vibroimpact.figures.specs import drawn_by, specs
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact_pipeline.jobs import running
 
 
-def rungs_of(figure, scene, settings, simulation, module, table, folder):
+def rungs_of(figure, scene, params, simulation, module, table, folder):
     """The rungs of one figure, from the results that it shows."""
     if scene["model"] == "closed_form":
-        arguments = {name: value for name, value in settings.items() if name != "system"} | settings["system"]
-        work = partial(module.compute, **arguments)
-        return scene_models.closed_form_rungs(figure, scene, settings["system"], table, work)
-    case = scene["case"]
-    system = System(**settings["system"])
+        settings = params["settings"]
+        return scene_models.closed_form_rungs(figure, scene, settings, table, partial(module.compute, **settings))
+    case, system = scene["case"], System(**params["system"])
     points = labelled_points(tables.read(folder / f"fixed_points/{case}.csv"))
     if scene["model"] == "slow_flow":
         return scene_models.slow_flow_rungs(scene, system, points)
@@ -36,13 +36,13 @@ def rungs_of(figure, scene, settings, simulation, module, table, folder):
 
 
 with running(snakemake) as out:
-    rows, results = [], Path(snakemake.output.csv).parents[1]
+    rows, results, known = [], Path(snakemake.output.csv).parents[1], specs()
     for figure, (scene, params) in snakemake.params.figures.items():
-        module = module_of(figure, scene)
+        module = import_module(f"vibroimpact.figures.{drawn_by(figure, scene, known)}")
         table = tables.read(results / f"figures/{figure}.csv")
         simulation = snakemake.params.simulations.get(scene.get("case"))
         rungs = rungs_of(figure, scene, params, simulation, module, table, results)
         print(f"{figure}: {len(rungs)} rungs")
-        visible, used = smallest_visible_error(module.draw(table)), scene_models.in_use(scene, simulation)
+        visible, used = smallest_visible_error(drawn(module, {"csv": table})), scene_models.in_use(scene, simulation)
         rows += scene_models.rows(figure, visible, rungs, used, snakemake.params.seconds)
     tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), out.csv)

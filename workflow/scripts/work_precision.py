@@ -2,28 +2,23 @@
 
 import pandas as pd
 
-from job import running
-from problems import problem_of
 from vibroimpact.accuracy.timing import versions
-from vibroimpact.accuracy.work_precision import measure
-from vibroimpact.figures.companions.work_precision import draw
+from vibroimpact.accuracy.work_precision import Problem, measure
+from vibroimpact.figures import work_precision as figure
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
 from vibroimpact.rivals import METHODS
-from vibroimpact_pipeline.provenance.record import recorded
+from vibroimpact.system import System
+from vibroimpact_pipeline import provenance
+from vibroimpact_pipeline.jobs import running
 
-
-def main(problems: dict, seconds: float, short: bool, outputs: dict, provenance: dict) -> None:
+with running(snakemake) as out:
     rows = []
-    for name, problem in problems.items():
-        rows += measure(problem_of(name, problem["system"], problem["settings"]), METHODS, seconds, short)
-    table = pd.DataFrame(rows)
-    tables.write(table, outputs["csv"])
+    for name, problem in snakemake.params.problems.items():
+        start = Problem(name, System(**problem["system"]), tuple(problem["initial_state"]), problem["cycles"])
+        rows += measure(start, METHODS, snakemake.params.seconds, snakemake.params.short)
+    tables.write(pd.DataFrame(rows), out.csv)
+    made = provenance.record(snakemake)
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())
-    save(draw(table, footer), outputs, provenance)
-
-
-if "snakemake" in globals():
-    with running(snakemake), recorded(snakemake) as (provenance, outputs):
-        params = snakemake.params
-        main(params.problems, params.seconds, params.short, outputs, provenance)
+    save(figure.draw(tables.read(out.csv), footer), vars(out), made)
+    provenance.write(out.provenance, made)

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from vibroimpact_pipeline.config.section import Problem
-from vibroimpact_pipeline.report.figure_texts import OWN
 
 RULES = {
     "accuracy",
@@ -66,5 +65,3 @@ def _meant(place, name):
         yield Problem(place, "the name is that of a rule")
     if name.startswith(CHAPTERS):
         yield Problem(place, f"names with {CHAPTERS} are those of the chapter's figures")
-    if name.startswith(OWN):
-        yield Problem(place, f"names with {OWN} are those of the words for figures of one's own")

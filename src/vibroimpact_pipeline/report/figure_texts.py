@@ -1,41 +1,35 @@
-"""What is said of each figure and table, as report/figures.yaml has it: title, caption, alternative text, equations."""
+"""What is said of each figure and table: title, caption, alternative text, equations, tables."""
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 
-import yaml
-
+from vibroimpact.figures.specs import spec_of
 from vibroimpact_pipeline.chapter import as_in_the_chapter
+from vibroimpact_pipeline.data_dictionary import read
 
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
 """What is said of a figure, and how a text is written there as it is: titles are plain, captions reStructuredText."""
-OWN = "own_"
-"""Begins the names of cards for figures that have none of their own."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """The entries by name, with the numbers they ask for: {f10_hat}, say, of the case that the figure shows.
+    """SPEC by name, with the numbers its words ask for: {f10_hat}, say, of the case that the figure shows.
 
-    A figure of the config without an entry of its own has that of its notebook, an animation the one for animations; so
-    has a figure of the chapter in a config where it shows other parameters than there.
+    A figure of the chapter that shows other parameters than there has the words for figures of one's own.
     """
-    texts = yaml.safe_load((Path(root) / "report/figures.yaml").read_text(encoding="utf-8"))
+    known, data = read(root)
+    animation = known.pop("animation")
     scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
+    texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
     for figure, scene in scenes.items():
-        entry, heading = texts.get(figure), ""
+        spec, heading = spec_of(figure, scene, known) if figure in known or "notebook" in scene else animation, ""
         if figure.startswith("fig10_"):
             heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
             if not as_in_the_chapter(config, figure, scene):
-                entry, heading = None, heading.replace(". ", " for other parameters. ")
-        entry = entry or texts[OWN + scene.get("notebook", "animation")]
-        known = scene | _parameters(config, scene) | {"figure": figure}
-        tables = {_filled(name, known): table for name, table in entry.get("tables", {}).items()}
-        texts[figure] = (
-            entry | {name: _filled(entry[name], known, as_is) for name, as_is in SAID.items()} | {"tables": tables}
-        )
+                spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
+        numbers = scene | _parameters(config, scene)
+        texts[figure] = spec | {name: _filled(spec[name], numbers, as_is) for name, as_is in SAID.items()}
         texts[figure]["title"] = heading + texts[figure]["title"]
-    return {name: entry for name, entry in texts.items() if not name.startswith(OWN)}
+    return texts | data["captions"]
 
 
 def _parameters(config, scene):
@@ -43,7 +37,7 @@ def _parameters(config, scene):
     return config["system"] | {name: value for name, value in case.items() if name != "simulation"}
 
 
-def _filled(text, known, as_is: Callable[[str], str] = str):
+def _filled(text, known, as_is: Callable[[str], str]):
     """The text with {name} replaced where the name is known; other braces belong to formulas."""
 
     def value(name):

@@ -14,6 +14,7 @@ import jinja2
 import pypandoc
 
 from vibroimpact.figures.kit.markdown import code, one_line, plain
+from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
 
@@ -65,6 +66,7 @@ class Pages:
             "shown": shown,
             "tables": [Path(path) for path in tables],
             "about": self.about,
+            "dictionary": lambda: data_dictionary.page(*data_dictionary.read(self.root)),
             "caption": lru_cache(self.caption),
             "count": Counter,
             "infinity": math.inf,

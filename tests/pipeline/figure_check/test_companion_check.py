@@ -16,7 +16,7 @@ from checking import LIMITS, assert_caught, build, copy_pictures
 from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.figures.companions import (
+from vibroimpact.figures import (
     companion_10_04,
     companion_10_05,
     companion_absorber,
@@ -27,11 +27,11 @@ from vibroimpact.figures.companions import (
     companion_response,
     companion_stability,
 )
-from vibroimpact.figures.companions import companion_basins as basins
-from vibroimpact.figures.companions import companion_branches as branches
-from vibroimpact.figures.companions import companion_epsilon as epsilon_limit
-from vibroimpact.figures.companions import companion_modulation as modulation
-from vibroimpact.figures.companions import companion_regime_map as regime_map
+from vibroimpact.figures import companion_basins as basins
+from vibroimpact.figures import companion_branches as branches
+from vibroimpact.figures import companion_epsilon as epsilon_limit
+from vibroimpact.figures import companion_modulation as modulation
+from vibroimpact.figures import companion_regime_map as regime_map
 from vibroimpact.figures.kit import tables
 from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis

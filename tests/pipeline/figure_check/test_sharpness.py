@@ -10,7 +10,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from checking import LIMITS, assert_caught
 from pipeline_trees import ROOT
-from vibroimpact.figures.chapter import fig10_08
+from vibroimpact.figures import fig10_08
 from vibroimpact.figures.kit import tables
 from vibroimpact_pipeline.figure_check.compare import check, rules_of
 from vibroimpact_pipeline.figure_check.origins import FILE

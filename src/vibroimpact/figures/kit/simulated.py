@@ -1,10 +1,13 @@
 """The simulated motion of the second module as figures 10.8 and 10.11 show it: X_2 above W_2."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.regimes import modulation
+from vibroimpact.regimes.periodicity import samples_per_cycle
 
 PANELS = {"a": "X_2", "b": "W_2"}
 LONG_WINDOW = 300.0
@@ -28,6 +31,29 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
     return join(
         curve(panel, series, tau=motion["tau"], value=motion[series.replace("_", "")])
         for panel, series in PANELS.items()
+    )
+
+
+def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
+    """How the amplitude of each box, half its peak-to-peak displacement in each forcing period, varies over samples.
+
+    Returns columns displacement ("X1", "X2"), smallest and largest amplitude, amplitude variation (standard deviation
+    over mean), modulation periods (how many distances there are between swells), mean length in cycles (of these; blank
+    without any); see `regimes.modulation`.
+    """
+    per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
+    amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
+    between = {name: np.diff(modulation.swells(values)) for name, values in amplitudes.items()}
+    return pd.DataFrame(
+        {
+            "displacement": name,
+            "smallest amplitude": values.min(),
+            "largest amplitude": values.max(),
+            "amplitude variation": modulation.variation(values),
+            "modulation periods": len(between[name]),
+            "mean length in cycles": between[name].mean() if len(between[name]) else np.nan,
+        }
+        for name, values in amplitudes.items()
     )
 
 

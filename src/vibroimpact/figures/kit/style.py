@@ -7,9 +7,8 @@ from pathlib import Path
 import matplotlib.style
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.artists import describe
+from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
-from vibroimpact.figures.kit.versions import drawn_with
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
@@ -24,10 +23,7 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
-_BACKENDS = {
-    "png": "module://vibroimpact.figures.kit.plain_png",
-    "svg": "module://vibroimpact.figures.kit.searchable_svg",
-}
+_BACKENDS = {"svg": "module://vibroimpact.figures.kit.searchable_svg"}
 PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
 """The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
 
@@ -71,8 +67,6 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
     The layout is that of the first file, for all of them, and stays with the figure.
 
     Args:
-        outputs: also ["artists"], if present: what the figure shows, as JSON (see `artists.describe`), with the
-            versions that drew it.
         provenance: where the figure comes from, JSON data that goes into the metadata of each file.
     """
     outputs = dict(outputs.items())  # of the pipeline's own kind of mapping, `in` looks at the values
@@ -82,7 +76,23 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
         with replacing(outputs[kind]) as path:
             figure.savefig(path, format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
-    if "artists" in outputs:
-        with replacing(outputs["artists"]) as path:
-            content = {"drawn with": drawn_with(), **describe(figure)}
-            path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def drawn(figure, read: dict) -> Figure:
+    """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
+    names = figure.SPEC["tables"]
+    return figure.draw(read) if len(names) > 1 else figure.draw(read["csv"]) if names else figure.draw()
+
+
+def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = None) -> None:
+    """Write what a figure's `compute` returned, and draw what was written: the picture is that of the files.
+
+    Args:
+        figure: its module.
+        outputs: paths by kind of picture and by name of table.
+    """
+    written = {}
+    for name, table in (computed if isinstance(computed, dict) else {"csv": computed}).items():
+        tables.write(table, outputs[name])
+        written[name] = tables.read(outputs[name])
+    save(figure.draw(written if isinstance(computed, dict) else written["csv"]), outputs, provenance)

@@ -1,0 +1,103 @@
+"""The two modules in motion: what an animation shows, frame by frame, and instants of it as a still picture."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
+
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
+
+SPEC = {
+    "title": "The motion of case {case}",
+    "caption": r"Six instants of the motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
+        "{f20_hat}`. :math:`T` is the forcing period; a star marks a wall that is hit before the next instant.",
+    "alt": "Six small pictures of two boxes on springs with a ball in each, at successive instants of the motion of "
+        "case {case}.",
+    "method": "the window of a simulation, frame by frame",
+    "made_by": "animation",
+    "tables": {},
+}  # fmt: skip
+
+PLACES = {1: -3.0, 2: 3.0}
+"""Where the boxes rest, in units of L; far enough from each other for every motion of the chapter."""
+BALL, WALL, HALF_HEIGHT, EDGE = 0.28, 0.12, 0.62, 6.2
+"""Radius of a ball, thickness of a wall, half the height of a box, distance of the supports, in units of L."""
+INSTANTS, ROW = 6, 15.0
+"""Instants of the still picture, and the height of each in mm."""
+COORDINATES = ["X1", "Y1", "X2", "Y2"]
+
+
+def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: int) -> dict[str, pd.DataFrame]:
+    """The first so many forcing cycles of a simulated window.
+
+    Args:
+        samples: columns tau, X1, Y1, X2, Y2 (others are ignored), ascending in tau.
+        events: impacts, sticks and releases, columns tau, module, wall, kind and the coordinates.
+        period: of the forcing.
+
+    Returns "motion": columns t (in periods from the start), X1, Y1, X2, Y2, at all samples and events, so that straight
+    lines between the rows follow every flight up to its corner; "impacts": columns t, module, wall.
+
+    Raises:
+        ValueError: the window holds fewer cycles.
+    """
+    start = samples["tau"].iloc[0]
+    end = start + cycles * period
+    if samples["tau"].iloc[-1] < end - 1e-6 * period:
+        raise ValueError(f"cycles: {cycles} asked for, the window of the simulation is shorter")
+    inside = pd.concat([samples, events])[["tau", *COORDINATES]]
+    inside = inside[inside["tau"].between(start, end + 1e-6 * period)].drop_duplicates("tau").sort_values("tau")
+    impacts = events[(events["kind"] == "impact") & events["tau"].between(start, end)]
+    return {
+        "motion": _timed(inside, start, period)[["t", *COORDINATES]],
+        "impacts": _timed(impacts, start, period)[["t", "module", "wall"]],
+    }
+
+
+def _timed(table, start, period):
+    return table.assign(t=(table["tau"] - start) / period).reset_index(drop=True)
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """A still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked."""
+    first = tables["impacts"]["t"].min() if len(tables["impacts"]) else 0.0
+    start = np.floor(first)
+    figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS + 4.0)
+    grid = figure.subplots(INSTANTS, 1, sharex=True, squeeze=False)[:, 0]
+    for axes, t in zip(grid, start + np.arange(INSTANTS) / INSTANTS, strict=True):
+        axes.set(xlim=(-EDGE, EDGE), ylim=(-0.95, 0.75), aspect="equal")
+        axes.set_axis_off()
+        axes.text(-EDGE, 0.35, f"t = {t:.2f} T", fontsize=8)
+        _instant(axes, tables, t)
+    return figure
+
+
+def _instant(axes, tables, t):
+    motion = tables["motion"]
+    at = {name: float(np.interp(t, motion["t"], motion[name])) for name in COORDINATES}
+    boxes = {module: PLACES[module] + at[f"X{module}"] for module in PLACES}
+    side = 1.0 + BALL + WALL
+    ends = [-EDGE, boxes[1] - side, boxes[1] + side, boxes[2] - side, boxes[2] + side, EDGE]
+    for left, right in zip(ends[::2], ends[1::2], strict=True):
+        axes.plot(*_spring(left, right), color=GREY, linewidth=0.7)
+    for module, centre in boxes.items():
+        axes.add_patch(Rectangle((centre - side, -HALF_HEIGHT), 2 * side, 2 * HALF_HEIGHT, facecolor=LIGHT_GREY))
+        cavity = (centre - side + WALL, -HALF_HEIGHT + WALL)
+        axes.add_patch(Rectangle(cavity, 2 * (side - WALL), 2 * (HALF_HEIGHT - WALL), facecolor="white"))
+        axes.add_patch(Circle((PLACES[module] + at[f"Y{module}"], 0.0), BALL, facecolor=BLACK))
+        axes.plot([PLACES[module]] * 2, [-0.78, -0.68], color=BLACK, linewidth=0.7)
+    near = tables["impacts"][(tables["impacts"]["t"] - t).between(0.0, 1.0 / INSTANTS, inclusive="left")]
+    for hit in near.itertuples():
+        # W = X - Y is 1 at the left wall of the cavity, seen from the box.
+        place = boxes[hit.module] - hit.wall * (side - 0.5 * WALL)
+        axes.plot(place, -0.86, marker="*", color=BLACK, markersize=6, markeredgewidth=0)
+
+
+def _spring(left: float, right: float, turns: int = 7):
+    """A zigzag between two places."""
+    lead = 0.15 * (right - left)
+    inner = np.linspace(left + lead, right - lead, 2 * turns + 1)
+    x = np.concatenate([[left], inner, [right]])
+    y = np.concatenate([[0.0], 0.13 * np.tile([0.0, 1.0, 0.0, -1.0], turns)[: 2 * turns + 1], [0.0]])
+    return x, y

@@ -1,5 +1,0 @@
-"""Figures 10.8 and 10.11: the simulated motion of the second module."""
-
-from vibroimpact.figures.kit.simulated import compute, draw
-
-__all__ = ["compute", "draw"]

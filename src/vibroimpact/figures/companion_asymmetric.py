@@ -1,0 +1,271 @@
+"""Companion: the manifold with its asymmetric branch, and the exact asymmetric pairs followed to small epsilon."""
+
+from itertools import pairwise, product
+from string import ascii_lowercase
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import brentq
+
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.regimes import asymmetric_limit
+from vibroimpact.regimes.epsilon_limit import order
+from vibroimpact.theory.asymmetric import branch
+from vibroimpact.theory.asymmetric.search import fixed_points
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
+from vibroimpact.theory.relaxation import lost_at, relax
+
+SPEC = {
+    "title": "The asymmetric branch of the manifold",
+    "caption": "Motions whose balls take unequal time for their two flights. a: the manifold; where symmetry breaks, "
+        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch (grey). Circles: fixed "
+        r"points of the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the "
+        r"cases. Then, per case, how unequal the flights of the exact pairs are as :math:`\varepsilon` falls "
+        "(:math:`v`: difference of the flight times over the period), and the fixed points that they lead to. The pair "
+        "A3 of the equal case is the response of Fig. 10.8.",
+    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a grey curve rises "
+        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon that end in circles "
+        "at epsilon 0; the lowest line crosses zero just before.",
+    "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
+        r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
+    "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
+    "systems": True,
+    "settings": {"epsilon": "regimes.asymmetric.epsilon", "values": "regimes.asymmetric.values",
+        "fit_below": "regimes.asymmetric.fit_below", "C_max": "stability.companion_10_04.C_max"},
+    "inputs": {"orbits": "results/orbits.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "manifold, or the case"},
+                "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair "
+                    r"as $\varepsilon$ falls, and its end, the fixed point that it leads to"},
+                "label": {"meaning": "case and label of the point or orbit; of a way and its end the label of the "
+                    "orbit", "unit": "text"},
+                "C": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
+                "B": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
+                "epsilon": {"compared": "algebra"},
+                "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
+                    "compared": "roots"},
+            },
+        },
+        "points": {
+            "file": "results/asymmetric_fixed_points.csv",
+            "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
+                r"cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs that "
+                r"lead to them as $\varepsilon$ falls.",
+            "columns": {
+                "case": {},
+                "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
+                "squared1, squared2": {"meaning": "$v_i^2$, $v_i$ the difference of the two flight times of ball $i$ "
+                    "over the period, 0 where they are equal; below 0 no motion at leading order, but where the branch "
+                    "goes on beyond symmetry breaking", "unit": "dimensionless"},
+                "C1, C2, B1, B2, psi1, psi2": {},
+                "real": {"meaning": r"a motion at leading order, $v_i^2 \ge 0$", "unit": "true or false"},
+                "admissible": {"meaning": "one in which, at leading order, both balls stay between their walls",
+                    "unit": "true or false"},
+                "impact_map": {"meaning": "Masri's analysis for equal and unequal flights: the impact maps of both "
+                    r"modules, $B_i$ and $\phi_i$ held", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "slow_flow": {"meaning": "the real parts of all eigenvalues of the slow flow on this branch are "
+                    "negative", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "modulus": {"meaning": "largest modulus of the multipliers that impact maps and slow flow predict, "
+                    "over a forcing period", "unit": "dimensionless"},
+                "lost_at": {"meaning": "of a point that the slow flow calls stable: the factor of both forces, below "
+                    "1, at which its symmetric module sinks to the fold of the manifold; blank if there is none above "
+                    "a half", "unit": "dimensionless"},
+                "orbit": {"meaning": "label in `orbits.csv` of the exact orbit (one of two mirror images) that leads "
+                    "here; blank if there is none", "unit": "text"},
+                "distance": {"meaning": r"of that orbit, at the $\varepsilon$ of the case: norm of the difference in "
+                    "$C_1$, $C_2$, $v_1^2$, $v_2^2$ and the phases [radians] half-way between the impacts of each "
+                    "module", "unit": "dimensionless"},
+                "onset": {"meaning": r"the $\varepsilon$ at which the exact pair is born from a symmetric orbit; 0 if "
+                    r"it reaches $\varepsilon = 0$", "unit": "dimensionless"},
+                "order": {"meaning": r"the exponent $p$ of distance $\sim \varepsilon^p$, fitted to the smallest "
+                    r"$\varepsilon$", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless"},
+                "slow_error": {"meaning": "at `at_epsilon`: largest error of a predicted slow rate, "
+                    r"$\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$", "unit": "dimensionless"},
+                "fast_error": {"meaning": "at `at_epsilon`: largest error of a predicted fast multiplier",
+                    "unit": "dimensionless"},
+                "at_epsilon": {"meaning": r"the smallest $\varepsilon$ that the pair was followed to",
+                    "unit": "dimensionless"},
+            },
+        },
+        "relaxation": {
+            "file": "results/regimes/relaxation.csv",
+            "about": "The modulated response as the slow flow sees it, drift to the fold of the manifold and return at "
+                "$B = 1$ ([derivation](derivation.md), section 12), of every case, a row per module.",
+            "columns": {
+                "case": {},
+                "module": {},
+                "burst": {"meaning": "mean length of a stretch in resonance; blank if none ends",
+                    "unit": "forcing periods"},
+                "share": {"meaning": "part of the time in resonance", "unit": "share"},
+                "largest": {"meaning": "largest $B_i$", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
+MANIFOLD, THEORY, EXACT, WAY, END = "manifold", "fixed point", "exact orbit", "way", "end"
+GREYED = {"color": GREY}
+PIECES = {
+    "symmetric, left": UNSTABLE,
+    "symmetric, stable": STABLE,
+    "symmetric, right": UNSTABLE,
+    "asymmetric, stable": STABLE | GREYED,
+    "asymmetric, right": UNSTABLE | GREYED,
+}
+NAMES = {
+    "symmetric, stable": "symmetric, stable",
+    "symmetric, left": "symmetric, unstable",
+    "asymmetric, stable": "asymmetric, stable",
+    "asymmetric, right": "asymmetric, unstable",
+}
+MARKS = {
+    THEORY: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6},
+    EXACT: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.6},
+}
+DASHES = ("-", (0, (4.5, 2)), (0, (1, 1.4)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)))
+_PHASES, _SPEEDS = (
+    [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
+)
+COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
+JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
+RELAXED = 400, 100
+"""Cycles that the slow flow is followed for, and that it is left to settle before."""
+COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
+
+
+def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below: float, C_max: float) -> dict:
+    """The manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
+
+    Args:
+        systems: case -> system, all of one kappa; orbits: `verdict_table.orbit_rows` of all cases.
+        epsilon: ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
+        fit_below: the order in which the distance falls is fitted where epsilon is below this.
+        C_max: right end of the symmetric branch.
+
+    Returns "csv": panel "manifold" (series: pieces of both branches with C, B; "fixed point", "exact orbit": modules
+    with unequal flights, labelled "case, label") and one per case (series "way" of each pair, labelled: epsilon,
+    squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); "points", a row per fixed point; and
+    "relaxation", what the slow flow makes of balls that it loses, a row per case and module.
+    """
+    kappa = next(iter(systems.values())).kappa
+    curves, rows, relaxed = _manifold(kappa, C_max), [], []
+    for case, system in systems.items():
+        points = fixed_points(system)
+        pairs = _pairs(system, orbits[orbits["case"] == case])
+        ladder = np.sort(np.geomspace(*epsilon, values))[::-1]
+        ways = {label: asymmetric_limit.follow(system, root, ladder[ladder < system.epsilon]) for label, root in pairs}
+        ends = {label: asymmetric_limit.leads_to(way, points) for label, way in ways.items()}
+        for number, point in enumerate(points, start=1):
+            label = next((name for name, end in ends.items() if end is point), "")
+            rows.append(_row(system, case, f"U{number}", point, label, ways.get(label), fit_below))
+            curves += _in_plane(THEORY, f"{case}, U{number}", point.squared, point.C, point.B)
+        curves += [part for label, way in ways.items() for part in _way(case, label, way, ends[label])]
+        found = relax(system, *RELAXED)
+        relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
+    table = pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED])
+    relaxation = pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"])
+    return {"csv": join(curves), "points": table, "relaxation": relaxation}
+
+
+def _manifold(kappa, C_max):
+    """Pieces of both branches, the asymmetric one up to where its B is that of the symmetric one at C_max."""
+    edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
+    r, end = rho(kappa), branch.period_doubling(kappa)
+    symmetric = [np.linspace(*ends, 101) for ends in pairwise(edges)]
+    last = brentq(lambda squared: branch.amplitudes(squared, kappa)[1] - B_of_C(C_max, r), 0.0, 1 - 1e-9)
+    squared = np.linspace(0, min(end, last), 101), np.linspace(min(end, last), last, 101)
+    places = [(C, B_of_C(C, r)) for C in symmetric] + [branch.amplitudes(x, kappa) for x in squared]
+    return [curve(MANIFOLD, name, C=C, B=B) for name, (C, B) in zip(PIECES, places, strict=True)]
+
+
+def _pairs(system, orbits):
+    """One orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
+    rows = orbits[~orbits["symmetric"].astype(bool) & (orbits["C1"] > 0) & (orbits["C2"] > 0)]
+    one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
+    for _, row in one_each.iterrows():
+        speeds = row[_SPEEDS].to_numpy(float).reshape(2, 2)
+        yield row["label"], np.concatenate([row[_PHASES].to_numpy(float) * system.period, speeds.sum(axis=1)])
+
+
+def _way(case, label, way, end):
+    places = np.array([station.place for station in way])
+    yield curve(case, WAY, label=label, epsilon=[s.system.epsilon for s in way], squared=places[:, 2:4].max(axis=1))
+    yield from _in_plane(EXACT, f"{case}, {label}", places[0, 2:4], places[0, :2], way[0].box_amplitudes)
+    if end is not None:
+        yield curve(case, END, label=label, epsilon=0.0, squared=end.squared[end.asymmetric].max())
+
+
+def _in_plane(series, label, squared, C, B):
+    """Modules whose flights are unequal, in the plane of the manifold."""
+    skewed = squared > 1e-3
+    return [curve(MANIFOLD, series, label=label, C=C[skewed], B=B[skewed])] if skewed.any() else []
+
+
+def _row(system, case, name, point, label, way, fit_below):
+    kappa, slow_time = system.kappa, system.epsilon * system.period
+    slow = np.abs(np.exp(point.slow_eigenvalues * slow_time))
+    verdicts = [point.real, point.admissible(kappa), point.fast_verdict(kappa), point.slow_verdict()]
+    judged = [*verdicts, max(*slow, *np.abs(point.fast(kappa)))]
+    row = [case, name, *point.squared, *point.C, *point.B, *point.psi, *judged]
+    stable = point.slow_verdict() == "stable"
+    row = [*row, lost_at(system, point) if stable else np.nan]
+    if way is None:
+        return [*row, "", *[np.nan] * (len(COMPARED) - 2)]
+    distance = np.array([np.linalg.norm(asymmetric_limit.offset(station, point)) for station in way])
+    epsilon = np.array([station.system.epsilon for station in way])
+    small = epsilon < fit_below
+    fitted = order(epsilon[small], distance[small]) if np.count_nonzero(small) > 1 else (np.nan, np.nan)
+    last = asymmetric_limit.compare(way[-1], point)
+    slow_error = np.abs(last.rates - last.predicted)[:4].max()
+    fast_error = np.abs(last.multipliers - last.predicted_multipliers)[4:].max()
+    onset = asymmetric_limit.onset(way) if not point.real else 0.0
+    return [*row, label, distance[0], onset, *fitted, slow_error, fast_error, last.epsilon]
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
+    table = tables["csv"]
+    cases = [panel for panel in dict.fromkeys(table["panel"]) if panel != MANIFOLD]
+    figure = new_figure(DOUBLE_COLUMN, 84.0)
+    grid = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
+    for axes, letter in zip(grid, ascii_lowercase, strict=False):
+        letter_panel(axes, letter)
+    _draw_manifold(grid[0], table)
+    for axes, case in zip(grid[1:], cases, strict=True):
+        _draw_case(axes, table, case)
+    if cases:
+        grid[1].set_ylabel("$v^2$")
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)
+    return figure
+
+
+def _draw_manifold(axes, table):
+    for series, style in PIECES.items():
+        piece = select(table, MANIFOLD, series)
+        axes.plot(piece["C"], piece["B"], **style, label=NAMES.get(series))
+    for series, style in MARKS.items():
+        rows = select(table, MANIFOLD, series)
+        axes.plot(rows["C"], rows["B"], linestyle="none", color=BLACK, label=series, zorder=3, **style)
+    axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_i$", ylabel="$B_i$")
+
+
+def _draw_case(axes, table, case):
+    ways = select(table, case, WAY)
+    for dashes, (label, way) in zip(DASHES * (1 + len(ways)), ways.groupby("label", sort=False), strict=False):
+        axes.plot(way["epsilon"], way["squared"], color=BLACK, linestyle=dashes, linewidth=1.2)
+        last = way.iloc[0]
+        axes.annotate(label, (last["epsilon"], last["squared"]), (-2, 3), textcoords="offset points", ha="right")
+    ends = select(table, case, END)
+    axes.plot(ends["epsilon"], ends["squared"], linestyle="none", color=BLACK, clip_on=False, zorder=3, **MARKS[THEORY])
+    axes.axhline(0, color=BLACK, linewidth=0.6)
+    axes.set_title(case, loc="right", pad=3)
+    axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
+    axes.margins(y=0.08)
+    axes.locator_params(axis="x", nbins=3)

@@ -1,0 +1,223 @@
+"""Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
+
+from contextlib import suppress
+from itertools import cycle, product
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    LIGHT_GREY,
+    letter_panel,
+    new_figure,
+    styled,
+)
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
+from vibroimpact.theory.fixed_points.labels import labels
+from vibroimpact.theory.fixed_points.search import fixed_points
+
+SPEC = {
+    "title": "How the error of the theory falls with epsilon",
+    "caption": r"Distance between leading-order theory and exact orbits as :math:`\varepsilon` falls, for every fixed "
+        "point of the three cases; grey: with the term of first order added. Triangles: slope 1.",
+    "alt": "Panels with the distance between theory and exact orbits over epsilon on logarithmic axes, one line per "
+        "fixed point, falling along straight lines.",
+    "method": "fixed points and exact symmetric responses at every epsilon",
+    "systems": True,
+    "settings": {"epsilon": "regimes.epsilon.epsilon", "values": "regimes.epsilon.values",
+        "fit_below": "regimes.epsilon.fit_below", "mixed": "regimes.epsilon.mixed"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted "
+                    "slow rate or fast multiplier; two terms: distance with the term of first order added to the fixed "
+                    "point; mixed: rates of one point, one by one", "values": ["distance", "slow", "fast", "two terms",
+                    "mixed"]},
+                "series": {"meaning": "case and label of the fixed point; in mixed who says it, and the number of the "
+                    "multiplier"},
+                "label": {"meaning": "in mixed: case and label of the fixed point", "unit": "text"},
+                "epsilon": {"compared": "algebra"},
+                "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact "
+                    r"phases [radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over "
+                    r"the slow multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - "
+                    r"\mu_0\rvert$ over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless",
+                    "compared": "logarithm"},
+                "rate": {"meaning": r"in mixed: $\lvert\log\mu\rvert/(2\pi\varepsilon/\Omega)$, exact and predicted",
+                    "unit": "dimensionless", "compared": "logarithm"},
+            },
+        },
+        "orders": {
+            "file": "results/regimes/epsilon_orders.csv",
+            "about": r"Orders $p$ of error $\sim \varepsilon^p$ in `companion_epsilon`, fitted to its smallest "
+                r"$\varepsilon$.",
+            "columns": {
+                "case": {},
+                "label": {"meaning": "label of the fixed point", "unit": "text"},
+                "panel": {"meaning": "the error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
+                    "distance", "slow", "fast", "two terms"]},
+                "order": {"meaning": "the exponent $p$, by least squares on the logarithms", "unit": "dimensionless",
+                    "compared": "trajectory"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless", "compared": "certificate"},
+            },
+        },
+    },
+}  # fmt: skip
+
+TWO_TERMS = "two terms"
+PANELS = {
+    "distance": "distance of fixed point and orbit",
+    "slow": r"largest error of slow $\log\mu\,/\,(2\pi\varepsilon/\Omega)$",
+    "fast": r"largest error of fast $\mu$",
+}
+LOOKS = tuple(product(("white", GREY), "osD^vP*X"))
+"""Face and shape of the markers of a fixed point, in this order."""
+_STEP = 2e-4
+
+
+def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
+    """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
+
+    Args:
+        systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
+        fit_below: the orders are fitted where epsilon is below this.
+        mixed: `case` and `label` of a point whose multipliers are shown one by one and no order is fitted to.
+
+    Returns "csv": columns panel (one of PANELS; "two terms": as "distance", the term of first order added to the fixed
+    point; or "mixed"), series ("case, label"; in "mixed" "exact", "slow flow", "impact map" with the number of the
+    multiplier), epsilon, error or rate; and "orders": columns case, label, panel, order, uncertainty.
+    """
+    epsilon = np.geomspace(*epsilon, values)
+    curves, orders = [], []
+    for case, system in systems.items():
+        points = fixed_points(system)
+        for label, point in sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]):
+            found = list(_compared(system, point, epsilon))
+            if {"case": case, "label": label} == mixed:
+                curves += _mixed(f"{case}, {label}", found)
+                continue
+            for panel, errors in zip(
+                [*PANELS, TWO_TERMS], [*_errors(found), _two_terms(system, point, found)], strict=True
+            ):
+                reached = np.array([c.epsilon for c in found])
+                curves.append(curve(panel, f"{case}, {label}", epsilon=reached, error=errors))
+                small = (reached < fit_below) & np.isfinite(errors)
+                if np.count_nonzero(small) > 1:
+                    slope, uncertainty = order(reached[small], errors[small])
+                    named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
+                    orders.append({"case": case, "label": label, **named})
+    nothing = pd.DataFrame(columns=["panel", "series", "label", "epsilon", "error", "rate"])
+    columns = ["case", "label", "panel", "order", "uncertainty"]
+    return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
+
+
+def _compared(system, point, epsilon):
+    """Comparisons at every epsilon at which there is an orbit."""
+    for value in epsilon:
+        with suppress(NoOrbit):
+            yield compare(system.with_(epsilon=value), point)
+
+
+def _errors(found):
+    distance = np.array([c.distance for c in found])
+    slow = np.array([np.abs(c.rates - c.predicted)[:4].max() for c in found])
+    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found])
+    return distance, slow, fast
+
+
+def _two_terms(system, point, found):
+    """Distances with the term of first order added; nan where there is no orbit to take it from."""
+    added = np.full(4, np.nan)
+    with suppress(NoOrbit):
+        added = first_order(system, point, _STEP)
+    return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
+
+
+def _mixed(name, found):
+    epsilon = [c.epsilon for c in found]
+    for k in range(8):
+        group = "slow flow" if k < 4 else "impact map"
+        yield curve("mixed", f"exact {k}", label=name, epsilon=epsilon, rate=[abs(c.rates[k]) for c in found])
+        yield curve("mixed", f"{group} {k}", label=name, epsilon=epsilon, rate=[abs(c.predicted[k]) for c in found])
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: three errors with a triangle of slope 1, the first also with two terms (grey), and
+    the mixed multipliers one by one.
+    """
+    table, orders = tables["csv"], tables["orders"]
+    figure = new_figure(DOUBLE_COLUMN, 138.0)
+    grid = figure.subplots(2, 2, sharex=True)
+    for axes, (panel, name), letter in zip(grid.flat, PANELS.items(), "abc", strict=False):
+        rows = table[table["panel"] == panel]
+        axes.set(xscale="log", yscale="log", ylabel=name)
+        letter_panel(axes, letter)
+        if rows.empty:
+            continue
+        if panel == "distance":
+            _draw_two_terms(axes, table[table["panel"] == TWO_TERMS])
+        for (face, marker), (series, line) in zip(cycle(LOOKS), rows.groupby("series", sort=False), strict=False):
+            _dots(axes, line["epsilon"], line["error"], face, marker, series)
+        _slope(axes, rows)
+        fitted = orders[orders["panel"] == panel]["order"]
+        if len(fitted):
+            axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
+    letter_panel(grid[1, 1], "d")
+    mixed = table[table["panel"] == "mixed"]
+    if len(mixed):
+        _draw_mixed(grid[1, 1], mixed)
+        grid[1, 1].set_title(f"{mixed['label'].iloc[0]}: slow and fast mix", loc="right", pad=3)
+    for axes in grid[-1]:
+        axes.set_xlabel(r"$\varepsilon$")
+    handles, names = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=6, fontsize=8.5)
+    return figure
+
+
+def _draw_two_terms(axes, rows):
+    if rows.empty:
+        return
+    for _, line in rows.groupby("series", sort=False):
+        axes.plot(line["epsilon"], line["error"], color=GREY, linewidth=0.8)
+    last = line.iloc[len(line) // 2]
+    axes.annotate(
+        "first-order term\nadded", (last["epsilon"], last["error"]), (8, -16), textcoords="offset points", fontsize=8.5
+    )
+
+
+def _slope(axes, rows):
+    """A triangle of slope 1 over a decade, below the least of the errors, as plots of convergence have it."""
+    least = rows.loc[rows["error"].idxmin()]
+    x, y = least["epsilon"] * np.array([3.0, 30.0]), 0.5 * least["error"] * np.array([1.0, 10.0])
+    corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1])]
+    axes.add_patch(Polygon(corners, facecolor=LIGHT_GREY, edgecolor=GREY, linewidth=0.6))
+    below = {"textcoords": "offset points", "ha": "center", "va": "top", "fontsize": 8.5}
+    axes.annotate("slope 1", (np.sqrt(x.prod()), y[0]), (0, -2), **below)
+    axes.margins(y=0.12)
+
+
+def _dots(axes, x, y, face, marker, label):
+    style = {"markerfacecolor": face, "markeredgewidth": 0.8, "linewidth": 0.5, "markersize": 4}
+    axes.plot(x, y, marker=marker, color=BLACK, label=label, **style)
+
+
+def _draw_mixed(axes, rows):
+    names = {"slow flow": {"color": BLACK, "linewidth": 0.9}, "impact map": LEVEL}
+    for k in range(8):
+        for group, style in names.items():
+            line = select(rows, "mixed", f"{group} {k}")
+            axes.plot(line["epsilon"], line["rate"], **style)
+        line = select(rows, "mixed", f"exact {k}")
+        axes.plot(line["epsilon"], line["rate"], "o", color="white", markeredgecolor=BLACK, markersize=3.6, zorder=3)
+    for group, style in names.items():
+        axes.plot([], [], label=group, **style)
+    axes.plot([], [], "o", color="white", markeredgecolor=BLACK, markersize=3.6, label="exact")
+    axes.set(xscale="log", yscale="log", ylabel=r"$|\log\mu|\,/\,(2\pi\varepsilon/\Omega)$")
+    axes.legend(fontsize=8.5)

@@ -1,1 +1,0 @@
-"""Figures that the chapter does not show: compute(...) -> tables, draw(tables) -> Figure."""

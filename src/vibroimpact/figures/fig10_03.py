@@ -1,0 +1,90 @@
+"""Figure 10.3: the saw-tooth function used as a part of the solution W_i0."""
+
+import math
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.sawtooth import sawtooth
+
+SPEC = {
+    "title": "The saw-tooth function",
+    "caption": r"Fig. 10.3. The saw-tooth function :math:`Z_i(\tau_0)` of (10.11) for constant :math:`C_i` and "
+        r":math:`\theta_i`; its corners are the impacts.",
+    "alt": "Triangle wave Z over tau_0 between C and -C; its corners, the impacts, are half a period apart, at theta, "
+        "theta + pi and so on.",
+    "equations": [r"Z_i = \frac{2}{\pi}\,C_i \arcsin\left[\cos(\tau_0 - \theta_i)\right] \tag{10.11}"],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"amplitude": "figures.{figure}.amplitude", "theta": "figures.{figure}.theta",
+        "tau0_max": "figures.{figure}.tau0_max"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"values": ["Z", "impacts"]},
+                "tau0": {"meaning": r"fast time $\tau_0$ as a phase; impacts at $\theta + j\pi$", "unit": "radians",
+                    "compared": "algebra"},
+                "Z": {"meaning": r"saw-tooth $Z(\tau_0)$, (10.11); the impacts are its corners",
+                    "unit": "dimensionless", "compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
+
+def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
+    """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, on [0, tau0_max].
+
+    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The corners are among the points of the line.
+
+    Raises:
+        ValueError: amplitude is not above 0, or the window holds no impact.
+    """
+    if not amplitude > 0:
+        raise ValueError(f"amplitude: {amplitude} is not above 0")
+    first = math.ceil(-theta / math.pi)
+    last = math.floor((tau0_max - theta) / math.pi)
+    if not tau0_max > 0 or last < first:
+        raise ValueError(f"tau0_max: the window 0 .. {tau0_max} holds no impact at theta + j pi, theta = {theta}")
+    impacts = theta + math.pi * np.arange(first, last + 1)
+    tau0 = np.union1d(np.linspace(0.0, tau0_max, 201), impacts)
+    return join(
+        curve("Z", series, tau0=instants, Z=sawtooth(instants, amplitude, theta))
+        for series, instants in (("Z", tau0), ("impacts", impacts))
+    )
+
+
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """The impacts: instant tau_0, level Z, and time since the impact before."""
+    impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
+    return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`, amplitude and impact instants marked."""
+    figure = new_figure(SINGLE_COLUMN, 42.0)
+    axes = figure.add_subplot()
+    line, impacts = (select(table, "Z", series) for series in ("Z", "impacts"))
+    C = impacts["Z"].abs().max()
+    axes.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0)
+    for level in (C, -C):
+        axes.axhline(level, **LEVEL, zorder=0)
+    axes.vlines(impacts["tau0"], -1.3 * C, impacts["Z"], **LEVEL, zorder=0)
+    axes.plot(line["tau0"], line["Z"], color=BLACK, linewidth=1.4, label="$Z_i$")
+    axes.plot(impacts["tau0"], impacts["Z"], "o", color=BLACK, label="impacts")
+    axes.set(xlim=(0.0, line["tau0"].max()), ylim=(-1.3 * C, 1.3 * C), xlabel=r"$\tau_0$", ylabel="$Z_i$")
+    axes.set_yticks([-C, 0.0, C], ["$-C_i$", "$0$", "$C_i$"])
+    axes.set_xticks(impacts["tau0"], [_instant(j) for j in range(len(impacts))])
+    axes.tick_params(labelsize=10, right=False, top=False)
+    axes.yaxis.label.set_rotation(0)
+    return figure
+
+
+def _instant(j: int) -> str:
+    """Symbol of the impact j half periods after the first one shown."""
+    return r"$\theta_i$" if j == 0 else rf"$\theta_i+{'' if j == 1 else j}\pi$"

@@ -1,0 +1,70 @@
+"""Figure 10.4: the slow invariant manifold of the system."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.manifold import branches, draw_branches
+from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.manifold import B_min, rho
+
+SPEC = {
+    "title": "The slow invariant manifold",
+    "caption": "Fig. 10.4. Slow invariant manifold (SIM): stable branch bold solid, unstable branch dashed, as (10.26) "
+        r"divides them; dotted: the level :math:`B_{\min}`.",
+    "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min; the left arm is dashed, "
+        "unstable, the bottom and the right arm are bold, stable.",
+    "equations": [
+        r"B_i^2 = 1 - 2C_i + (1 + \rho^2)\,C_i^2, \qquad \rho = \frac{2(1-\kappa)}{\pi(1+\kappa)} \tag{10.16}",
+        r"B_{\min} = \frac{\rho}{\sqrt{1+\rho^2}}, \qquad C_{\min} = \frac{1}{1+\rho^2} \tag{10.25}",
+    ],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"kappa": "system.kappa", "C_max": "figures.{figure}.C_max"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)",
+                    "values": ["SIM stable", "SIM unstable", "B_min"]},
+                "C": {"compared": "algebra"},
+                "B": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
+
+def compute(kappa: float, C_max: float) -> pd.DataFrame:
+    """The manifold B(C), (10.16), with its branches by (10.26) and the level B_min, (10.25), for 0 <= C <= C_max.
+
+    Returns columns panel, series ("SIM stable", "SIM unstable", "B_min"), C, B.
+
+    Raises:
+        ValueError: C_max does not reach beyond the fold C_min.
+    """
+    level = curve("SIM", "B_min", C=[0.0, C_max], B=B_min(rho(kappa)))
+    return join([*branches("SIM", kappa, C_max), level])
+
+
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """Where the stable branch begins, and the lowest point of the manifold."""
+    stable = select(table, "SIM", "SIM stable")[["C", "B"]]
+    points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
+    return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min dotted."""
+    figure = new_figure(SINGLE_COLUMN, 56.0)
+    axes = figure.add_subplot()
+    draw_branches(axes, table, "SIM")
+    level = select(table, "SIM", "B_min")
+    axes.plot(level["C"], level["B"], **LEVEL)
+    axes.annotate(
+        r"$B_{\min}$", (level["C"].iloc[0], level["B"].iloc[0]), (6, 4), textcoords="offset points", fontsize=10
+    )
+    axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
+    axes.legend(loc="upper center", reverse=True)
+    return figure

@@ -1,0 +1,91 @@
+"""Figure 10.5: stable and unstable regions for the vibro-impact system."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.manifold import C_min, rho
+from vibroimpact.theory.masri_printed import printed_limit
+
+SPEC = {
+    "title": "Stability regions as printed",
+    "caption": r"Fig. 10.5. Stable (shaded) and unstable (white) regions on the plane :math:`(\kappa, C_i)` by "
+        r"(10.26); dotted: :math:`C_{\min}(\kappa)`.",
+    "alt": "Plane of kappa and C, shaded above a rising line, stable, and white below it, unstable. The dotted curve "
+        "C_min of kappa runs inside the shaded region and meets the line at kappa = 1.",
+    "equations": [r"C_i > \frac{4}{4 + \pi\rho} \tag{10.26}"],
+    "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
+    "notebook": "closed_form",
+    "settings": {"C_range": "figures.{figure}.C_range"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ "
+                    "of (10.25)", "values": ["stable", "unstable", "C_min"]},
+                "kappa": {"compared": "algebra"},
+                "C": {"compared": "algebra"},
+            },
+        },
+    },
+}  # fmt: skip
+
+REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
+
+
+def compute(C_range: tuple[float, float]) -> pd.DataFrame:
+    """Stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25), for 0 <= kappa <= 1, C in C_range.
+
+    Returns columns panel, series, kappa, C; the series "stable" and "unstable" are the outlines of the regions.
+
+    Raises:
+        ValueError: C_range does not hold the whole border between the regions.
+    """
+    lowest, highest = C_range
+    kappa = np.linspace(0.0, 1.0, 201)
+    limit = printed_limit(rho(kappa))
+    if not (lowest < limit.min() and limit.max() < highest):
+        raise ValueError(f"C_range: {C_range} does not hold the border {limit.min()} .. {limit.max()}")
+    around = np.append(kappa, [1.0, 0.0])
+    return join(
+        [
+            curve("regions", "stable", kappa=around, C=np.append(limit, [highest, highest])),
+            curve("regions", "unstable", kappa=around, C=np.append(limit, [lowest, lowest])),
+            curve("regions", "C_min", kappa=kappa, C=C_min(rho(kappa))),
+        ]
+    )
+
+
+def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
+    """For evenly spaced kappa: the border of stability, C_min, and the piece of the left arm that is stable."""
+    fold = select(table, "regions", "C_min")["C"].to_numpy()
+    border = select(table, "regions", "stable").iloc[: len(fold)]
+    rows = np.linspace(0, len(fold) - 1, values).astype(int)
+    points = pd.DataFrame({"kappa": border["kappa"].to_numpy(), "border": border["C"].to_numpy(), "C_min": fold})
+    return points.assign(stable_left_arm=points["C_min"] - points["border"]).iloc[rows].reset_index(drop=True)
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: stable shaded, unstable white, C_min dotted."""
+    figure = new_figure(SINGLE_COLUMN, 56.0)
+    axes = figure.add_subplot()
+    for series, colour in REGIONS.items():
+        outline = select(table, "regions", series)
+        axes.fill(outline["kappa"], outline["C"], facecolor=colour, edgecolor=BLACK, linewidth=1.0, zorder=0)
+    fold = select(table, "regions", "C_min")
+    axes.plot(fold["kappa"], fold["C"], **LEVEL)
+    axes.annotate(
+        r"$C_{\min}(\kappa)$",
+        fold[["kappa", "C"]].iloc[len(fold) // 3],
+        (-4, 3),
+        textcoords="offset points",
+        ha="right",
+        fontsize=10,
+    )
+    for name, height, side in (("stable", 0.97, "top"), ("unstable", 0.05, "bottom")):
+        axes.text(0.5, height, name, transform=axes.transAxes, ha="center", va=side)
+    axes.set(xlim=(0.0, 1.0), ylim=(table["C"].min(), table["C"].max()), xlabel=r"$\kappa$", ylabel="$C_i$")
+    return figure

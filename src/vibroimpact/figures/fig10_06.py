@@ -1,0 +1,154 @@
+"""Figure 10.6: fixed points and singular points on the slow invariant manifold."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.fixed_point_table import labelled_points
+from vibroimpact.figures.kit.manifold import branches, draw_branches
+from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.fixed_points.singular_points import singular_points
+
+SPEC = {
+    "title": "Fixed points for equal forces",
+    "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
+        "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
+        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "
+        "arrow after :math:`S_2`: there is one further up the SIM, off the frame. The chapter's verdicts: a unstable, "
+        "b stable, c stable.",
+    "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
+        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
+        "singular points; in row b an arrow points to an S2 beyond the frame.",
+    "own": {
+        "title": "Fixed points of case {case}",
+        "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
+            "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
+            ":math:`S_2` (grey squares), one row per fixed point.",
+        "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
+            "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
+            "row, grey squares S1, S2 the singular points.",
+    },
+    "equations": [
+        r"h_{B_1}^* = h_{\psi_1}^* = h_{B_2}^* = h_{\psi_2}^* = 0 \tag{10.23}",
+        r"h_1(B_1, C_1, B_2, C_2) = 0, \quad h_2(B_1, C_1, B_2, C_2) = 0 \tag{10.24}",
+    ],
+    "method": "manifold in closed form, singular points as real zeros of (10.24)",
+    "notebook": "fixed_points",
+    "case": "figures.{figure}.case",
+    "settings": {"C_max": "figures.{figure}.C_max"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
+                "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection "
+                    'P_i, singular points S_i of (10.24); "beyond" those outside the frame'},
+                "C": {"compared": "roots"},
+                "B": {"compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
+MODULES = (1, 2)
+NAME = {"textcoords": "offset points", "fontsize": 10}
+CLOSE = 0.12
+"""Distance from the fold, as a part of the axis, within which labels need leaders."""
+ROW_HEIGHT, FOOT = 35.0, 7.0
+"""Height in mm of a row of planes, and of the labels below the last row."""
+MARKERS = {
+    "S": {"marker": "s", "color": GREY, "markersize": 5.5, "markeredgecolor": BLACK, "markeredgewidth": 0.4},
+    "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
+}
+"""In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
+
+
+def compute(system, points: pd.DataFrame, C_max) -> pd.DataFrame:
+    """Manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
+
+    Args:
+        points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        C_max: the manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed
+            point lies beyond.
+
+    Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
+    "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
+
+    Raises:
+        ValueError: C_max does not reach beyond the fold of the manifold.
+    """
+    return join(planes(system, labelled_points(points), C_max))
+
+
+def planes(system, points, C_max) -> list[pd.DataFrame]:
+    """The curves of both planes of each labelled point; see `compute`."""
+    ends = np.max([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)], axis=0)
+    if not points:
+        return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
+    return [part for point in points for i in MODULES for part in _plane(system, point, i, ends[i - 1])]
+
+
+def _plane(system, point, module, end):
+    panel = f"{point.label}{module}"
+    C, B = point.C[module - 1], point.B[module - 1]
+    singular = singular_points(system, point, module)
+    inside = singular[:, 0] <= end
+    return [
+        *branches(panel, system.kappa, end),
+        curve(panel, f"P_{module}", C=C, B=B),
+        *(
+            curve(panel, series, C=part[:, 0], B=part[:, 1])
+            for series, part in ((f"S_{module}", singular[inside]), (f"S_{module} beyond", singular[~inside]))
+        ),
+    ]
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i grey squares."""
+    labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
+    figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + FOOT)
+    grid = figure.subplots(len(labels), len(MODULES), sharex="col", sharey="col", squeeze=False)
+    for row, label in zip(grid, labels, strict=True):
+        letter_panel(row[0], label)
+        for axes, module in zip(row, MODULES, strict=True):
+            draw_plane(axes, table, f"{label}{module}")
+    for axes, module in zip(grid[-1], MODULES, strict=True):
+        axes.set_xlabel(f"$C_{module}$")
+    return figure
+
+
+def draw_plane(axes, table: pd.DataFrame, panel: str) -> None:
+    """Draw the plane (C_i, B_i) of one panel."""
+    module = panel[-1]
+    draw_branches(axes, table, panel)
+    stable = select(table, panel, "SIM stable")
+    end, fold = stable.iloc[-1], stable["C"].loc[stable["B"].idxmin()]
+    top = max(end["B"], select(table, panel, "SIM unstable")["B"].iloc[0])
+    # Rounded, because Matplotlib's choice of ticks would change with the last digit of an end such as 2.
+    axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
+    axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
+    shown = {kind: select(table, panel, f"{kind}_{module}") for kind in MARKERS}
+    for kind, marker in MARKERS.items():
+        axes.plot(shown[kind]["C"], shown[kind]["B"], linestyle="none", zorder=3, **marker)
+    names = [(C, B, kind) for kind in MARKERS for C, B in shown[kind][["C", "B"]].to_numpy()]
+    _name(axes, names, module, fold)
+    if len(select(table, panel, f"S_{module} beyond")):
+        # The point lies further up the manifold than the frame reaches.
+        axes.annotate(rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), **NAME, ha="right")
+
+
+def _name(axes, points, module, fold):
+    """Label points (C, B, kind); those close to the fold are labelled above it, side by side, with leaders."""
+    close = sorted(point for point in points if abs(point[0] - fold) < CLOSE * axes.get_xlim()[1])
+    shifts = 16.0 * (np.arange(len(close)) - 0.5 * (len(close) - 1))
+    for (C, B, kind), shift in zip(close, shifts, strict=True):
+        leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 2}
+        offset = {"xytext": (shift, 24), "ha": "center", "arrowprops": leader}
+        axes.annotate(f"${kind}_{module}$", (C, B), **NAME, **offset)
+    for C, B, kind in (point for point in points if point not in close):
+        below = fold < C < 0.8 * axes.get_xlim()[1]
+        rightwards = below or fold > C
+        offset, side = ((5, -9 if below else 2), "left") if rightwards else ((-5, 2), "right")
+        axes.annotate(f"${kind}_{module}$", (C, B), offset, **NAME, ha=side)

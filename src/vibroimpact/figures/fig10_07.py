@@ -1,0 +1,109 @@
+"""Figure 10.7: the theoretical steady-state response of a fixed point."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.kit.fixed_point_table import labelled_point
+from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.theory.response import impact_times, leading_order
+
+SPEC = {
+    "title": "Theoretical response of fixed point (c)",
+    "caption": r"Fig. 10.7. Theoretical steady-state response of fixed point (c) for :math:`\hat f_{10} = {f10_hat}`, "
+        r":math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, :math:`Y_i` black.",
+    "alt": "Two panels over two forcing periods, one for each module: the sine-like U and X in grey, the relative "
+        "displacement W and the zigzag of the ball Y in black.",
+    "own": {
+        "title": "Theoretical response of fixed point ({fixed_point}) of case {case}",
+        "caption": r"Theoretical steady-state response of fixed point ({fixed_point}) of case *{case}*, :math:`\hat "
+            r"f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, "
+            ":math:`Y_i` black.",
+        "alt": "A panel for each module over {periods} forcing periods: the sine-like U and X in grey, the relative "
+            "displacement W and the zigzag of the ball Y in black.",
+    },
+    "equations": [
+        r"U_{i0} = B_i\sin(\tau_0 + \phi_i) \tag{10.9}",
+        r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}",
+    ],
+    "method": "leading order, (10.9) and (10.10), at a fixed point",
+    "notebook": "theoretical_response",
+    "case": "figures.{figure}.case",
+    "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["module 1", "module 2"]},
+                "series": {"values": ["U_1", "X_1", "W_1", "Y_1", "U_2", "X_2", "W_2", "Y_2"]},
+                "tau": {"compared": "roots"},
+                "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), "
+                    "(10.10)", "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
+MODULES = (1, 2)
+COORDINATES = {
+    "U": {"color": GREY, "linestyle": "-", "linewidth": 1.8},
+    "X": {"color": GREY, "linestyle": (0, (3, 1.4)), "linewidth": 1.2},
+    "W": {"color": BLACK, "linestyle": "-", "linewidth": 1.2},
+    "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
+}
+"""U_i and X_i grey, W_i and Y_i black, as in the chapter; within a colour the line style tells them apart."""
+
+
+def compute(system, points: pd.DataFrame, fixed_point: str, periods: float) -> pd.DataFrame:
+    """U_i, X_i, W_i and Y_i of both modules by (10.9), (10.10) over some forcing periods.
+
+    Args:
+        points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        fixed_point: label of the fixed point shown.
+
+    Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The impacts, where W_i and Y_i
+    have their corners, are among the points.
+
+    Raises:
+        ValueError: there is no fixed point of that label, or periods is not above 0.
+    """
+    if not periods > 0:
+        raise ValueError(f"periods: {periods} is not above 0")
+    point = labelled_point(points, fixed_point)
+    end = periods * system.period
+    return join(
+        curve(f"module {module}", f"{name}_{module}", tau=tau, value=getattr(response, name)[:, module - 1])
+        for module, first in zip(MODULES, impact_times(system, point), strict=True)
+        for tau in [_times(first, system.period, end)]
+        for response in [leading_order(system, point, tau)]
+        for name in COORDINATES
+    )
+
+
+def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
+    """Evenly spaced times in [0, end] and the impacts among them, each half a period after the one before."""
+    impacts = np.arange(first - period, end, 0.5 * period)
+    return np.union1d(np.linspace(0.0, end, points), impacts[impacts >= 0])
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: the first module above the second."""
+    figure = new_figure(SINGLE_COLUMN, 92.0)
+    grid = figure.subplots(len(MODULES), 1, sharex=True, sharey=True)
+    for axes, module in zip(grid, MODULES, strict=True):
+        draw_response(axes, table, module)
+    grid[-1].set_xlabel(r"$\tau$")
+    return figure
+
+
+def draw_response(axes, table: pd.DataFrame, module: int) -> None:
+    """Draw the four coordinates of one module over tau, the walls W_i = 1 and W_i = -1 as thin lines."""
+    for wall in (-1.0, 1.0):
+        axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
+    for name, style in COORDINATES.items():
+        line = select(table, f"module {module}", f"{name}_{module}")
+        axes.plot(line["tau"], line["value"], **style, label=f"${name}_{module}$")
+    axes.set_xlim(line["tau"].min(), line["tau"].max())
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(COORDINATES))

@@ -1,0 +1,39 @@
+"""Figure 10.8: the simulated motion of the second module."""
+
+from vibroimpact.figures.kit.simulated import compute, draw
+
+SPEC = {
+    "title": "Simulated steady state for equal forces",
+    "caption": r"Fig. 10.8. Simulated steady state for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
+        "{f20_hat}`: a, displacement of the second box; b, relative displacement of its ball.",
+    "alt": "Two panels over some forcing periods: a, the displacement X2 of the second box, close to a sine; b, the "
+        "relative displacement W2 of its ball, which swings from wall to wall with a corner at each impact.",
+    "own": {
+        "title": "Simulated motion of case {case}",
+        "caption": r"Simulated motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
+            "{f20_hat}`: a, displacement of the second box; b, relative displacement of its ball.",
+        "alt": "Two panels over the window of the simulation of case {case}: a, the displacement X2 of the second box; "
+            "b, the relative displacement W2 of its ball between the walls, with a corner at each impact.",
+    },
+    "equations": "companion_10_11",
+    "method": "motion of the second module as simulated, with its events as corners",
+    "notebook": "simulation",
+    "case": "figures.{figure}.case",
+    "inputs": {"samples": "results/simulations/{case}/samples.csv", "events": "results/simulations/{case}/events.csv"},
+    "notebook_settings": {"observation": "regimes.observation"},
+    "notebook_inputs": {"points": "results/fixed_points/{case}.csv",
+        "summary": "results/simulations/{case}/summary.json"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"values": ["a", "b"]},
+                "series": {"values": ["X_2", "W_2"]},
+                "tau": {"compared": "trajectory"},
+                "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among "
+                    "the points", "unit": "dimensionless", "compared": "trajectory"},
+            },
+        },
+    },
+}  # fmt: skip
+
+__all__ = ["compute", "draw"]

@@ -1,0 +1,26 @@
+"""Figure 10.9: fixed points and singular points for unequal forces, drawn as figure 10.6."""
+
+from vibroimpact.figures.fig10_06 import compute, draw
+
+SPEC = {
+    "title": "Fixed points for unequal forces",
+    "caption": r"Fig. 10.9. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, drawn "
+        "as in Fig. 10.6: the branch that (10.26) calls stable bold solid, the other dashed. The chapter's verdicts: a "
+        "unstable, b unstable, c stable.",
+    "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, as in figure 10.6; most circles have moved down "
+        "towards the fold of the manifold.",
+    "own": "fig10_06",
+    "equations": "fig10_06",
+    "method": "manifold in closed form, singular points as real zeros of (10.24)",
+    "notebook": "fixed_points",
+    "case": "figures.{figure}.case",
+    "settings": {"C_max": "figures.{figure}.C_max"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": "fig10_06",
+        },
+    },
+}  # fmt: skip
+
+__all__ = ["compute", "draw"]

@@ -1,0 +1,72 @@
+"""Figure 10.10: a fixed point on both planes of the slow invariant manifold, and its theoretical response."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures import fig10_06, fig10_07
+from vibroimpact.figures.kit.fixed_point_table import labelled_point
+from vibroimpact.figures.kit.style import SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.tables import join
+
+SPEC = {
+    "title": "The only fixed point for weak forces, and its response",
+    "caption": r"Fig. 10.10. The only fixed point for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` "
+        "on both planes, and its theoretical response: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, :math:`Y_i` black.",
+    "alt": "Above, two planes with the manifold and circles P1, P2 on its dashed left arms; below, the theoretical "
+        "response of both modules over two forcing periods, grey U and X, black W and Y.",
+    "own": "fig10_07",
+    "equations": "fig10_07",
+    "method": "leading order, (10.9) and (10.10), at a fixed point",
+    "notebook": "theoretical_response",
+    "case": "figures.{figure}.case",
+    "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods",
+        "C_max": "figures.{figure}.C_max"},
+    "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {"meaning": "label of the fixed point and module; of its response the module"},
+                "series": {"meaning": "as in figures 10.6 and 10.7"},
+                "C": {"compared": "roots"},
+                "B": {"compared": "roots"},
+                "tau": {"compared": "roots"},
+                "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), "
+                    "(10.10)", "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
+
+def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_max) -> pd.DataFrame:
+    """The planes of figure 10.6 and the response of figure 10.7 for one fixed point.
+
+    Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
+
+    Raises:
+        ValueError: as those two.
+    """
+    point = labelled_point(points, fixed_point)
+    return join(
+        [
+            *fig10_06.planes(system, [point], C_max),
+            fig10_07.compute(system, points, fixed_point, periods),
+        ]
+    )
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: the planes side by side, the responses of both modules below."""
+    figure = new_figure(SINGLE_COLUMN, 132.0)
+    panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
+    label = table["panel"].iloc[0][:-1]
+    for module in fig10_06.MODULES:
+        fig10_06.draw_plane(panels[module], table, f"{label}{module}")
+        panels[module].set_xlabel(f"$C_{module}$")
+        fig10_07.draw_response(panels[f"module {module}"], table, module)
+    panels["module 1"].sharex(panels["module 2"])
+    panels["module 1"].sharey(panels["module 2"])
+    panels["module 1"].tick_params(labelbottom=False)
+    panels["module 2"].set_xlabel(r"$\tau$")
+    return figure

@@ -1,0 +1,173 @@
+"""Machines in kilograms, newtons and metres: how far they swing over the frequency, and how a box and its ball move."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.absorbers.tuning import compared
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.system import PhysicalSystem
+
+SPEC = {
+    "title": "Machines in kilograms, newtons and metres",
+    "caption": "Two machines on springs, in SI units. a: the largest displacement of the box that swings more over the "
+        "frequency, from rest, without balls, with balls at several clearances :math:`L`, and with the best linear "
+        "absorbers of the mass of the balls. b: box 1 and its ball over the time, from rest.",
+    "alt": "Two panels. a: largest displacement in millimetres over frequency in hertz: a tall resonance without "
+        "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: box "
+        "1 swings up from rest until its wall strikes the ball, which then flies from wall to wall; dots mark the "
+        "impacts.",
+    "own": {
+        "title": "Machines in kilograms, newtons and metres",
+        "caption": "Two machines on springs, in SI units. a: the largest displacement over the frequency, from rest, "
+            "of linear systems and with balls at several clearances :math:`L`. b: box 1 and its ball over the time, "
+            "from rest.",
+        "alt": "Two panels: the largest displacement in millimetres over the frequency in hertz, a line for each "
+            "linear system and each clearance; and the displacements of box 1 and of its ball over the time, with dots "
+            "at impacts.",
+    },
+    "equations": [r"\tau = \omega_{10} t, \quad \omega_{10}^2 = k_1/M, \quad X_i = x_i/L, \quad \varepsilon = m/M, "
+        r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
+    "method": "direct integration of (10.1) from rest; linear systems in closed form",
+    "notebook": "physical_units",
+    "settings": {"plant": "figures.{figure}.plant", "clearances": "figures.{figure}.clearances",
+        "frequencies": "figures.{figure}.frequencies", "cycles": "figures.{figure}.cycles",
+        "settle": "figures.{figure}.settle", "shown": "figures.{figure}.shown"},
+    "tables": {
+        "csv": {
+            "columns": {
+                "panel": {},
+                "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in "
+                    "panel b", "unit": "text"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
+                    "compared": "algebra"},
+                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
+                    "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
+                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+                "place": {"meaning": "displacement $x_1$ of the box or $y_1$ of the ball", "unit": "millimetres",
+                    "compared": "trajectory"},
+            },
+        },
+        "summary": {
+            "file": "results/figures/machines.summary.csv",
+            "about": "The machines at each clearance, at the frequency at which the boxes swing most.",
+            "columns": {
+                "L": {"meaning": "clearance $L$", "unit": "metres"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz"},
+                "power": {"meaning": "mean power of the forces", "unit": "watts"},
+                "share": {"meaning": "what impacts take of it", "unit": "share"},
+                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres"},
+                "force": {"meaning": "$F_{10}$ that the clearance suits as the best of them suits the force of the "
+                    "machines", "unit": "newtons"},
+            },
+        },
+    },
+}  # fmt: skip
+
+MM = 1000.0
+"""Millimetres in a metre."""
+LINES = {
+    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
+    "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
+}
+MARKERS = "o^sDvP"
+WALLS = "ball at a wall"
+MOTION = {
+    "box": {"color": GREY, "linewidth": 1.6},
+    "ball": {"color": BLACK, "linewidth": 0.7},
+    WALLS: {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4},
+}
+FINE, PER_CYCLE = 301, 30
+
+
+def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
+    """Largest displacements of the boxes from rest, at clearances and of linear systems, and a motion in time.
+
+    Args:
+        plant: arguments of PhysicalSystem but for L, omega1 and omega2, in SI units.
+        clearances: L [m]. frequencies: range [Hz] and number of values.
+        cycles, settle: forcing periods that are simulated, and of these left out.
+        shown: clearance L [m], frequency [Hz] and cycles of the motion.
+
+    Returns "csv": columns panel ("response": series "without balls", "best absorbers" or the clearance as "L = 5 mm",
+    frequency [Hz], swing [mm]; "motion": series "box", "ball", "ball at a wall", time [s], place [mm]). "summary": at
+    each clearance L [m] the worst frequency [Hz], there swing [mm], power [W], the share of it that impacts take, and
+    the force F10 [N] that it suits as the best suits that of the plant: a clearance counts over the force alone.
+    """
+    hertz = np.linspace(*frequencies["range"], frequencies["values"])
+    curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
+    rows = []
+    for L in clearances:
+        machines = [_machines(plant, L, one) for one in hertz]
+        runs = ensemble([one.dimensionless() for one in machines], np.zeros(8), cycles, settle=settle, energy=True)
+        swing = MM * L * runs["largest"].max(axis=1)
+        curves.append(curve("response", f"L = {MM * L:g} mm", frequency=hertz, swing=swing))
+        worst = int(swing.argmax())
+        rows.append(_at_worst(machines[worst], runs["energy"][worst], cycles - settle) | {"swing": swing[worst]})
+    summary = pd.DataFrame(rows)
+    summary.insert(0, "L", clearances)
+    summary["force"] = plant["F10"] * summary["L"] / summary["L"][summary["swing"].idxmin()]
+    machine = _machines(plant, shown["L"], shown["frequency"])
+    return {"csv": join([*curves, *_motion(machine, shown["cycles"])]), "summary": summary}
+
+
+def _machines(plant, L, hertz):
+    return PhysicalSystem(**plant, L=L, omega1=2 * np.pi * hertz, omega2=2 * np.pi * hertz)
+
+
+def _linear(machine, band):
+    """Curves of the linear systems over the band [Hz]; what is dimensionless does not depend on L but for the unit."""
+    unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
+    linear = compared(machine.dimensionless(), tuple(band / unit))
+    for name in LINES:
+        swing = MM * machine.L * linear[name].amplitudes(fine / unit).max(axis=1)
+        yield curve("response", name, frequency=fine, swing=swing)
+
+
+def _at_worst(machine, energy, cycles):
+    """Frequency [Hz], the power of the forces [W] and the share of it that impacts take."""
+    joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
+    work, impacts = energy["work"].sum(), energy["impacts"].sum()
+    return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
+
+
+def _motion(machine, cycles):
+    """Curves of box 1 and its ball from rest."""
+    system = machine.dimensionless()
+    tau = np.arange(cycles * PER_CYCLE) / PER_CYCLE * system.period
+    run = simulate(system, np.zeros(8), cycles, sample_times=tau)
+    hits = run.events[run.events["module"] == 1]
+    unit, times = MM * machine.L, np.concatenate([tau, hits["tau"]])
+    order = np.argsort(times, kind="stable")
+    ball = np.concatenate([run.samples[:, 1], hits["state"][:, 1]])
+    yield curve("motion", "box", time=tau / machine.omega10, place=unit * run.samples[:, 0])
+    yield curve("motion", "ball", time=times[order] / machine.omega10, place=unit * ball[order])
+    yield curve("motion", WALLS, time=hits["tau"] / machine.omega10, place=unit * hits["state"][:, 1])
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """Draw the table "csv" of `compute`: swings over the frequency, a motion over the time."""
+    table = tables["csv"]
+    figure = new_figure(DOUBLE_COLUMN, 74.0)
+    response, motion = figure.subplots(1, 2)
+    for name, look in LINES.items():
+        line = select(table, "response", name)
+        response.plot(line["frequency"], line["swing"], label=name, **look)
+    balls = [name for name in table[table["panel"] == "response"]["series"].unique() if name not in LINES]
+    for name, marker in zip(balls, MARKERS, strict=False):
+        line = select(table, "response", name)
+        look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
+        response.plot(line["frequency"], line["swing"], label=f"balls, ${name[:-3]}$ mm", **look)
+    response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm", ylim=(0.0, None))
+    for name, look in MOTION.items():
+        line = select(table, "motion", name)
+        motion.plot(line["time"], line["place"], label=name, **look)
+    motion.set(xlabel="time, s", ylabel="displacement, mm")
+    for axes, letter, columns in ((response, "a", 2), (motion, "b", 3)):
+        letter_panel(axes, letter)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns, fontsize=7, frameon=False)
+    return figure

@@ -1,0 +1,110 @@
+"""The SPEC of every figure, read without importing any of them: by the standard library alone.
+
+A SPEC is a literal with these entries.
+
+- title, caption, alt, equations: what is written of the figure; own: the same words for a figure of the config that is
+  drawn likewise.
+- method: how it is computed. notebook: what draws it, if a notebook does; made_by: a rule of its own, if it has one.
+- case: path in the config to the name of a case, whose System is the argument `system` of `compute`, if it has one;
+  systems: those of all cases are its argument `systems`.
+- settings: path in the config by argument. inputs: path of a table by argument. {figure} and {case} are filled in.
+- notebook_settings, notebook_inputs: the same for what the notebook reads besides. needs: further paths in the config
+  without which the figure is not made.
+- tables: by name the file, what it is about, and its columns: meaning, unit, values, how the figure check compares them
+  (kinds of figure_check/tolerances.yaml, by series where they differ), infinite if they may be. "csv" is plotted.
+
+Equations, columns or own words may be the name of a figure that has the same. A column may stand for several, "C1, C2".
+"""
+
+import ast
+from pathlib import Path
+
+FOLDER = Path(__file__).parent
+LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
+LIKE |= {"physical_units": "machines"}
+"""The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
+
+
+def specs(folder=FOLDER) -> dict[str, dict]:
+    """SPEC by figure, of all modules in a folder that have one."""
+    found = {}
+    for path in sorted(Path(folder).glob("*.py")):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
+                found[path.stem] = ast.literal_eval(node.value)
+    for figure, spec in found.items():
+        spec["own"] = _shared(spec.get("own", {}), lambda name: found[name]["own"])
+        spec["equations"] = _shared(spec.get("equations", []), lambda name: found[name]["equations"])
+        for name, table in spec["tables"].items():
+            table["columns"] = _shared(
+                table["columns"], lambda figure, name=name: found[figure]["tables"][name]["columns"]
+            )
+            table.setdefault("about", f"{spec['title']}.")
+            table.setdefault("file", f"results/figures/{figure}.csv")
+    return found
+
+
+def _shared(entry, of):
+    return of(entry) if isinstance(entry, str) else entry
+
+
+def drawn_by(figure: str, scene: dict, known: dict) -> str:
+    """The module that draws a figure of the config: its own, or that of its notebook's first figure."""
+    if figure in known:
+        return figure
+    return "fig10_10" if "C_max" in scene and scene["notebook"] == "theoretical_response" else LIKE[scene["notebook"]]
+
+
+def spec_of(figure: str, scene: dict, known: dict) -> dict:
+    """The SPEC of a figure of the config; where that is the one of another, with its own files and words."""
+    module = drawn_by(figure, scene, known)
+    if module == figure:
+        return known[figure]
+    tables = {
+        name: table | {"file": table["file"].replace(f"/{module}.", f"/{figure}.")}
+        for name, table in known[module]["tables"].items()
+    }
+    return known[module] | known[module]["own"] | {"tables": tables}
+
+
+def request(figure: str, spec: dict, config: dict) -> dict:
+    """What a figure is made from: its case, settings and their paths in the config, inputs; with the notebook's share.
+
+    Raises:
+        LookupError: the config lacks one of these, so that the figure is not made.
+    """
+    known = {"figure": figure}
+    if "case" in spec:
+        known["case"] = at(config, spec["case"].format(**known))
+    paths = spec.get("settings", {}) | spec.get("notebook_settings", {})
+    paths = {name: path.format(**known) for name, path in paths.items()}
+    inputs = spec.get("inputs", {}) | spec.get("notebook_inputs", {})
+    inputs = {name: path.format(**known) for name, path in inputs.items()}
+    for path in inputs.values():
+        if path.startswith("results/sweeps/"):
+            at(config, f"sweeps.{Path(path).stem}")
+    for path in spec.get("needs", []):
+        at(config, path.format(**known))
+    settings = {name: at(config, path) for name, path in paths.items()}
+    return {"case": known.get("case"), "paths": paths, "settings": settings, "inputs": inputs}
+
+
+def at(config: dict, path: str):
+    """The entry of a config at "section.key".
+
+    Raises:
+        LookupError: there is none.
+    """
+    for key in path.split("."):
+        config = config[key]
+    return config
+
+
+def columns(table: dict, shared: dict) -> dict[str, dict]:
+    """Columns of a table one by one, with meaning and unit of names that mean the same in every table."""
+    return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
+
+
+def each(listed: dict) -> dict:
+    """Entries by single name, of a list in which "C1, C2" stands for both."""
+    return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}

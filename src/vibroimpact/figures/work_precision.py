@@ -1,0 +1,146 @@
+"""The work-precision chart: error against time per forcing cycle, one column per problem, one curve per method."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from vibroimpact.figures.kit.method_looks import looks
+from vibroimpact.figures.kit.style import DOUBLE_COLUMN, GREY, LIGHT_GREY, letter_panel, new_figure, styled
+
+SPEC = {
+    "title": "Error against time, method by method",
+    "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
+        "forcing cycle, for every method and setting on three test problems: the nearer to the lower left, the better. "
+        "Hollow markers: impacts missed or spurious. In the lane at the right: runs that failed, with their reason.",
+    "alt": "Six panels, one column per test problem, with the error of the final state and of the impact times against "
+        "the time per forcing cycle, both on logarithmic axes, one marked line per method. Runs that failed stand in a "
+        "lane at the right, numbered.",
+    "method": "error against a reference of extended precision, run time as measured",
+    "made_by": "work_precision",
+    "tables": {
+        "csv": {
+            "file": "results/accuracy/work_precision.csv",
+            "columns": {
+                "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},
+                "method, family, setting, error_state, error_time, missed, spurious": {},
+                "seconds_per_cycle": {"meaning": "run time per forcing cycle, the shortest of several runs",
+                    "unit": "seconds"},
+                "steps": {},
+                "evaluations": {"meaning": "evaluations of the right-hand side, 0 where the method does not count "
+                    "them", "unit": "number"},
+                "outcome": {"meaning": "finished; refused: an error; unfinished: out of steps; unavailable",
+                    "unit": "text", "values": ["finished", "refused", "unfinished", "unavailable"]},
+                "reason": {"meaning": "why there is no result, or what the method itself calls undecidable",
+                    "unit": "text"},
+                "order": {"meaning": "order of convergence: slope of log error over log step, for methods that have "
+                    "one", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
+ERRORS = {"error_state": "error of the final state", "error_time": r"error of impact times [$\tau$]"}
+SMALLEST, LARGEST = 1e-16, 30.0
+LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4
+"""Errors are drawn between SMALLEST and LARGEST; beyond, around LANE, are the runs that failed."""
+
+
+@styled
+def draw(table: pd.DataFrame, footer: str) -> Figure:
+    """Draw the rows of accuracy.work_precision.measure.
+
+    Filled markers: the impacts are those of the reference; hollow: some are missed or spurious. In the lane at the
+    right, at their cost: runs that gave no result, each with a number that the list below the panels explains.
+
+    Args:
+        table: columns problem, method, setting, error_state, error_time, missed, spurious, seconds_per_cycle, outcome,
+            reason, order.
+        footer: versions, printed below.
+    """
+    figure = new_figure(DOUBLE_COLUMN, 170.0)
+    problems, look = list(dict.fromkeys(table["problem"])), looks(table["method"])
+    failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
+    numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.34))
+    grid = upper.subplots(len(ERRORS), len(problems), sharex=True, sharey=True, squeeze=False)
+    for row, (error, label) in enumerate(ERRORS.items()):
+        for column, problem in enumerate(problems):
+            axes = grid[row, column]
+            here = table[table["problem"] == problem]
+            _panel(axes, here, error, look)
+            _lane(axes, here, look, numbers)
+            axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel=label)
+            axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
+            axes.minorticks_off()
+            axes.tick_params(labelbottom=True)
+            _better(axes)
+            letter_panel(axes, "abcdef"[row * len(problems) + column])
+            axes.set_title(problem if row == 0 else "", pad=3)
+        grid[row, 0].set_ylabel("time per cycle [s]")
+    _legend(lower, table, look)
+    _notes(lower, numbers, table, footer)
+    return figure
+
+
+def _panel(axes, here, error, look):
+    """The curves of one problem."""
+    for method, style in look.items():
+        rows = here[(here["method"] == method) & np.isfinite(here[error]) & (here["outcome"] == "finished")]
+        x, y = rows[error].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
+        axes.plot(x, y, linewidth=0.8, **{**style, "marker": ""})
+        whole = (rows["missed"] + rows["spurious"]) == 0
+        size = 9.0 if style["marker"] == "*" else 4.0
+        for chosen, fill in ((whole, style["color"]), (~whole, "white")):
+            axes.plot(
+                x[chosen], y[chosen], linestyle="", markersize=size, markerfacecolor=fill, markeredgewidth=0.7, **style
+            )
+
+
+def _better(axes):
+    """An arrow towards less error for less time, where no method is."""
+    arrow = {"arrowstyle": "->", "color": GREY, "linewidth": 0.8}
+    place = {"xycoords": "axes fraction", "textcoords": "axes fraction", "fontsize": 7, "color": GREY}
+    axes.annotate("better", (0.05, 0.38), (0.14, 0.5), arrowprops=arrow, **place)
+
+
+def _lane(axes, here, look, numbers):
+    """The margin for runs without a result."""
+    axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
+    failed = here[(here["outcome"] != "finished") & here["seconds_per_cycle"].notna()]
+    labelled = set()
+    for row in failed.sort_values("seconds_per_cycle", ascending=False).itertuples():  # labels above
+        number = numbers[_failure(row)]
+        x = LANE * LANE_STEP ** (number % 3 - 1)  # side by side, so that equal costs do not cover each other
+        axes.plot(x, row.seconds_per_cycle, markersize=4.0, **look[row.method])
+        if number not in labelled:
+            place = {"xytext": (0, 5), "textcoords": "offset points", "ha": "center"}
+            axes.annotate(number, (x, row.seconds_per_cycle), fontsize=6.5, **place)
+            labelled.add(number)
+
+
+def _legend(figure, table, look):
+    orders = table.groupby("method", sort=False)["order"].median()
+    handles = []
+    for method, style in look.items():
+        order = orders.get(method)
+        label = method if order is None or np.isnan(order) else f"{method} (order {order:.1f})"
+        handles.append(Line2D([], [], linewidth=0.8, label=label, **style))
+    hollow = Line2D([], [], linestyle="", marker="o", markerfacecolor="white", color=GREY)
+    hollow.set_label("hollow: impacts missed or spurious")
+    figure.legend(handles=[*handles, hollow], loc="upper center", ncols=4, fontsize=7.5)
+
+
+def _notes(figure, numbers, table, footer):
+    absent = table[table["outcome"] == "unavailable"]
+    lines = [f"{n}  {method}: {reason}" for (method, reason), n in numbers.items()]
+    for row in absent.drop_duplicates("method").itertuples():
+        lines.append(f"{row.method}: unavailable ({row.reason})")
+    title = ["grey lane: no result"] if lines else []
+    figure.text(0.02, 0.5, "\n".join([*title, *lines]), fontsize=6.5, va="top", linespacing=1.25)
+    figure.text(0.02, 0.02, footer, fontsize=6.5, color=GREY, va="bottom")
+
+
+def _failure(row):
+    """What a failed run is listed under: method and reason, numbers in the reason left out."""
+    return row.method, row.reason.split(" at tau")[0].split(" reach ")[0]

@@ -1,0 +1,67 @@
+"""Machines in SI units: closed forms in SI, and clearance over force."""
+
+import numpy as np
+import pytest
+import yaml
+
+from pipeline_trees import ROOT
+from vibroimpact.figures import machines
+from vibroimpact.figures.kit.tables import select
+
+SCENE = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))["figures"]["machines"]
+SETTINGS = {name: SCENE[name] for name in ("plant", "clearances", "shown")}
+SETTINGS |= {"frequencies": SCENE["frequencies"] | {"values": 5}, "cycles": 250, "settle": 150}
+
+
+@pytest.fixture(scope="module")
+def made():
+    return machines.compute(**SETTINGS)
+
+
+def velocities(p, hertz):
+    """Complex amplitudes [m/s] of the boxes without balls, by (10.1) as it is printed, under forces of phase 0."""
+    omega = 2 * np.pi * hertz
+    own = [p[f"k{i}"] + p["k12"] + 1j * omega * (p[f"c{i}"] + p["c12"]) - p["M"] * omega**2 for i in (1, 2)]
+    link = -p["k12"] - 1j * omega * p["c12"]
+    return 1j * omega * np.linalg.solve([[own[0], link], [link, own[1]]], [p["F10"], p["F20"]])
+
+
+def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_those_of_the_linear_machines(made):
+    line = select(made["csv"], "response", "without balls")
+    for hertz, swing in line[["frequency", "swing"]].to_numpy()[::50]:
+        moving = velocities(SCENE["plant"], hertz)
+        assert swing == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * hertz), rel=1e-9)
+    idle = made["summary"].loc[0.05]
+    moving = velocities(SCENE["plant"], idle["frequency"])
+    assert idle["power"] == pytest.approx(
+        0.5 * (moving.real @ [SCENE["plant"][name] for name in ("F10", "F20")]), rel=1e-3
+    )
+    assert idle["swing"] == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * idle["frequency"]), rel=1e-3)
+    assert idle["share"] == 0
+
+
+def test_twice_the_force_and_twice_the_clearance_swing_twice_as_far(made):
+    plant = SCENE["plant"] | {name: 2 * SCENE["plant"][name] for name in ("F10", "F20")}
+    wider = SETTINGS | {"plant": plant, "clearances": [2 * L for L in SCENE["clearances"]]}
+    found = machines.compute(**wider)["summary"]
+    scale = {"frequency": 1, "swing": 2, "power": 4, "share": 1, "force": 2}
+    for name, factor in scale.items():
+        np.testing.assert_allclose(found[name], factor * made["summary"][name], rtol=1e-9)
+
+
+def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
+    box, ball, hits = (select(made["csv"], "motion", name) for name in machines.MOTION)
+    at = np.interp(hits["time"], box["time"], box["place"])
+    straight = np.abs(np.diff(box["place"], 2)).max() / 4  # bounds the error of a line between samples, kinks included
+    np.testing.assert_allclose(np.abs(at - hits["place"]), 1000 * SCENE["shown"]["L"], rtol=0, atol=straight)
+    assert straight < 0.2
+    assert set(zip(hits["time"], hits["place"], strict=True)) <= set(zip(ball["time"], ball["place"], strict=True))
+    assert len(hits) > 20
+
+
+def test_the_figure_shows_every_clearance(made):
+    response, motion = machines.draw(made["csv"]).axes
+    assert [line.get_label() for line in response.lines][2:] == [
+        f"balls, $L = {1000 * L:g}$ mm" for L in SCENE["clearances"]
+    ]
+    assert len(motion.lines) == len(machines.MOTION)
