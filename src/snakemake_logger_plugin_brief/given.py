@@ -10,7 +10,7 @@ from pathlib import Path
 
 from snakemake_interface_logger_plugins.settings import LogHandlerSettingsBase
 
-READER = Path(__file__).parents[1] / "vibroimpact_pipeline/config/text.py"
+READER = Path(__file__).parents[1] / "vibroimpact_pipeline/config/reading.py"
 """Run and not imported: rules that lie elsewhere bring a library of their own."""
 ENTRY = re.compile(r"[a-zA-Z_][\w-]*\w=.*", re.DOTALL)
 """An override that Snakemake takes."""
@@ -38,22 +38,17 @@ def refusals(arguments: list[str]) -> Iterator[str]:
     given, _ = parser.parse_known_args(arguments)
     if given.mode != "default":
         return
-    reader = runpy.run_path(str(READER)) if given.config or given.configfile else {}
+    reader = runpy.run_path(str(READER)) if given.configfile else {}
     for file in given.configfile:
         try:
             reader["read"](file)
         except ValueError as error:
-            yield f"{file}: {error}"
+            yield str(error)
     for entry in given.config:
         name, _, value = entry.partition("=")
         if not ENTRY.fullmatch(entry):
             target = "" if "=" in entry else "; targets come after --"
             yield f"--config: {entry[:60]!r} is no override: write {meant(name, value)}{target}"
-        elif "&" in value:  # names a value for aliases; the messages about all else say more once it is read
-            try:
-                reader["parse_value"](value)
-            except ValueError as error:
-                yield f"--config: {name}: {error}"
 
 
 def meant(name: str, value: str) -> str:

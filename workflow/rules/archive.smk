@@ -11,7 +11,8 @@ COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT) or "no-commit"
 
 def archived(wildcards):
     """All results of the default build; asked for only where an archive is to be made."""
-    overrides = [name for name, entries in CONFIG_ORIGINS.items() if entries and name != from_start(CONFIG_FILE)]
+    overrides = [str(file) for file in CONFIG_FILES if file != CONFIG_FILE]
+    overrides += ["--config"] * bool(workflow.config_settings.config)
     if found := obstacles(ROOT, Path.cwd(), overrides):
         refuse(found)
     return rules.all.input

@@ -1,10 +1,8 @@
 # What every stage needs: settled surroundings, a valid config, fingerprints of code.
 
-from snakemake_logger_plugin_brief.results import from_start
-from vibroimpact_pipeline import config as config_checks
+from snakemake.utils import update_config
 from vibroimpact_pipeline.chapter import departures
-from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
-from vibroimpact_pipeline.config.labels import remembered
+from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, read
 from vibroimpact_pipeline.data_dictionary import compared
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
@@ -18,38 +16,29 @@ SOURCES = sources()
 demand(prepare, ROOT, SOURCES)
 
 
-def config_origins():
-    """What sets entries of the config, by the name under which to complain about it; a later one overrides."""
+def config_files():
+    """The files that the config is from, a later one over those before, each of which can be read."""
     given = workflow.config_settings
-    files = [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
-    if IS_MODULE:
-        return in_file(CONFIG_FILE) | as_typed(f"config of module {__name__}", config)
-    return {name: entries for file in files for name, entries in in_file(file).items()} | as_typed(
-        "--config", dict(given.config)
-    )
+    files = [CONFIG_FILE] if IS_MODULE else [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
+    for file in files:
+        valid(read, file)
+    return files
 
 
-def in_file(file):
-    name = from_start(file)
+def valid(work, *arguments):
+    """What reads or checks the config, or its problems in lines, and no build."""
     try:
-        return {name: config_checks.read(file)}
-    except ValueError as error:
-        refuse([f"{name}: {error}"])
+        return work(*arguments)
+    except ConfigError as error:
+        refuse(str(error).splitlines())
 
 
-def as_typed(origin, entries):
-    try:
-        return {origin: config_checks.typed(entries)}
-    except ValueError as error:
-        refuse([f"{origin}: {error}"])
-
-
-def checked_config(origins):
-    """The config that its origins make together, if all is right with it."""
-    made = config_checks.combined(origins.values())
-    labels = remembered(".cache/labels.json", SOURCES.fingerprint(modules=LABELLED_BY))
-    if found := config_checks.problems(made, labels):
-        refuse(config_checks.complaints(found, origins))
+def checked_config(given):
+    """The config as Snakemake has merged it, if all is right with it; a module is given what differs from the file."""
+    origin = f"config of module {__name__}" if IS_MODULE else "--config"
+    whole = read(CONFIG_FILE) if IS_MODULE else {}
+    update_config(whole, given)
+    made = valid(checked, whole, origin, CONFIG_FILES)
     return made | {"figure_texts": figure_texts(ROOT, made)}
 
 
@@ -59,7 +48,7 @@ def code(*files, modules=()):
 
 
 def system_of(case):
-    return config_checks.case_parameters(config, case)
+    return case_parameters(config, case)
 
 
 def all_systems():
@@ -77,7 +66,7 @@ def in_report(outputs, category, kinds=("svg", "csv")):
     return outputs | marked
 
 
-CONFIG_ORIGINS = config_origins()
+CONFIG_FILES = config_files()
 
 
 wildcard_constraints:

@@ -7,7 +7,7 @@ import pandas as pd
 
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import ROOT
-from vibroimpact_pipeline.config import case_parameters, checked
+from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, read
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.sources import Sources
 
@@ -53,7 +53,7 @@ if __name__ == "__main__":
     arguments = parser.parse_args()
     prepare(ROOT, Sources())  # Numba reads the environment when it is imported, below
     try:
-        config = checked(arguments.config)
-    except ValueError as error:
+        config = checked(read(arguments.config), files=[arguments.config])
+    except ConfigError as error:
         parser.exit(1, f"{error}\n")
     main(config, arguments.output)

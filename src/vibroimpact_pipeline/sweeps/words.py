@@ -1,6 +1,6 @@
 """A sweep in words."""
 
-from vibroimpact_pipeline.config.text import show
+from vibroimpact_pipeline.config.reading import shown
 
 UNITS = ((1.0, "core hours"), (60.0, "core minutes"), (3600.0, "core seconds"))
 """So many of each are an hour."""
@@ -21,7 +21,7 @@ def axis_words(axis: dict) -> str:
     together = ", ".join(axis["along"])
     for stated in ("listed", "tuples"):
         if stated in axis:
-            return f"{together}: {show(axis[stated])}"
+            return f"{together}: {shown(axis[stated])}"
     low, high = axis["range"]
     if "cells" in axis:
         return f"{together}: centres of {axis['cells']} cells from {low:g} to {high:g}"
