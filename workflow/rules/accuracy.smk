@@ -1,7 +1,8 @@
 # How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
-# `accuracy: {full: true}` in the config repeats every timing for longer, and tries every method on every stress test.
+# `accuracy: {effort: full}` in the config repeats every timing for longer, and tries every method on every stress test.
 
 ACCURACY = config["accuracy"]
+FULL = ACCURACY["effort"] == "full"
 # Without a number of cores nothing is run: a summary, a graph, the report of Snakemake.
 ALL_CORES = workflow.resource_settings.cores or 1
 
@@ -12,8 +13,8 @@ rule work_precision:
     params:
         figure="work_precision",
         problems={name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()},
-        seconds=ACCURACY["full_seconds" if ACCURACY["full"] else "short_seconds"],
-        short=not ACCURACY["full"],
+        seconds=ACCURACY["full_seconds" if FULL else "short_seconds"],
+        short=not FULL,
         config={"accuracy": ACCURACY, "cases": all_systems()},
         code=FIGURES,
     threads: ALL_CORES
@@ -30,8 +31,8 @@ rule hazards:
         **in_report(figure_files("results/accuracy/hazards", SPECS["hazards"]), "Accuracy and speed"),
     params:
         figure="hazards",
-        full=ACCURACY["full"],
-        config={"accuracy.full": ACCURACY["full"]},
+        full=FULL,
+        config={"accuracy.effort": ACCURACY["effort"]},
         code=FIGURES,
     log:
         "results/logs/accuracy/hazards.log",

@@ -43,18 +43,26 @@ builds.set_environment(ROOT)
 
 
 # The config: entries of --config and --configfile over config/config.yaml, of the working directory or else the checkout.
-CONFIG_FILE = "config/config.yaml" if Path("config/config.yaml").is_file() else own("config/config.yaml")
+CONFIG_FILE = "config/config.yaml" if Path("config/config.yaml").is_file() and not IS_MODULE else own("config/config.yaml")
+
+
+def config_files():
+    """The files that the config is from, a later one over those before."""
+    given = workflow.config_settings
+    return [CONFIG_FILE] if IS_MODULE else [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
 
 
 def checked_config(given):
-    """The config with defaults; where Pydantic is not installed, what the schema made from its model says."""
+    """The config with defaults; where Pydantic is not installed, as the schema made from its model allows."""
     if not all(map(importlib.util.find_spec, ("pydantic", "numpy"))):
         validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
         return given
-    ConfigError, checked = ValueError, dict
+    from vibroimpact_pipeline.config import ConfigError, checked, read
 
     try:
-        return checked(given)
+        whole = read(CONFIG_FILE) if IS_MODULE else {}
+        update_config(whole, given)
+        return checked(whole, f"config of module {__name__}" if IS_MODULE else "--config", config_files())
     except ConfigError as error:
         refuse(error)
 

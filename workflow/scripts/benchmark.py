@@ -5,13 +5,21 @@ from pathlib import Path
 
 import pandas as pd
 
-from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.checkout import ROOT
-from vibroimpact_pipeline.config import case_parameters, checked
-from vibroimpact_pipeline.environment import prepare
-from vibroimpact_pipeline.sources import Sources
+from vibroimpact.system import System
+from vibroimpact_pipeline.builds import set_environment
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, read
+from vibroimpact_pipeline.results import replacing
 
 SECONDS, STARTS = 0.5, 1_000_000
+
+
+def problem_of(name: str, config: dict, settings: dict):
+    """The test problem that an entry of the config's accuracy section describes."""
+    from vibroimpact.accuracy.work_precision import Problem
+
+    system = System(**case_parameters(config, settings["case"]))
+    return Problem(name, system, tuple(settings["initial_state"]), settings["cycles"])
 
 
 def main(config: dict, output) -> None:
@@ -22,7 +30,7 @@ def main(config: dict, output) -> None:
     from vibroimpact.rivals import METHODS
 
     settings = config["accuracy"]["benchmark"]
-    problem = problem_of("benchmark", case_parameters(config, settings["case"]), settings)
+    problem = problem_of("benchmark", config, settings)
     rows = measure(problem, METHODS, SECONDS)
     table = pd.DataFrame(rows)
     found = comparison(rows, unavoidable_error(problem)) | throughput(problem.system, STARTS)
@@ -30,9 +38,7 @@ def main(config: dict, output) -> None:
     chart = [
         row
         for name, entry in config["accuracy"]["problems"].items()
-        for row in work_precision.measure(
-            problem_of(name, case_parameters(config, entry["case"]), entry), raced, SECONDS
-        )
+        for row in work_precision.measure(problem_of(name, config, entry), raced, SECONDS)
     ]
     table_of_panels = pd.DataFrame(panels(chart)).to_string(index=False, float_format="{:.3g}".format)
     compared = [f"{name}: {value:.3g}" for name, value in found.items()]
@@ -50,9 +56,9 @@ if __name__ == "__main__":
     parser.add_argument("--config", type=Path, default=ROOT / "config/config.yaml")
     parser.add_argument("--output", type=Path, default=ROOT / "results/accuracy/benchmark.csv")
     arguments = parser.parse_args()
-    prepare(ROOT, Sources())  # Numba reads the environment when it is imported, below
+    set_environment(ROOT)  # Numba reads the environment when it is imported, below
     try:
-        config = checked(arguments.config)
-    except ValueError as error:
+        config = checked(read(arguments.config), files=[arguments.config])
+    except ConfigError as error:
         parser.exit(1, f"{error}\n")
     main(config, arguments.output)

@@ -1,11 +1,9 @@
-"""The config of the pipeline: config/config.yaml, read, checked before anything runs, and described.
+"""The config of the pipeline: config/config.yaml, read and checked before anything runs.
 
-One section per file; limits and conditions stand beside the fields they are about. The rules are handed the plain
-values, as they stand in the file.
+One section per file; limits and conditions stand beside the fields they are about. The rules get plain values.
 """
 
-from vibroimpact_pipeline.config.check import case_parameters, checked, complaints, problems
-from vibroimpact_pipeline.config.overrides import combined, typed
-from vibroimpact_pipeline.config.text import parse, read
+from vibroimpact_pipeline.config.check import case_parameters, checked
+from vibroimpact_pipeline.config.reading import ConfigError, read
 
-__all__ = ["case_parameters", "checked", "combined", "complaints", "parse", "problems", "read", "typed"]
+__all__ = ["ConfigError", "case_parameters", "checked", "read"]

@@ -1,73 +1,79 @@
 """Kinds of values that several sections have, with their limits."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import Field, Strict
+from pydantic import AfterValidator, BeforeValidator, Field
 
-from vibroimpact_pipeline.config.section import Change, Problem, Section
+from vibroimpact_pipeline.config.section import Section, condition
 
-
-@dataclass(frozen=True)
-class OfCase:
-    """Marks the name of a case, which has to be there."""
-
-
-@dataclass(frozen=True)
-class OfFixedPoint:
-    """Marks the label of a fixed point, which the case beside it has to have."""
-
-
-def unit(name: str) -> dict:
-    """What the unit of a field is called in config/README.md."""
-    return {"unit": name}
-
-
-NAME, LETTER, TITLE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z]$", "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$"
+NAME, TITLE, LETTER = "^[a-z][a-z0-9_]{1,39}$", "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 WORDS = {
     NAME: "a name: a small letter, then 1 to 39 small letters, digits and _",
-    LETTER: "one small letter",
     TITLE: "a title: a letter, then up to 39 letters, digits, spaces and , ( ) -",
+    LETTER: "one small letter",
 }
-"""What texts have to look like."""
+"""What texts have to look like, in words."""
 
-Name = Annotated[str, Field(pattern=NAME)]
-CaseName = Annotated[str, OfCase(), Field(description="Name of a case")]
-Title = Annotated[str, Field(pattern=TITLE)]
-Label = Annotated[
-    str, OfFixedPoint(), Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")
-]
 
+def _ascending(ends):
+    if not ends[0] < ends[1]:
+        raise condition(f"{ends} is no range: {ends[0]} is not below {ends[1]}")
+    return ends
+
+
+def _different(values):
+    for place, value in enumerate(values):
+        if value in values[:place]:
+            raise condition(f"{value} stands there twice")
+    return values
+
+
+def _within_walls(state):
+    for module, W in ((1, state[0] - state[1]), (2, state[2] - state[3])):
+        if abs(W) > 1:
+            raise condition(f"ball {module} starts beyond a wall: X{module} - Y{module} = {W} is not between -1 and 1")
+    return state
+
+
+def items(kind, least: int, most: int, about: str | None = None, check=_different):
+    """Return the type of a list, of different values unless something else is checked."""
+    return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), AfterValidator(check)]
+
+
+def span(kind, about: str = "Where it begins and ends"):
+    """Return the type of a list of a lower and an upper end."""
+    return items(kind, 2, 2, about, _ascending)
+
+
+def around(low: float, high: float):
+    """Return the type of a list of two ends, one at most `low`, one at least `high`."""
+    return tuple[Annotated[float, Field(ge=0, le=low)], Annotated[float, Field(ge=high, le=100)]]
+
+
+def named(kind, least: int, most: int, name: str = NAME):
+    """Return the type of a mapping with free names, of which null takes an entry away."""
+
+    def counted(given):
+        number = sum(item is not None for item in given.values()) if isinstance(given, dict) else least
+        if not least <= number <= most:
+            raise condition(f"has {number} entries, more than {most}" if number else "is empty")
+        return given
+
+    taken_away = AfterValidator(lambda entries: {key: item for key, item in entries.items() if item is not None})
+    free = Annotated[str, Field(pattern=name)]
+    return Annotated[dict[free, kind | None], taken_away, BeforeValidator(counted)]
+
+
+CaseName = Annotated[str, Field(description="Name of a case")]
+Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")]
 Force = Annotated[float, Field(ge=-1000, le=1000)]
-ForceRange = Annotated[list[Force], Field(min_length=2, max_length=2, description="Lower and upper end of the forces")]
+Forces = span(Force, "Lower and upper end of the forces")
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
-Epsilon = Annotated[float, Field(ge=1e-6, le=10)]
+Epsilon = Annotated[float, Field(ge=1e-6, le=10, description="Mass of a ball over that of its box")]
 Amplitude = Annotated[float, Field(gt=1, le=100)]
-Planes = Annotated[
-    list[Amplitude],
-    Field(
-        min_length=2,
-        max_length=2,
-        description="Right ends of the planes (C_1, B_1) and (C_2, B_2); the fold of the manifold lies below 1",
-    ),
-]
-CRange = Annotated[
-    tuple[Annotated[float, Field(ge=0, le=0.6)], Annotated[float, Field(ge=1.01, le=100)]],
-    Strict(False),  # a list will do
-    Field(description="Lower and upper end of the axis, which holds the limit of (10.26)"),
-]
-Points = Annotated[int, Field(ge=2, le=1000, description="So many cells, or starts, along each axis")]
-Starts = Annotated[int, Field(ge=1, le=10_000, description="Starts, spread evenly; the first is rest")]
-Seed = Annotated[int, Field(ge=0, le=2**32 - 1, description="Scrambles the starts")]
-Displacement = Annotated[float, Field(ge=-1000, le=1000)]
-State = Annotated[
-    list[Displacement],
-    Field(
-        min_length=8,
-        max_length=8,
-        description="Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls",
-    ),
-]
+Planes = items(Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), beyond the fold", list)
+START = "Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls"
+State = items(Force, 8, 8, START, _within_walls)
 
 
 class Motion(Section):
@@ -76,39 +82,17 @@ class Motion(Section):
     case: CaseName
     initial_state: State
 
-    def conditions(self):
-        yield from beyond_walls(self.initial_state)
+
+class ForceGrid(Section):
+    """Cells of a plane of forces."""
+
+    f10_range: Forces
+    f20_range: Forces
+    points: int = Field(ge=2, le=1000, description="Cells along each axis")
 
 
-def beyond_walls(state) -> list[Problem]:
-    """Balls that would start outside their cavities."""
-    X1, Y1, X2, Y2 = state[:4]
-    return [
-        Problem(
-            ("initial_state",),
-            f"ball {module} starts beyond a wall: X{module} - Y{module} = {W} is not between -1 and 1",
-        )
-        for module, W in ((1, X1 - Y1), (2, X2 - Y2))
-        if abs(W) > 1
-    ]
+class Starts(Section):
+    """States that motions start from."""
 
-
-def not_ascending(name: str, ends) -> list[Problem]:
-    """A range whose ends are the wrong way round, or the same."""
-    low, high = ends
-    return [] if low < high else [Problem((name,), f"{ends} is no range: {low} is not below {high}")]
-
-
-def repeated(name: str, values) -> list[Problem]:
-    """Values of a list that stand there twice."""
-    return [
-        Problem((name, place), f"{value} stands there twice")
-        for place, value in enumerate(values)
-        if value in values[:place]
-    ]
-
-
-def over_forces(grid) -> list[Change]:
-    """The forces of a grid of cells."""
-    names = ("f10", "f20")
-    return [Change((f"{name}_range",), None, [f"{name}_hat"], getattr(grid, f"{name}_range")) for name in names]
+    starts: int = Field(ge=1, le=10_000, description="Starts, spread evenly; the first is rest")
+    seed: int = Field(ge=0, le=2**32 - 1, description="Scrambles the starts")

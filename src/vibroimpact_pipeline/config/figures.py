@@ -7,18 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from vibroimpact_pipeline.config.fields import (
-    Amplitude,
-    CaseName,
-    CRange,
-    Label,
-    Name,
-    Planes,
-    not_ascending,
-    repeated,
-    unit,
-)
-from vibroimpact_pipeline.config.section import Problem, Section
+from vibroimpact_pipeline.config.fields import NAME, Amplitude, CaseName, Label, Planes, around, items, span
+from vibroimpact_pipeline.config.section import Section
 
 MOST = 100
 """Figures of a build, a job each."""
@@ -32,37 +22,32 @@ class Drawing(Section):
     notebook: Literal["drawings"] = NOTEBOOK
 
 
-class Sawtooth(Section):
+class ClosedForm(Section):
+    """A figure that is algebra."""
+
+    notebook: Literal["closed_form"] = NOTEBOOK
+    model: Literal["closed_form"] = MODEL
+
+
+class Sawtooth(ClosedForm):
     """Figure 10.3."""
 
-    notebook: Literal["closed_form"] = NOTEBOOK
-    model: Literal["closed_form"] = MODEL
-    amplitude: Annotated[float, Field(ge=1e-3, le=1000)] = Field(description="C of the saw-tooth")
-    theta: Annotated[float, Field(ge=-100, le=100)] = Field(
-        description="Phase of the impacts", json_schema_extra=unit("rad")
-    )
-    tau0_max: Annotated[float, Field(ge=3.15, le=100)] = Field(
-        description="Right end of the axis; within pi, 3.15, there is an impact", json_schema_extra=unit("rad")
-    )
+    amplitude: float = Field(ge=1e-3, le=1000, description="C of the saw-tooth")
+    theta: float = Field(ge=-100, le=100, description="Phase of the impacts [rad]")
+    tau0_max: float = Field(ge=3.15, le=100, description="Right end of the axis; there is an impact within pi [rad]")
 
 
-class Manifold(Section):
+class Manifold(ClosedForm):
     """Figure 10.4."""
 
-    notebook: Literal["closed_form"] = NOTEBOOK
-    model: Literal["closed_form"] = MODEL
-    parameters: Annotated[list[Literal["kappa"]], Field(min_length=1, max_length=1)] = Field(
-        description="System parameters that the figure depends on"
-    )
+    parameters: items(Literal["kappa"], 1, 1, "System parameters that the figure depends on")
     C_max: Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
 
 
-class Regions(Section):
+class Regions(ClosedForm):
     """Figure 10.5."""
 
-    notebook: Literal["closed_form"] = NOTEBOOK
-    model: Literal["closed_form"] = MODEL
-    C_range: CRange
+    C_range: around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
 
 
 class FixedPoints(Section):
@@ -81,10 +66,8 @@ class Response(Section):
     model: Literal["slow_flow"] = MODEL
     case: CaseName
     fixed_point: Label
-    periods: Annotated[float, Field(ge=0.5, le=100)] = Field(
-        description="Length of the response", json_schema_extra=unit("forcing periods")
-    )
-    C_max: Planes = Field(default=None, description="Right ends of the planes; without them the response stands alone")
+    periods: float = Field(ge=0.5, le=100, description="Length of the response [forcing periods]")
+    C_max: Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
 
 
 class SimulatedMotion(Section):
@@ -95,53 +78,48 @@ class SimulatedMotion(Section):
     case: CaseName
 
 
-Clearance = Annotated[float, Field(ge=1e-6, le=1e3, json_schema_extra=unit("m"))]
-Hertz = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra=unit("Hz"))]
+Clearance = Annotated[float, Field(ge=1e-6, le=1e3, description="Half of the play [m]")]
+Hertz = Annotated[float, Field(ge=1e-3, le=1e6, description="Frequency of the forces [Hz]")]
 
 
-def quantity(of: str, name: str, least: float = 0.0):
-    """A field of a plant, from `least` on, in a unit."""
-    return Field(ge=least, le=1e9, description=of, json_schema_extra=unit(name))
+def quantity(about: str, least: float = 0.0):
+    """Return a field of a plant, from `least` on."""
+    return Field(ge=least, le=1e9, description=about)
 
 
 class Plant(Section):
     """Machines on their springs, as in (10.1), in SI units; without dampers they could not be driven at resonance."""
 
-    M: float = quantity("Mass of a box", "kg", 1e-6)
-    m: float = quantity("Mass of a ball", "kg", 1e-6)
-    k1: float = quantity("Stiffness of machine 1 to ground", "N/m", 1e-6)
-    k2: float = quantity("Stiffness of machine 2 to ground", "N/m", 1e-6)
-    k12: float = quantity("Stiffness between them", "N/m")
-    c1: float = quantity("Damping of machine 1 to ground", "N s/m", 1e-6)
-    c2: float = quantity("Damping of machine 2 to ground", "N s/m", 1e-6)
-    c12: float = quantity("Damping between them", "N s/m")
-    F10: float = quantity("Amplitude of the force on machine 1", "N", 1e-6)
-    F20: float = quantity("Amplitude of the force on machine 2", "N")
-    kappa: Annotated[float, Field(ge=0.01, le=0.99)] = Field(description="Restitution coefficient")
+    M: float = quantity("Mass of a box [kg]", 1e-6)
+    m: float = quantity("Mass of a ball [kg], 1e-6 to 10 times that of a box", 1e-6)
+    k1: float = quantity("Stiffness of machine 1 to ground [N/m]", 1e-6)
+    k2: float = quantity("Stiffness of machine 2 to ground [N/m]", 1e-6)
+    k12: float = quantity("Stiffness between them [N/m]")
+    c1: float = quantity("Damping of machine 1 to ground [N s/m]", 1e-6)
+    c2: float = quantity("Damping of machine 2 to ground [N s/m]", 1e-6)
+    c12: float = quantity("Damping between them [N s/m]")
+    F10: float = quantity("Amplitude of the force on machine 1 [N]", 1e-6)
+    F20: float = quantity("Amplitude of the force on machine 2 [N]")
+    kappa: float = Field(ge=0.01, le=0.99, description="Restitution coefficient")
 
     def conditions(self):
         if not 1e-6 <= self.m / self.M <= 10:
-            yield Problem(("m",), f"{self.m} is not between 1e-6 and 10 times M = {self.M}")
+            yield ("m",), f"{self.m} is not between 1e-6 and 10 times M = {self.M}"
 
 
 class Band(Section):
     """Frequencies, evenly spaced."""
 
-    range: Annotated[list[Hertz], Field(min_length=2, max_length=2)] = Field(description="Its ends")
-    values: Annotated[int, Field(ge=2, le=1000)] = Field(description="So many, both ends included")
-
-    def conditions(self):
-        yield from not_ascending("range", self.range)
+    range: span(Hertz, "Its ends [Hz]")
+    values: int = Field(ge=2, le=1000, description="So many, both ends included")
 
 
 class Shown(Section):
     """A motion from rest that is drawn over the time."""
 
-    L: Clearance = Field(description="Its clearance")
-    frequency: Hertz = Field(description="Of the forces")
-    cycles: Annotated[int, Field(ge=1, le=1000)] = Field(
-        description="Its length", json_schema_extra=unit("forcing periods")
-    )
+    L: Clearance
+    frequency: Hertz
+    cycles: int = Field(ge=1, le=1000, description="Its length [forcing periods]")
 
 
 class PhysicalUnits(Section):
@@ -149,22 +127,19 @@ class PhysicalUnits(Section):
 
     notebook: Literal["physical_units"] = NOTEBOOK
     plant: Plant
-    clearances: Annotated[list[Clearance], Field(min_length=1, max_length=6)] = Field(description="Half of the play")
+    clearances: items(Clearance, 1, 6, "Clearances, half of the play [m]")
     frequencies: Band
-    cycles: Annotated[int, Field(ge=1, le=100_000)] = Field(
-        description="Length of a run", json_schema_extra=unit("forcing periods")
-    )
-    settle: Annotated[int, Field(ge=0, le=100_000)] = Field(
-        description="Cycles of it that are left out", json_schema_extra=unit("forcing periods")
-    )
+    cycles: int = Field(ge=1, le=100_000, description="Length of a run [forcing periods]")
+    settle: int = Field(ge=0, le=100_000, description="Cycles of it that are left out [forcing periods]")
     shown: Shown
 
     def conditions(self):
-        yield from repeated("clearances", self.clearances)
         if self.settle >= self.cycles:
-            yield Problem(("settle",), f"{self.settle} leaves nothing of {self.cycles} cycles to observe")
+            yield ("settle",), f"{self.settle} leaves nothing of {self.cycles} cycles to observe"
 
 
+OWN = ("fixed_points", "theoretical_response", "simulation", "physical_units")
+"""Notebooks of figures of one's own."""
 OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion | PhysicalUnits, Field(discriminator="notebook")]
 
 
@@ -172,22 +147,21 @@ class Figures(Section):
     """The figures to build: those of the chapter, each of which may be left out, and one's own under other names."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[Name, OwnFigure]
+    __pydantic_extra__: dict[Annotated[str, Field(pattern=NAME)], OwnFigure | None]
 
-    fig10_01: Drawing = None
-    fig10_02: Drawing = None
-    fig10_03: Sawtooth = None
-    fig10_04: Manifold = None
-    fig10_05: Regions = None
-    fig10_06: FixedPoints = None
-    fig10_07: Response = None
-    fig10_08: SimulatedMotion = None
-    fig10_09: FixedPoints = None
-    fig10_10: Response = None
-    fig10_11: SimulatedMotion = None
+    fig10_01: Drawing | None = None
+    fig10_02: Drawing | None = None
+    fig10_03: Sawtooth | None = None
+    fig10_04: Manifold | None = None
+    fig10_05: Regions | None = None
+    fig10_06: FixedPoints | None = None
+    fig10_07: Response | None = None
+    fig10_08: SimulatedMotion | None = None
+    fig10_09: FixedPoints | None = None
+    fig10_10: Response | None = None
+    fig10_11: SimulatedMotion | None = None
 
     def conditions(self):
-        if not self.model_fields_set:
-            yield Problem((), "is empty")
-        if len(self.model_fields_set) > MOST:
-            yield Problem((), f"has {len(self.model_fields_set)} entries, more than {MOST}")
+        number = sum(scene is not None for _, scene in self)
+        if not 1 <= number <= MOST:
+            yield (), f"has {number} entries, more than {MOST}" if number else "is empty"

@@ -1,42 +1,36 @@
-"""The JSON schema of the config: what it says of a place."""
+"""The JSON Schema of the config, for editors and for Snakemake without Pydantic.
 
-from functools import cache
+Run it as `python -m vibroimpact_pipeline.config.schema`.
+"""
 
+import json
+
+from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config.model import Config
 
-
-@cache
-def root() -> dict:
-    """The schema of the whole config."""
-    return Config.model_json_schema()
+TARGET = ROOT / "workflow/schemas/config.schema.json"
+NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^[-+]?\d+(\.0*)?$"}
+"""Texts that are read as numbers."""
 
 
-def resolved(node: dict) -> dict:
-    """A node of the schema with what it refers to; what it says itself comes first."""
-    name = node.get("$ref", "").removeprefix("#/$defs/")
-    return {**root()["$defs"][name], **node} if name else node
+def schema() -> str:
+    """Return the text of the schema."""
+    made = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(Config.model_json_schema())
+    return json.dumps(made, indent=1, ensure_ascii=False) + "\n"
 
 
-def variants(node: dict) -> list[dict]:
-    """The node itself, or those of which one applies."""
-    return [resolved(one) for one in resolved(node).get("oneOf", [node])]
+def _plain(node):
+    """Return a node without titles and defaults of null; numbers may be texts, and names have to match."""
+    if not isinstance(node, dict):
+        return [_plain(item) for item in node] if isinstance(node, list) else node
+    made = {key: _plain(item) for key, item in node.items() if key != "title" or not isinstance(item, str)}
+    if made.get("default", ...) is None:
+        del made["default"]
+    if made.get("type") in ("number", "integer"):
+        made |= {"type": [made["type"], "string"], "pattern": NUMERALS[made["type"]]}
+    return made | ({"additionalProperties": False} if "patternProperties" in made else {})
 
 
-def keys_at(place) -> set[str]:
-    """The keys that a section may have, whichever of its variants it is."""
-    nodes = variants(root())
-    for part in place:
-        nodes = [variant for node in nodes for child in _below(node, part) for variant in variants(child)]
-    return {key for node in nodes for key in node.get("properties", ())}
-
-
-def _below(node, part):
-    if part in node.get("properties", {}):
-        return [node["properties"][part]]
-    return entries(node)
-
-
-def entries(node: dict) -> list[dict]:
-    """What the entries of a list or of a mapping with free names look like."""
-    child = node.get("items") or node.get("additionalProperties")
-    return [child] if isinstance(child, dict) else [*node.get("patternProperties", {}).values()]
+if __name__ == "__main__":
+    TARGET.parent.mkdir(exist_ok=True)
+    TARGET.write_text(schema(), encoding="utf-8")

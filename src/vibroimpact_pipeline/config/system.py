@@ -11,7 +11,6 @@ from vibroimpact_pipeline.config.section import Problem, Section
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
-
 Coefficient = Annotated[float, Field(ge=0, le=10_000)]
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
@@ -19,16 +18,14 @@ Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 class SystemSection(Section):
     """Dimensionless parameters shared by all cases, hatted as in (10.4) and (10.6)."""
 
-    epsilon: Epsilon = Field(description="Mass of a ball over that of its box")
-    kappa: Annotated[float, Field(gt=0, lt=1, description="Restitution coefficient")]
+    epsilon: Epsilon
+    kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
     alpha12_hat: Coefficient = Field(description="Stiffness of the coupling")
     gamma1_hat: Coefficient = Field(description="Damping of box 1 to ground")
     gamma2_hat: Coefficient = Field(description="Damping of box 2 to ground")
     gamma12_hat: Coefficient = Field(description="Damping of the coupling")
     sigma20_hat: Detuning = Field(description="Detuning of box 2; 1 + epsilon sigma20_hat, its stiffness, is above 0")
-    sigma_e_hat: Detuning = Field(
-        description="Detuning of the forcing; 1 + epsilon sigma_e_hat, its frequency, is at least 0.001"
-    )
+    sigma_e_hat: Detuning = Field(description="Detuning of the forcing; 1 + epsilon sigma_e_hat is at least 0.001")
 
 
 class Parameters(SystemSection):
@@ -43,21 +40,21 @@ class Parameters(SystemSection):
             _refuse_resonance(system)
         except ValueError as error:
             name, _, what = str(error).partition(": ")
-            return [Problem((name,) if name in type(self).model_fields else (), what)]
+            yield (name,) if name in NAMES else (), what
+            return
         if system.Omega < SLOWEST:
-            return [Problem(("sigma_e_hat",), f"1 + epsilon sigma_e_hat = {system.Omega} is below {SLOWEST}")]
-        return []
+            yield ("sigma_e_hat",), f"1 + epsilon sigma_e_hat = {system.Omega} is below {SLOWEST}"
 
 
 NAMES = tuple(Parameters.model_fields)
 
 
 def unsound(parameters: dict) -> list[Problem]:
-    """What keeps parameters from being those of a system."""
+    """Return what keeps parameters from being those of a system."""
     try:
         Parameters.model_validate(parameters)
     except ValidationError as error:
-        return problems_of(error, parameters)
+        return problems_of(error)
     return []
 
 
