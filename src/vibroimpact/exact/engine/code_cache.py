@@ -52,7 +52,7 @@ def _numba_keeping_sound_code_in(folder):
 
 
 class SummedFiles(caching.IndexDataCacheFile):
-    """Numba's files of a function, an index and one for each signature, each with the SHA-256 of its content at its end.
+    """Numba's files of a function: an index and one for each signature, each ending with the SHA-256 of its content.
 
     Numba ignores what comes after the content. A file that it does not find is compiled anew.
     """
