@@ -5,6 +5,7 @@ import os
 import shutil
 from pathlib import Path
 
+from vibroimpact_pipeline.checkout import cache_of
 from vibroimpact_pipeline.integrity.compiled import drop_untrusted
 from vibroimpact_pipeline.sources import Sources
 
@@ -17,12 +18,10 @@ SCRATCH = "vibroimpact-job-"
 def prepare(root: Path, sources: Sources) -> None:
     """Set the environment of this process and of all that it starts.
 
-    Every cache lies in the checkout at `root`, or in the working directory where the checkout cannot be written to.
     Compiled code is kept apart by the content of its sources, since Numba itself looks at one file at a time and
     would go on using a function whose callee in another file has changed.
     """
-    own = root / ".cache"
-    cache = own if os.access(root, os.W_OK) else Path.cwd() / ".cache"
+    own, cache = root / ".cache", cache_of(root)
     compiled = f"numba/{sources.compiled()}"
     if cache != own:
         _hand_on(own / compiled, cache / compiled)

@@ -20,8 +20,9 @@ fcntl.lockf = without
 
 
 @pytest.fixture
-def without_locks(tmp_path):
+def without_locks(tmp_path, monkeypatch):
     """The path to a start of Python in which the build directory, or any, has no locks."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
 
     def write(error, everywhere=False):
         (tmp_path / "sitecustomize.py").write_text(WITHOUT_LOCKS.format(error=error, everywhere=everywhere))
@@ -54,9 +55,9 @@ def test_another_failure_to_lock_is_no_such_case(tree, without_locks):
     assert "\n.cache/build.lock: Input/output error. " in output
 
 
-def test_builds_of_one_machine_wait_without_locks(tree, without_locks, tmp_path):
+def test_builds_of_one_machine_wait_without_locks(tree, without_locks):
     """The first is one that only holds the lock, until it is told to end."""
-    paths = {"PYTHONPATH": without_locks("ENOLCK"), "TMPDIR": str(tmp_path)}
+    paths = {"PYTHONPATH": without_locks("ENOLCK")}
     held = "from vibroimpact_pipeline import build_directory as b; lock = b.lock(); print('held', flush=True); input()"
     first = subprocess.Popen(
         [sys.executable, "-c", held],
