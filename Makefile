@@ -7,7 +7,6 @@ PIN = $(TEMPORARY) .venv/bin/uv pip compile --universal --generate-hashes --pyth
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
-export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 export WHEELS
 export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.

@@ -54,7 +54,7 @@ install() {
 }
 
 packages=$(grep -c '^[a-z].*==' environment.lock)
-echo "Setting up .venv with $("$python" --version), once: about a minute."
+echo "Setting up .venv with $("$python" --version), once: a minute or two."
 echo "1 of 3  installing $packages packages of environment.lock"
 "$python" -m venv --clear .venv
 # What has no wheel is built with the setuptools of the lock, not with whichever is newest on the day.
