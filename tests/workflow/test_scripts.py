@@ -6,6 +6,7 @@ import nbformat
 import numpy as np
 import pandas as pd
 import pytest
+from fontTools.ttLib import TTFont
 from papermill import PapermillExecutionError
 
 import fixed_points
@@ -20,6 +21,7 @@ from notebook import main as notebook
 from vibroimpact.exact.engine.simulation import simulate as integrate
 from vibroimpact.figures.companions import companion_stability
 from vibroimpact.system import System
+from vibroimpact_pipeline.report.mathematics import FONT
 from vibroimpact_pipeline.report.offline import linked, markdown_to_html
 
 SYSTEM = {
@@ -147,6 +149,10 @@ def test_a_failed_notebook_can_be_read(tmp_path):
 def test_formulas_become_mathml(markdown, parts):
     html = markdown_to_html(markdown)
     assert not [part for part in parts if part not in html], html
+
+
+def test_the_font_has_the_signs_that_a_browser_adds_to_formulas():
+    assert {"√", "‾"} <= set(map(chr, TTFont(FONT).getBestCmap()))
 
 
 def test_an_unknown_command_in_a_formula_is_an_error():
