@@ -141,7 +141,7 @@ def test_a_failed_notebook_can_be_read(tmp_path):
         (r"$\hat f_{10} = 1$", ["<math>", "<mn>10</mn>"]),
         (r"$$B_{\min} \tag{10.25}$$", ['<math display="block">', "(10.25)"]),
         ("$$\n\\begin{aligned} a &= b \\\\ c &< d \\end{aligned}\n$$", ["<mtable", "<mo>&lt;</mo>"]),
-        (r"$\overline{z_1 z_2 K^2}$", ["</msup></mrow><mo stretchy=\"true\">\u203e</mo></mover>"]),
+        (r"$\overline{z_1 z_2 K^2}$", ['</msup></mrow><mo stretchy="true">\u203e</mo></mover>']),
         (r"\begin{equation} \dot X \end{equation}", ['<math display="block">', "˙"]),
         ("a `$x$` b", ["<code>$x$</code>"]),
     ],
