@@ -19,8 +19,8 @@ from vibroimpact.system import System
 SETTLED = 1e-6
 """A periodic motion that changes by more from period to period has not settled yet."""
 KINDS = {
-    SYMMETRIC: "a symmetric motion, as those of the theory are",
-    ASYMMETRIC: "an asymmetric motion, while those of the theory are symmetric",
+    SYMMETRIC: "as the motions of the chapter's theory are",
+    ASYMMETRIC: "as no motion of the chapter's theory is",
 }
 
 

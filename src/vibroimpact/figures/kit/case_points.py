@@ -52,13 +52,15 @@ def exact(verdicts: pd.DataFrame) -> str:
     """What the Floquet multipliers of the exact orbits say of fixed points; columns label, orbit, floquet."""
     if verdicts.empty:
         return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
-    said = [
-        f"**{plain(row['label'])}** has no exact orbit"
-        if row["floquet"] == NO_ORBIT
-        else f"**{plain(row['label'])}** {row['floquet']} (orbit {plain(row['orbit'])})"
-        for _, row in verdicts.iterrows()
-    ]
-    return f"{EXACTLY} by the Floquet multipliers of its orbits {', '.join(said)}."
+    said = []
+    for verdict, rows in verdicts.groupby("floquet", sort=False):
+        names = [f"**{plain(label)}**" for label in rows["label"]]
+        if verdict == NO_ORBIT:
+            said.append(f"{', '.join(names)}: **no orbit**")
+        else:
+            with_orbits = (f"{name} (orbit {plain(orbit)})" for name, orbit in zip(names, rows["orbit"], strict=True))
+            said.append(f"{', '.join(with_orbits)}: **{verdict}** by Floquet multipliers")
+    return f"{EXACTLY} {'; '.join(said)}."
 
 
 def _expect_same_points(given, expected, path):
