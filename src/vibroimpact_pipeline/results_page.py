@@ -81,9 +81,9 @@ def _overview():
         said.append(f"<p>To read: {_link(REPORT, 'the report')}.</p>")
     if (claims := RESULTS / "claims.json").is_file():
         counts = Counter(claim["verdict"] for claim in json.loads(claims.read_text(encoding="utf-8")))
-        verdicts = ", ".join(f"{escape(verdict)}: {number}" for verdict, number in counts.most_common())
+        verdicts = ", ".join(f"{escape(verdict)} {number}" for verdict, number in counts.most_common())
         page = _link(RESULTS / "claims.md", f"{counts.total()} claims of the chapter")
-        said.append(f"<p>The {page}, each judged by computed numbers. {verdicts}.</p>")
+        said.append(f"<p>The {page}, each judged by computed numbers: {verdicts}.</p>")
     return "\n".join(said)
 
 
