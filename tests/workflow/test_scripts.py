@@ -113,6 +113,14 @@ def test_a_notebook_with_other_parameters_is_refused(tmp_path, names):
     assert not (tmp_path / "page.html").exists()
 
 
+def test_a_parameter_that_no_notebook_has_is_refused(tmp_path):
+    """Papermill would go on with the default of what was meant."""
+    source = write(tmp_path / "source.ipynb", AGREED, "print(figure)")
+    with pytest.raises(ValueError, match=r"given are the parameters .*'kappa'"):
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters() | {"kappa": 0.3}, "Title")
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print(figure, settings['kappa'] + 1)")
     notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(kappa=0.5), "Figure 1")
