@@ -5,9 +5,9 @@ holds the state at the start of every forcing cycle of the whole run.
 import json
 
 from job import running
-from vibroimpact.accuracy.window import Window, window
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.files import replacing
+from vibroimpact.figures.kit.window import Window, window
 from vibroimpact.system import System
 from vibroimpact.system.state import KINDS, NAMES
 
