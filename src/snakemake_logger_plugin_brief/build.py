@@ -102,4 +102,4 @@ class Build:
             return [*no_room, ended]
         outputs = [path for job in self.finished for path in job.outputs]
         done = f"Done in {took}: {count(self.total, 'job')}. {made(outputs)}."
-        return [done, *open_first(job.rule for job in reversed(self.finished))]
+        return [done, *open_first(job.rule for job in self.finished[-1:])]

@@ -121,7 +121,7 @@ class LogHandler(LogHandlerBase):
     def _message(self, record):
         text = record.getMessage()
         if text.startswith(NOTHING):
-            self._screen.say(" ".join(["Nothing to do: all is up to date.", *open_first([*self._asked, "all"])]))
+            self._screen.say(" ".join(["Nothing to do: all is up to date.", *open_first(self._asked)]))
         elif self._build and text.startswith(STOPS):
             self._build.stop()
         elif self._build and text.startswith(FULL_LOG):

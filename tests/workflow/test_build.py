@@ -77,6 +77,34 @@ def test_a_page_reads_offline_with_its_formulas_and_its_figure(built, figure):
     assert "$$" not in html
 
 
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_page_says_once_what_the_exact_system_says(built, figure):
+    html = (built / f"results/notebooks/{figure}.html").read_text(encoding="utf-8")
+    assert html.count("<strong>The exact system:</strong>") == 1
+
+
+@pytest.mark.parametrize(("figure", "case"), [("fig10_06", "equal"), ("fig10_09", "unequal"), ("fig10_10", "weak")])
+def test_a_page_of_fixed_points_says_the_verdict_of_the_multipliers(built, figure, case):
+    html = (built / f"results/notebooks/{figure}.html").read_text(encoding="utf-8")
+    line = re.search("<p><strong>The exact system:</strong>(.*?)</p>", html, re.DOTALL)[1]
+    orbits = pd.read_csv(built / "results/orbits.csv").query("case == @case").set_index("label")["modulus_1"]
+    shown = re.findall(r"orbit (\w+)", line)
+    assert shown
+    assert all(orbits[orbit] > 1 for orbit in shown)  # proved: no symmetric response of the three cases is stable
+    assert "<strong>unstable</strong>" in line
+    assert "<strong>stable</strong>" not in line
+
+
+def test_the_page_of_results_leads_to_all_of_them(built):
+    html = (built / "results/index.html").read_text(encoding="utf-8")
+    links = re.findall('href="([^"]+)"', html)
+    assert [link for link in links if not (built / "results" / link).is_file()] == []
+    assert {f"notebooks/{figure}.html" for figure in FIGURES} | {"claims.md", "orbits.csv"} <= set(links)
+    pictures = {f"figures/{path.name}" for path in (built / "results/figures").glob("*.png")}
+    assert pictures <= set(links)
+    assert html.count("<strong>The exact system:</strong>") == len(FIGURES)
+
+
 def test_every_job_leaves_a_log_and_a_benchmark(built):
     jobs = {f"figures/{figure}" for figure in FIGURES} | {
         f"fixed_points/{case}" for case in ("equal", "unequal", "weak")

@@ -6,6 +6,7 @@ import nbformat
 import numpy as np
 import pandas as pd
 import pytest
+from fontTools.ttLib import TTFont
 from papermill import PapermillExecutionError
 
 import fixed_points
@@ -20,6 +21,7 @@ from notebook import main as notebook
 from vibroimpact.exact.engine.simulation import simulate as integrate
 from vibroimpact.figures.companions import companion_stability
 from vibroimpact.system import System
+from vibroimpact_pipeline.report.mathematics import FONT
 from vibroimpact_pipeline.report.offline import linked, markdown_to_html
 
 SYSTEM = {
@@ -111,6 +113,14 @@ def test_a_notebook_with_other_parameters_is_refused(tmp_path, names):
     assert not (tmp_path / "page.html").exists()
 
 
+def test_a_parameter_that_no_notebook_has_is_refused(tmp_path):
+    """Papermill would go on with the default of what was meant."""
+    source = write(tmp_path / "source.ipynb", AGREED, "print(figure)")
+    with pytest.raises(ValueError, match=r"given are the parameters .*'kappa'"):
+        notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters() | {"kappa": 0.3}, "Title")
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_a_notebook_gets_its_parameters_and_becomes_a_page(tmp_path):
     source = write(tmp_path / "source.ipynb", AGREED, "print(figure, settings['kappa'] + 1)")
     notebook(source, tmp_path / "executed.ipynb", tmp_path / "page.html", parameters(kappa=0.5), "Figure 1")
@@ -139,6 +149,7 @@ def test_a_failed_notebook_can_be_read(tmp_path):
         (r"$\hat f_{10} = 1$", ["<math>", "<mn>10</mn>"]),
         (r"$$B_{\min} \tag{10.25}$$", ['<math display="block">', "(10.25)"]),
         ("$$\n\\begin{aligned} a &= b \\\\ c &< d \\end{aligned}\n$$", ["<mtable", "<mo>&lt;</mo>"]),
+        (r"$\overline{z_1 z_2 K^2}$", ['</msup></mrow><mo stretchy="true">\u203e</mo></mover>']),
         (r"\begin{equation} \dot X \end{equation}", ['<math display="block">', "˙"]),
         ("a `$x$` b", ["<code>$x$</code>"]),
     ],
@@ -146,6 +157,10 @@ def test_a_failed_notebook_can_be_read(tmp_path):
 def test_formulas_become_mathml(markdown, parts):
     html = markdown_to_html(markdown)
     assert not [part for part in parts if part not in html], html
+
+
+def test_the_font_has_the_signs_that_a_browser_adds_to_formulas():
+    assert {"√", "‾"} <= set(map(chr, TTFont(FONT).getBestCmap()))
 
 
 def test_an_unknown_command_in_a_formula_is_an_error():

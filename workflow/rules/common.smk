@@ -2,6 +2,7 @@
 
 from snakemake_logger_plugin_brief.results import from_start
 from vibroimpact_pipeline import config as config_checks
+from vibroimpact_pipeline import results_page
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
 from vibroimpact_pipeline.config.labels import remembered

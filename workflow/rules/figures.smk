@@ -3,15 +3,16 @@
 
 CASE_FILES = {
     "fixed_points": "results/fixed_points/{case}.csv",
+    "verdicts": "results/verdicts/{case}.csv",
     "samples": "results/simulations/{case}/samples.csv",
     "events": "results/simulations/{case}/events.csv",
     "summary": "results/simulations/{case}/summary.json",
 }
-# What a figure is given to read is what its model needs, and no more; a drawing has none.
+# What a figure is given to read is what its model needs, and for the line on what the exact system says; a drawing has none.
 MODEL_INPUTS = {
     None: [],
     "closed_form": [],
-    "slow_flow": ["fixed_points"],
+    "slow_flow": ["fixed_points", "verdicts"],
     "simulation": ["fixed_points", "samples", "events", "summary"],
 }
 WITHOUT_TABLE = "drawings"
@@ -36,7 +37,7 @@ METHODS = {
 
 
 def figure_inputs(scene):
-    """Results of the figure's case that its notebook reads."""
+    """Results of the figure's case that its notebook reads; without them it would compute them."""
     return {name: CASE_FILES[name].format(case=scene["case"]) for name in MODEL_INPUTS[scene.get("model")]}
 
 
@@ -51,7 +52,11 @@ def figure_settings(scene):
     """The figure's own slice of the config: its scene and the system parameters that it depends on."""
     used = scene.get("parameters", [])
     system = system_of(scene["case"]) if "case" in scene else {name: config["system"][name] for name in used}
-    observed = {"observation": config["regimes"]["observation"]} if simulated(scene) else {}
+    observed = (
+        {"simulation": config["cases"][scene["case"]]["simulation"], "observation": config["regimes"]["observation"]}
+        if simulated(scene)
+        else {}
+    )
     given = {name: value for name, value in scene.items() if name not in ("notebook", "model", "parameters")}
     return {**given, "system": system, **observed}
 
@@ -81,6 +86,7 @@ def figure_provenance(figure, scene):
     keys += [f"cases.{case}.simulation" for case in cases if simulated(scene)]
     keys += ["regimes.observation"] if simulated(scene) else []
     before = [step(*STEPS["fixed_points"])] if "fixed_points" in read else []
+    before += [step(*STEPS[name]) for name in ("orbits", "verdicts")] if "verdicts" in read else []
     before += [simulation_step(scene["case"])] if simulated(scene) else []
     return provenance(figure, keys, cases, [*before, figure_step(figure, scene)])
 

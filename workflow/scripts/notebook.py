@@ -26,12 +26,13 @@ def main(notebook, executed, html, parameters: dict, title: str) -> None:
     """Execute and export a notebook; the title is that of its figure.
 
     Raises:
-        ValueError: the parameters cell of the notebook does not name exactly those of PARAMETERS.
+        ValueError: the parameters of the notebook, or those given, are not exactly those of PARAMETERS.
         papermill.PapermillExecutionError: a cell failed.
     """
-    declared = set(papermill.inspect_notebook(str(notebook)))
-    if declared != PARAMETERS:
-        raise ValueError(f"notebook: {notebook} has the parameters {sorted(declared)}, needs {sorted(PARAMETERS)}")
+    # Papermill passes over what the notebook does not know, and takes the defaults for what is not given.
+    for names, of in ((papermill.inspect_notebook(str(notebook)), f"{notebook} has"), (parameters, "given are")):
+        if set(names) != PARAMETERS:
+            raise ValueError(f"notebook: {of} the parameters {sorted(names)}, needed are {sorted(PARAMETERS)}")
     Path(executed).parent.mkdir(parents=True, exist_ok=True)
     print(f"{notebook} as it was executed: {executed}")
     with replacing(html) as partial:

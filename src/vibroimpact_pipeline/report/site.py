@@ -10,8 +10,8 @@ import pypandoc
 import typst
 
 from vibroimpact_pipeline.environment import SCRATCH
-from vibroimpact_pipeline.report.mathematics import MATHEMATICS, kept
 from vibroimpact_pipeline.report.mathematics import STYLE as OF_MATHEMATICS
+from vibroimpact_pipeline.report.mathematics import kept, mathml
 from vibroimpact_pipeline.report.pages import is_template
 from vibroimpact_pipeline.report.policy import guarded
 
@@ -105,4 +105,4 @@ def convert(
 def as_mathml(formula: re.Match) -> str:
     """A formula as the notebooks' pages have it, which browsers draw by themselves."""
     kind, tex = formula.groups()
-    return MATHEMATICS.convert_with_local_state(html.unescape(tex), displaystyle=kind == "display")
+    return mathml(html.unescape(tex), display=kind == "display")

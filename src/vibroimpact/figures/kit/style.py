@@ -2,6 +2,7 @@
 
 import functools
 import json
+from io import BytesIO
 from pathlib import Path
 
 import matplotlib.style
@@ -62,6 +63,14 @@ def letter_panel(axes, letter: str) -> None:
 def hatch_gaps(axes) -> None:
     """Let cells of a map that have no value be seen."""
     axes.patch.set(hatch="xxx", edgecolor=GREY)
+
+
+@styled
+def png(figure: Figure) -> bytes:
+    """The picture of a figure, to be shown and not to be kept."""
+    buffer = BytesIO()
+    figure.savefig(buffer, format="png", backend=_BACKENDS["png"])
+    return buffer.getvalue()
 
 
 @styled
