@@ -1,11 +1,12 @@
 SHELL := /bin/bash
 CORES ?= 2
 RUNS ?= 20000
-PIN = .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
+# Beside .venv, not in the temporary folder of the machine.
+TEMPORARY = TMPDIR="$(CURDIR)/.cache"
+PIN = $(TEMPORARY) .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE
 export OMP_NUM_THREADS := 1
-export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 export WHEELS
 export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
@@ -69,11 +70,11 @@ lock: set-up  ## pin every package anew into environment.lock, what a cluster ne
 wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up needs no network
 	@test -n "$$WHEELS" || { echo "Name the folder: make wheels WHEELS=folder" >&2; exit 1; }
 	WHEELS= workflow/set_up.sh
-	.venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
+	$(TEMPORARY) .venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
 		-r environment.lock -r cluster.lock
 
 cluster-tools: set-up  ## install what Snakemake needs for Slurm, cluster.lock (docs/scale.md; again after each new set-up)
-	.venv/bin/python -m pip install --quiet --no-deps --require-hashes \
+	$(TEMPORARY) .venv/bin/python -m pip install --quiet --no-deps --require-hashes \
 		$(if $(WHEELS),--no-index --find-links "$$WHEELS") --requirement cluster.lock
 
 clean:  ## delete results and caches, keep the environment

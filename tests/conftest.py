@@ -8,9 +8,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from pipeline_trees import ROOT, Tree, made_once, with_results
-from vibroimpact_pipeline.builds import set_environment
-
-set_environment(ROOT)
+import vibroimpact_pipeline  # noqa: F401 (sets the environment)
 os.environ["PYTHONPATH"] = str(ROOT / "src")
 
 UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])

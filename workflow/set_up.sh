@@ -2,7 +2,7 @@
 # Create .venv from environment.lock, unless it is there already. One at a time; an interrupted set-up starts over.
 # With WHEELS=folder all packages come from that folder, which `make wheels` fills, and nothing from the network.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd -P "$(dirname "$0")/.."
 
 usable='import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))'
 version='import platform, sys; print(sys.implementation.name, *platform.python_version_tuple()[:2], platform.machine())'
@@ -47,34 +47,24 @@ if [[ -n "${WHEELS:-}" ]]; then
     source=(--no-index --find-links "$WHEELS")
 fi
 
+# Whatever it needs meanwhile lies in the checkout, too; bytecode is made of what is imported.
 install() {
-    .venv/bin/python "$@" --quiet --no-deps --no-build-isolation
-}
-
-# The part of the lock that names these packages.
-pinned() {
-    local package
-    for package; do
-        sed -n "/^$package==/,/[^\\\\]\$/p" environment.lock
-    done
+    TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}" .venv/bin/python -m pip install \
+        --disable-pip-version-check -qq --no-compile --no-deps --no-build-isolation "$@"
 }
 
 packages=$(grep -c '^[a-z].*==' environment.lock)
-echo "Setting up .venv with $("$python" --version), once: about a minute."
-export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
-export UV_CACHE_DIR="${UV_CACHE_DIR:-$PWD/.cache/uv}"
+echo "Setting up .venv with $("$python" --version), once: a minute or two."
 echo "1 of 3  installing $packages packages of environment.lock"
 "$python" -m venv --clear .venv
 # What has no wheel is built with the setuptools of the lock, not with whichever is newest on the day.
-install -m pip install "${source[@]}" --require-hashes --requirement <(pinned setuptools uv)
-install workflow/install.py "${source[@]}" --require-hashes --requirement environment.lock
+install "${source[@]}" --require-hashes --requirement <(sed -n '/^setuptools==/,/[^\\]$/p' environment.lock)
+install "${source[@]}" --require-hashes --requirement environment.lock
 echo "2 of 3  installing this project"
-install workflow/install.py "${source[@]}" --editable .
+install "${source[@]}" --editable .
 # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
-# uv looks in a tenth of the time; what there is to say says pip.
-conflicts=$(.venv/bin/python -m uv pip check --quiet --python .venv/bin/python 2>/dev/null || .venv/bin/python -m pip check) \
-    || { echo "$conflicts" >&2; exit 1; }
+conflicts=$(.venv/bin/python -m pip check) || { echo "$conflicts" >&2; exit 1; }
 echo "3 of 3  compiling the simulation engine, its certificate and its rivals (half a minute)"
 env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py
 echo "$stamp" >.venv/.complete

@@ -1,1 +1,6 @@
-"""What only the pipeline needs: config, fingerprints of sources, provenance, figure check, report."""
+"""What only the pipeline needs: config, records of results, provenance, figure check, report, archive."""
+
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.environment import set_environment
+
+set_environment(ROOT)

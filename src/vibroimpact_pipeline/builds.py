@@ -2,7 +2,6 @@
 
 import fcntl
 import importlib.util
-import os
 import secrets
 import shutil
 import sys
@@ -18,27 +17,6 @@ SHOWN = 4
 """Paths that are named for each reason."""
 NEEDED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
 """Modules without which jobs fail; Snakemake alone parses, lints and lists the workflow."""
-CACHES = {
-    "XDG_CACHE_HOME": "",
-    "XDG_CONFIG_HOME": "",
-    "MPLCONFIGDIR": "matplotlib",
-    "IPYTHONDIR": "ipython",
-    "HEYOKA_CACHE_DIR": "heyoka",
-}
-"""Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
-
-
-def set_environment(root: Path) -> None:
-    """Set the variables of this process and of its jobs: caches in the checkout, one thread each.
-
-    Where the checkout cannot be written to, caches lie in the working directory.
-    """
-    cache_folder = (root if os.access(root, os.W_OK) else Path.cwd()) / ".cache"
-    for variable, folder in CACHES.items():
-        (cache_folder / folder).mkdir(parents=True, exist_ok=True)
-        os.environ[variable] = str(cache_folder / folder)
-    os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def missing_libraries() -> list[str]:

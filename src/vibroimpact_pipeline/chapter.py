@@ -31,15 +31,6 @@ def _differences(place, given, printed):
     return [f"{place}.{name} is {given[name]}, not {value}" for name, value in printed.items() if given[name] != value]
 
 
-def as_in_the_chapter(config: dict, figure: str, scene: dict) -> bool:
-    """Whether a figure shows what the figure of its name shows in the chapter: the same parameters, under any name."""
-    if figure not in CASE_OF:
-        return figure.startswith("fig10_")
-    forces = CASES[CASE_OF[figure]]
-    shown = config["cases"][scene["case"]]
-    return config["system"] == PARAMETERS and all(shown[name] == value for name, value in forces.items())
-
-
 def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
     """Entries of the config that differ from those that the claims were written with, a line each.
 

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 
 import pytest
 
@@ -29,6 +30,16 @@ def test_nothing_comes_into_the_home(tree, tmp_path):
     home.mkdir()
     tree.snakemake(*WITHOUT_PROFILE, "--dry-run", FIGURE, HOME=str(home), XDG_CACHE_HOME=None)
     assert list(home.iterdir()) == []
+
+
+def test_a_command_of_the_pipeline_writes_nothing_elsewhere(tmp_path):
+    """One that draws nothing, but imports Matplotlib; the reference set bears no record, which it says."""
+    command = [sys.executable, "-m", "vibroimpact_pipeline.provenance.verify", "figures/fig10_06.png"]
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("MPL", "XDG_"))}
+    environment = own | {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
+    run = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert "bears no record" in run.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_make_has_a_home_where_nothing_tells_one():

@@ -4,7 +4,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import tarfile
 import time
 import zipfile
@@ -14,7 +13,7 @@ from io import BytesIO
 import pytest
 
 from namespaces import unshared
-from pipeline_trees import ROOT
+from pipeline_trees import ROOT, Tree
 
 RECORDING = """#!/bin/sh
 # An interpreter that makes an environment of itself and writes down what else it is asked to do.
@@ -31,6 +30,7 @@ case "$*" in
     *--requirement*)
         lock=${*##*--requirement }
         echo "$* $(cut -d ' ' -f 1 "${lock%% *}" | grep -c ==)" >>calls ;;
+    *--editable*) echo "$TMPDIR $PIP_CACHE_DIR" >>places; echo "$*" >>calls ;;
     *) echo "$*" >>calls ;;
 esac
 """
@@ -81,18 +81,31 @@ def test_a_killed_set_up_starts_over_and_a_finished_one_does_not(tree, recording
     assert said(tree, **recording) == ""
 
 
+def test_another_path_to_the_checkout_is_the_same_checkout(tree, recording, tmp_path):
+    said(tree, **recording)
+    link = tmp_path / "link"
+    link.symlink_to(tree.path)
+    assert said(Tree(link), PWD=str(link), **recording) == ""
+    moved = tree.path.rename(tmp_path / "moved")  # .venv holds absolute paths
+    assert "1 of 3" in said(Tree(moved), PYTHON=str(moved / "recording"))
+
+
 def test_what_builds_a_package_is_installed_from_the_lock_before_all_else(tree, recording):
-    """That and what installs first, then all; nothing is built with tools that pip would choose by itself."""
+    """Nothing is built with tools that pip would choose by itself."""
     said(tree, **recording)
     installs = [call for call in (tree / "calls").read_text().splitlines() if "--no-build-isolation" in call]
     assert len(installs) == 3
     packages = [call.split()[-1] for call in installs if "--requirement" in call]
-    assert packages[0] == "2"
+    assert packages[0] == "1"
     assert int(packages[1]) > 100
     assert all("--require-hashes" in call for call in installs[:2])
-    for package in ("setuptools", "uv"):
-        line = rf"^{package}==\S+ \\\n +--hash=sha256:"
-        assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
+    line = r"^setuptools==\S+ \\\n +--hash=sha256:"
+    assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
+
+
+def test_temporary_files_and_downloads_come_into_the_checkout(tree, recording):
+    said(tree, PIP_CACHE_DIR="", **recording)
+    assert (tree / "places").read_text() == f"{tree.path}/.cache {tree.path}/.cache/pip\n"
 
 
 def test_wheels_come_from_a_folder_alone(tree, recording):
@@ -127,49 +140,6 @@ def test_without_locks_a_set_up_says_so_and_goes_on(tree, recording):
     output = said(tree, PATH=f"{tree / 'bin'}:{os.environ['PATH']}", **recording)
     assert output.startswith("This file system has no locks: start no other set-up of this checkout meanwhile.\n")
     assert (tree / ".venv/.complete").exists()
-
-
-UV = """
-import os, sys
-from pathlib import Path
-words = " ".join([os.environ.get("SSL_CERT_FILE", ""), *sys.argv[1:]])
-Path(os.environ["SAID"]).write_text(words)
-"""
-
-
-def test_what_pip_was_told_is_told_to_what_installs(tmp_path):
-    """What the environment says ranks above the file; where wheels come from a folder alone, nothing is handed on."""
-    (tmp_path / "uv.py").write_text(UV)
-    settings = "index-url = https://a/simple\nextra-index-url =\n  https://b/simple\n  https://c/simple\ncert = own.pem"
-    (tmp_path / "pip.conf").write_text(f"[global]\n{settings}\n")
-    surroundings = {name: value for name, value in os.environ.items() if not name.startswith(("PIP_", "SSL_"))} | {
-        "PYTHONPATH": str(tmp_path),
-        "PIP_CONFIG_FILE": str(tmp_path / "pip.conf"),
-        "PIP_INDEX_URL": "https://d/simple",
-        "SAID": str(tmp_path / "said"),
-    }
-
-    def words(*arguments):
-        command = [sys.executable, str(ROOT / "workflow/install.py"), *arguments]
-        subprocess.run(command, env=surroundings, check=True)
-        return (tmp_path / "said").read_text().split("unsafe-best-match ")
-
-    first, told = words("--requirement", "lock")
-    assert first.startswith("own.pem pip install --python ")
-    sources = "--default-index https://d/simple --index https://b/simple --index https://c/simple"
-    assert told == f"{sources} --requirement lock"
-    assert words("--no-index", "--find-links", "here")[1] == "--no-index --find-links here"
-
-
-def test_where_the_fast_way_fails_pip_installs(tmp_path):
-    (tmp_path / "uv.py").write_text("raise SystemExit(2)")
-    command = [sys.executable, str(ROOT / "workflow/install.py"), "--no-index", "no-such-package"]
-    run = subprocess.run(
-        command, env=os.environ | {"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=False
-    )
-    assert run.returncode == 1
-    assert run.stderr.startswith("uv could not install this; pip tries it now")
-    assert "No matching distribution found for no-such-package" in run.stderr
 
 
 BACKEND = """

@@ -1,7 +1,6 @@
 """The notebooks as they lie in the repository: valid, stripped, with the parameters that the pipeline sets."""
 
 import ast
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -46,7 +45,7 @@ def test_parameters_are_those_that_the_pipeline_sets(notebook):
         "provenance",
     ]
     values = {statement.targets[0].id: ast.literal_eval(statement.value) for statement in assignments}
-    assert all(Path(path).name.startswith(f"{values['figure']}.{kind}") for kind, path in values["outputs"].items())
+    assert values["inputs"] == values["outputs"] == values["provenance"] == {}  # a reader's run is a reader's own
 
 
 def test_begins_with_the_question_and_its_equations(notebook):

@@ -167,6 +167,7 @@ def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
     for path in [*site.glob("*.html"), *site.glob("notebooks/*.html")]:
         for formula in re.findall("<math.*?</math>", path.read_text(encoding="utf-8"), re.DOTALL):
             shown |= set(unescape(re.sub("<annotation.*?</annotation>|<[^>]*>", "", formula)))
+            shown |= {"√"} if "<msqrt" in formula else set()  # drawn by the browser, with the sign of the font
     assert len(shown) > 100
     assert [sign for sign in shown - signs if not sign.isspace()] == []
     upright = {unicodedata.normalize("NFKD", sign) for sign in signs if "ITALIC" in unicodedata.name(sign, "")}

@@ -39,7 +39,6 @@ from vibroimpact_pipeline.code import fingerprint
 
 if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
-builds.set_environment(ROOT)
 
 
 # The config: entries of --config and --configfile over config/config.yaml, of the working directory or else the checkout.

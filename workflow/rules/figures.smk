@@ -44,7 +44,8 @@ for figure, (spec, inputs, params) in PLANS.items():
                 html=f"results/notebooks/{figure}.html",
             params:
                 **params,
-                code=FIGURES,
+                scene=CHAPTER[figure],
+                code=FIGURES | {"pipeline": PIPELINE["pipeline"]},
             priority: 10
             log:
                 f"results/logs/figures/{figure}.log",

@@ -6,7 +6,6 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.system import System
-from vibroimpact_pipeline.builds import set_environment
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, read
 from vibroimpact_pipeline.results import replacing
@@ -56,7 +55,6 @@ if __name__ == "__main__":
     parser.add_argument("--config", type=Path, default=ROOT / "config/config.yaml")
     parser.add_argument("--output", type=Path, default=ROOT / "results/accuracy/benchmark.csv")
     arguments = parser.parse_args()
-    set_environment(ROOT)  # Numba reads the environment when it is imported, below
     try:
         config = checked(read(arguments.config), files=[arguments.config])
     except ConfigError as error:

@@ -3,14 +3,8 @@
 import pkgutil
 from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
-from pathlib import Path
 
-from vibroimpact_pipeline.checkout import ROOT
-from vibroimpact_pipeline.environment import prepare
-from vibroimpact_pipeline.integrity import compiled
-from vibroimpact_pipeline.sources import Sources
-
-# Numba reads the environment when it is imported, so what needs it is imported after `prepare`.
+import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba reads when it is imported)
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
 """What jobs import by a name that no import statement has."""
@@ -66,21 +60,18 @@ def imports(*_):
     """All that jobs import, of which Python keeps compiled code as well, and Matplotlib its list of fonts."""
     import vibroimpact
 
-    scripts = (script.stem for script in Path(__file__).parent.glob("*.py"))
     library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))
-    for name in (*scripts, *library, *NAMED):
+    for name in (*library, *NAMED):
         if not name.endswith("__main__"):
             import_module(name)
 
 
 if __name__ == "__main__":
-    sources = Sources()
-    prepare(ROOT, sources)
     from vibroimpact.system import System
     from vibroimpact.system.chapter import CASES, PARAMETERS
 
     given = System(**PARAMETERS, **CASES["equal"]), [0.0] * 8
-    with compiled.from_unchanged(sources.stamps, ROOT), ProcessPoolExecutor(initializer=beforehand) as pool:
+    with ProcessPoolExecutor(initializer=beforehand) as pool:
         first, beside_it = pool.submit(engine), pool.submit(certificate, *given)
         first.result()
         for done in [beside_it, *(pool.submit(work, *given) for work in (ensembles, rivals, imports))]:

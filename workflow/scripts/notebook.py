@@ -11,64 +11,54 @@ from uuid import uuid4
 import papermill
 from traitlets.config import Config
 
-from job import running
-from vibroimpact.figures.kit.files import replacing
-from vibroimpact_pipeline.checkout import root_of
-from vibroimpact_pipeline.environment import SCRATCH
-from vibroimpact_pipeline.provenance.record import recorded
-from vibroimpact_pipeline.quick_end import OF_KERNEL
+from vibroimpact_pipeline import provenance
+from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.report.figure_texts import words
 from vibroimpact_pipeline.report.offline import page
 
 PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
 
 
-def main(notebook, executed, html, parameters: dict, title: str) -> None:
-    """Execute and export a notebook; the title is that of its figure.
-
-    Raises:
-        ValueError: the parameters cell of the notebook does not name exactly those of PARAMETERS.
-        papermill.PapermillExecutionError: a cell failed.
-    """
-    declared = set(papermill.inspect_notebook(str(notebook)))
-    if declared != PARAMETERS:
-        raise ValueError(f"notebook: {notebook} has the parameters {sorted(declared)}, needs {sorted(PARAMETERS)}")
-    Path(executed).parent.mkdir(parents=True, exist_ok=True)
-    print(f"{notebook} as it was executed: {executed}")
-    with replacing(html) as partial:
-        partial.write_text(page(execute(notebook, executed, parameters), title), encoding="utf-8")
-
-
 def execute(notebook, executed, parameters: dict):
-    """The notebook after execution.
+    """The notebook after execution, with parameters that it has to declare, all of them and no others.
 
     Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
     path of 107 characters at most.
+
+    Raises:
+        ValueError: the parameters of the notebook are others; papermill itself would only warn.
+        papermill.PapermillExecutionError: a cell failed.
     """
-    with TemporaryDirectory(prefix=SCRATCH) as folder:
+    for names, of in ((papermill.inspect_notebook(str(notebook)), f"{notebook} has"), (parameters, "given are")):
+        if set(names) != PARAMETERS:
+            raise ValueError(f"notebook: {of} the parameters {sorted(names)}, needed are {sorted(PARAMETERS)}")
+    with TemporaryDirectory() as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
-        sockets = {"transport": "ipc", "ip": f"@{SCRATCH}{uuid4()}", "connection_file": f"{folder}/kernel.json"}
-        start = {"extra_arguments": [f"--IPKernelApp.exec_lines={OF_KERNEL}"]}
+        sockets = {"transport": "ipc", "ip": f"@vibroimpact-{uuid4()}", "connection_file": f"{folder}/kernel.json"}
         return papermill.execute_notebook(
             str(notebook),
             str(executed),
             parameters,
             kernel_name="python3",
             progress_bar=False,
-            config=Config({"KernelManager": sockets, "NotebookClient": start}),
+            config=Config({"KernelManager": sockets}),
         )
 
 
-if "snakemake" in globals():
-    with running(snakemake), recorded(snakemake) as (provenance, outputs):
-        html = outputs.pop("html")
-        parameters = {
-            "figure": provenance["figure"],
-            "alt": snakemake.params.alt,
-            "settings": snakemake.params.settings,
-            "inputs": dict(snakemake.input.items()),
-            "outputs": outputs,
-            "provenance": provenance,
-        }
-        executed = Path(snakemake.log[0]).with_suffix(".ipynb")
-        notebook = root_of(snakemake) / snakemake.params.notebook
-        main(notebook, executed, html, parameters, snakemake.params.title)
+with running(snakemake) as out:
+    params, outputs = snakemake.params, vars(out)
+    made, said = provenance.record(snakemake), words(params.figure, params.scene, params.get("system") or {})
+    systems = {"case": params.case, "system": params.system} if params.case else {}
+    parameters = {
+        "figure": params.figure,
+        "alt": said["alt"],
+        "settings": {**systems, **params.settings},
+        "inputs": {name: path for name, path in snakemake.input.items() if name != "notebook"},
+        "outputs": {name: path for name, path in outputs.items() if name not in ("html", "provenance")},
+        "provenance": made,
+    }
+    executed = Path(snakemake.log[0]).with_suffix(".ipynb")
+    print(f"{snakemake.input.notebook} as it was executed: {executed}")
+    text = page(execute(snakemake.input.notebook, executed, parameters), said["title"])
+    Path(out.html).write_text(text, encoding="utf-8")
+    provenance.write(out.provenance, made)

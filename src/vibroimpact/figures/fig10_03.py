@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.sawtooth import sawtooth
@@ -62,6 +63,14 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
     """The impacts: instant tau_0, level Z, and time since the impact before."""
     impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
     return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
+
+
+def exact(amplitude: float, theta: float, tau0_max: float) -> str:
+    """What the exact system says of it, in Markdown; arguments as in `compute`."""
+    return (
+        f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ is made of "
+        "straight lines there, too. Only in symmetric motions are its corners half a period apart."
+    )
 
 
 @styled

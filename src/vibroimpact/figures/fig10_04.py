@@ -4,9 +4,12 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.manifold import branches, draw_branches
+from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
+from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
+from vibroimpact.theory.masri_printed import printed_limit
 
 SPEC = {
     "title": "The slow invariant manifold",
@@ -52,6 +55,16 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
     stable = select(table, "SIM", "SIM stable")[["C", "B"]]
     points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
     return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
+
+
+def exact(kappa: float, C_max: float) -> str:
+    """What the exact map from impact to impact says of the printed border, in Markdown; arguments as in `compute`."""
+    border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
+    growth = abs(impact_multipliers(border, kappa)).max()
+    return (
+        f"{EXACTLY} with the boxes' motion held, small disturbances at the border of (10.26), $C = {border:.3f}$, are "
+        f"multiplied by **{growth:.2f}** from impact to impact. They die out for ${low:.3f} < C < {high:.3f}$ alone."
+    )
 
 
 @styled

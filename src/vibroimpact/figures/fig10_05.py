@@ -4,9 +4,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers
 from vibroimpact.theory.masri_printed import printed_limit
 
 SPEC = {
@@ -65,6 +67,17 @@ def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
     rows = np.linspace(0, len(fold) - 1, values).astype(int)
     points = pd.DataFrame({"kappa": border["kappa"].to_numpy(), "border": border["C"].to_numpy(), "C_min": fold})
     return points.assign(stable_left_arm=points["C_min"] - points["border"]).iloc[rows].reset_index(drop=True)
+
+
+def exact(C_range: tuple[float, float]) -> str:
+    """What the exact map from impact to impact says of the regions, in Markdown; arguments as in `compute`."""
+    kappa = np.linspace(0.0, 1.0, 201)
+    growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
+    return (
+        f"{EXACTLY} with the boxes' motion held, small disturbances at the border of (10.26) are multiplied by up to "
+        f"**{growth:.2f}** from impact to impact. They die out between the dotted line $C_{{\\min}}(\\kappa)$ and "
+        f"$C = {SYMMETRY_BREAKING_C:.3f}$ alone, for every $\\kappa$."
+    )
 
 
 @styled

@@ -38,6 +38,7 @@ SPEC = {
     "case": "figures.{figure}.case",
     "settings": {"C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "tables": {
         "csv": {
             "columns": {

@@ -32,6 +32,7 @@ SPEC = {
     "case": "figures.{figure}.case",
     "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "tables": {
         "csv": {
             "columns": {

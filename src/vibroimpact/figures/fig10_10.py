@@ -22,6 +22,7 @@ SPEC = {
     "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods",
         "C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
+    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "tables": {
         "csv": {
             "columns": {

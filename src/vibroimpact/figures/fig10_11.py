@@ -18,7 +18,7 @@ SPEC = {
     "notebook": "simulation",
     "case": "figures.{figure}.case",
     "inputs": {"samples": "results/simulations/{case}/samples.csv", "events": "results/simulations/{case}/events.csv"},
-    "notebook_settings": {"observation": "regimes.observation"},
+    "notebook_settings": {"simulation": "cases.{case}.simulation", "observation": "regimes.observation"},
     "notebook_inputs": {"points": "results/fixed_points/{case}.csv",
         "summary": "results/simulations/{case}/summary.json"},
     "tables": {

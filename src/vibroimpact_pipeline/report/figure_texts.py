@@ -3,38 +3,44 @@
 import re
 from collections.abc import Callable
 
-from vibroimpact.figures.specs import spec_of
-from vibroimpact_pipeline.chapter import as_in_the_chapter
+from vibroimpact.figures.specs import spec_of, specs
+from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
 
+FORCES = ("f10_hat", "f20_hat")
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
 """What is said of a figure, and how a text is written there as it is: titles are plain, captions reStructuredText."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """SPEC by name, with the numbers its words ask for: {f10_hat}, say, of the case that the figure shows.
-
-    A figure of the chapter that shows other parameters than there has the words for figures of one's own.
-    """
+    """SPEC of every figure, animation and control by name, in the words for a config; see `words`."""
     known, data = read(root)
-    animation = known.pop("animation")
+    texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
     scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
-    texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
     for figure, scene in scenes.items():
-        spec, heading = spec_of(figure, scene, known) if figure in known or "notebook" in scene else animation, ""
-        if figure.startswith("fig10_"):
-            heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
-            if not as_in_the_chapter(config, figure, scene):
-                spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
-        numbers = scene | _parameters(config, scene)
-        texts[figure] = spec | {name: _filled(spec[name], numbers, as_is) for name, as_is in SAID.items()}
-        texts[figure]["title"] = heading + texts[figure]["title"]
+        forces = config["cases"].get(scene.get("case"), {})
+        texts[figure] = words(figure, scene, config["system"] | {name: forces[name] for name in FORCES if forces})
     return texts | data["captions"]
 
 
-def _parameters(config, scene):
-    case = config["cases"].get(scene.get("case"), {})
-    return config["system"] | {name: value for name, value in case.items() if name != "simulation"}
+def words(figure: str, scene: dict, parameters: dict) -> dict:
+    """The SPEC of a figure with the numbers that its words ask for: {f10_hat}, say, of the case that it shows.
+
+    A figure of the chapter that shows other parameters than there has the words for figures of one's own.
+
+    Args:
+        scene: its entry in the config. parameters: of the system that it shows, as far as it has one.
+    """
+    known = specs()
+    spec = spec_of(figure, scene, known) if figure in known or "notebook" in scene else known["animation"]
+    heading = ""
+    if figure.startswith("fig10_"):
+        heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
+        if figure in CASE_OF and parameters != PARAMETERS | CASES[CASE_OF[figure]]:
+            spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
+    said = {name: _filled(spec[name], scene | parameters, as_is) for name, as_is in SAID.items()}
+    return spec | said | {"title": heading + said["title"]}
 
 
 def _filled(text, known, as_is: Callable[[str], str]):

@@ -7,7 +7,7 @@ from nbconvert import HTMLExporter
 from nbconvert.filters import markdown_mistune
 from traitlets.config import Config
 
-from vibroimpact_pipeline.report.mathematics import MATHEMATICS, STYLE, kept
+from vibroimpact_pipeline.report.mathematics import STYLE, kept, mathml
 from vibroimpact_pipeline.report.policy import guarded
 
 PAGE = """\
@@ -73,16 +73,16 @@ class MathMLRenderer(markdown_mistune.IPythonRenderer):
     """
 
     def inline_math(self, body):
-        return MATHEMATICS.convert_with_local_state(body, displaystyle=False)
+        return mathml(body, display=False)
 
     def block_math(self, body):
         numbered = r"\tag" in body
         formula = rf"\begin{{equation}}{body}\end{{equation}}" if numbered else body
-        return MATHEMATICS.convert_with_local_state(formula, displaystyle=True)
+        return mathml(formula, display=True)
 
     def latex_environment(self, name, body):
         formula = rf"\begin{{{name}}}{body}\end{{{name}}}"
-        return MATHEMATICS.convert_with_local_state(formula, displaystyle=True)
+        return mathml(formula, display=True)
 
 
 class OfflineExporter(HTMLExporter):

@@ -9,9 +9,8 @@ from tempfile import TemporaryDirectory
 import pypandoc
 import typst
 
-from vibroimpact_pipeline.environment import SCRATCH
-from vibroimpact_pipeline.report.mathematics import MATHEMATICS, kept
 from vibroimpact_pipeline.report.mathematics import STYLE as OF_MATHEMATICS
+from vibroimpact_pipeline.report.mathematics import kept, mathml
 from vibroimpact_pipeline.report.pages import is_template
 from vibroimpact_pipeline.report.policy import guarded
 
@@ -91,7 +90,7 @@ def convert(
         math_core.LatexError: a formula cannot be translated to MathML.
         RuntimeError: pandoc has a warning.
     """
-    with TemporaryDirectory(prefix=SCRATCH) as scratch:
+    with TemporaryDirectory() as scratch:
         metadata = Path(scratch) / "metadata.json"
         metadata.write_text(json.dumps(known), encoding="utf-8")
         options = [f"--metadata-file={metadata}", f"--lua-filter={sources / 'filter.lua'}", "--columns=10000"]
@@ -105,4 +104,4 @@ def convert(
 def as_mathml(formula: re.Match) -> str:
     """A formula as the notebooks' pages have it, which browsers draw by themselves."""
     kind, tex = formula.groups()
-    return MATHEMATICS.convert_with_local_state(html.unescape(tex), displaystyle=kind == "display")
+    return mathml(html.unescape(tex), display=kind == "display")

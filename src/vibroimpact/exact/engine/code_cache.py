@@ -2,7 +2,9 @@
 
 Code is kept apart by the content of all that may be compiled into it, since Numba itself looks at the file of a
 function, not at those of the functions it calls, and would go on using the code of a version that is no longer
-installed. Who sets NUMBA_CACHE_DIR sees to that alone.
+installed. With NUMBA_CACHE_DIR set, the user handles this.
+
+Each file ends with a sum of its content, which is checked before Numba reads it: Numba would run a damaged one.
 """
 
 import hashlib
@@ -10,9 +12,11 @@ import os
 import tempfile
 from contextlib import contextmanager
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 
 from numba import config, njit
+from numba.core import caching
 
 from vibroimpact.exact.engine.compile_notice import say
 
@@ -24,7 +28,7 @@ def kept(**options):
     """Numba's `njit` for a function whose code is kept on disk."""
 
     def decorate(function):
-        with _numba_keeping_code_in(code_folder(Path(function.__code__.co_filename).parent)):
+        with _numba_keeping_sound_code_in(code_folder(Path(function.__code__.co_filename).parent)):
             return njit(cache=True, **options)(function)
 
     return decorate
@@ -37,14 +41,51 @@ def code_folder(package: Path) -> Path | None:
 
 
 @contextmanager
-def _numba_keeping_code_in(folder):
-    """Numba reads the folder when a function is decorated; functions of others are none of our business."""
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(folder or before)
+def _numba_keeping_sound_code_in(folder):
+    """Numba reads both settings when a function is decorated; functions of others keep theirs."""
+    before = config.CACHE_DIR, caching.IndexDataCacheFile
+    config.CACHE_DIR, caching.IndexDataCacheFile = str(folder or config.CACHE_DIR), SummedFiles
     try:
         yield
     finally:
-        config.CACHE_DIR = before
+        config.CACHE_DIR, caching.IndexDataCacheFile = before
+
+
+class SummedFiles(caching.IndexDataCacheFile):
+    """Numba's files of a function: an index and one for each signature, each ending with the SHA-256 of its content.
+
+    Numba ignores what comes after the content. A file that it does not find is compiled anew.
+    """
+
+    def _load_index(self):
+        _remove_if_damaged(self._index_path)
+        return super()._load_index()
+
+    def _load_data(self, name):
+        _remove_if_damaged(self._data_path(name))
+        return super()._load_data(name)
+
+    @contextmanager
+    def _open_for_write(self, filepath):
+        content = BytesIO()
+        yield content
+        with super()._open_for_write(filepath) as file:
+            file.write(content.getvalue() + _sum(content.getvalue()))
+
+
+def _remove_if_damaged(path):
+    try:
+        content = Path(path).read_bytes()
+    except FileNotFoundError:
+        return
+    size = len(content) - len(_sum(b""))
+    if content[size:] != _sum(content[:size]):
+        Path(path).unlink(missing_ok=True)
+        say(f"{path} is damaged: removed, what it held is compiled anew")
+
+
+def _sum(content):
+    return hashlib.sha256(content).digest()
 
 
 @cache

@@ -6,8 +6,12 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.system.verdict import all_stable
+from vibroimpact.theory.fixed_points.labels import labels
+from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.manifold import C_min, overshoot, rho
 from vibroimpact.theory.masri_printed import printed_limit
+
+COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +23,16 @@ class LabelledPoint:
     B: np.ndarray
     psi: np.ndarray
     multiple: bool
+
+
+def fixed_point_table(case: str, system) -> pd.DataFrame:
+    """All fixed points of a system, a row each, by label; columns COLUMNS, the case under the name given."""
+    points = fixed_points(system)
+    rows = [
+        [case, label, *point.C, *point.B, *point.psi, point.multiple]
+        for label, point in zip(labels(system, points), points, strict=True)
+    ]
+    return pd.DataFrame(rows, columns=COLUMNS).sort_values("label", ignore_index=True)
 
 
 def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:

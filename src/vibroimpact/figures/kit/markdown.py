@@ -4,6 +4,8 @@ import re
 
 ESCAPED = re.compile(r"([!-/:-@\[-`{-~])")
 """ASCII punctuation, each of which a backslash makes an ordinary character."""
+EXACTLY = "**The exact system:**"
+"""Begins the one line on the page of a figure that says what the exact system does."""
 
 
 def one_line(text) -> str:

@@ -2,13 +2,13 @@
 
 import functools
 import json
+from io import BytesIO
 from pathlib import Path
 
 import matplotlib.style
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.files import replacing
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
@@ -61,25 +61,29 @@ def hatch_gaps(axes) -> None:
 
 
 @styled
-def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
-    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), each file at once or not at all.
+def png(figure: Figure) -> bytes:
+    """The picture of a figure, to be shown and not to be kept."""
+    buffer = BytesIO()
+    figure.savefig(buffer, format="png", backend=_BACKENDS["png"])
+    return buffer.getvalue()
 
-    The layout is that of the first file, for all of them, and stays with the figure.
+
+@styled
+def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file.
 
     Args:
         provenance: where the figure comes from, JSON data that goes into the metadata of each file.
     """
-    outputs = dict(outputs.items())  # of the pipeline's own kind of mapping, `in` looks at the values
     # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
         metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
-        with replacing(outputs[kind]) as path:
-            figure.savefig(path, format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
+        figure.savefig(outputs[kind], format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
 
 
 def drawn(figure, read: dict) -> Figure:
-    """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
+    """Draw the tables of a figure's module, given by name: one that has a single table takes that alone."""
     names = figure.SPEC["tables"]
     return figure.draw(read) if len(names) > 1 else figure.draw(read["csv"]) if names else figure.draw()
 
@@ -91,8 +95,21 @@ def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = No
         figure: its module.
         outputs: paths by kind of picture and by name of table.
     """
-    written = {}
-    for name, table in (computed if isinstance(computed, dict) else {"csv": computed}).items():
+    for name, table in _by_name(computed).items():
         tables.write(table, outputs[name])
-        written[name] = tables.read(outputs[name])
-    save(figure.draw(written if isinstance(computed, dict) else written["csv"]), outputs, provenance)
+    save(drawn(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs, provenance)
+
+
+def picture(figure, computed, outputs: dict, provenance: dict | None = None) -> str | bytes:
+    """Return the PNG of a figure: its path among the files that are written, or its content where none are.
+
+    Args: as `write_and_draw`; outputs may be empty.
+    """
+    if not outputs:
+        return png(drawn(figure, _by_name(computed)))
+    write_and_draw(figure, computed, outputs, provenance)
+    return outputs["png"]
+
+
+def _by_name(computed):
+    return computed if isinstance(computed, dict) else {"csv": computed}

@@ -23,9 +23,20 @@ p:has(> math[display="block"]) {{ overflow-x: auto; overflow-y: hidden; }}
 @media print {{ p:has(> math[display="block"]) {{ overflow: visible; }} }}
 """
 """Of every page with formulas; the font is in it, since browsers load none from a disk."""
-MATHEMATICS = LatexToMathML(fancy_error=False)
+_CONVERTER = LatexToMathML(fancy_error=False)
+OVERLINE = re.compile(r"(?<=<mo stretchy=\"true\">)\u0332(?=</mo></mover>)")
+"""What the converter sets over a term for \\overline: a combining low line, which is drawn below its letter."""
 MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)', re.DOTALL)
 """A formula within a line, with the marks before and behind it."""
+
+
+def mathml(tex: str, display: bool) -> str:
+    """A LaTeX formula as MathML, within a line or displayed on its own.
+
+    Raises:
+        math_core.LatexError: the formula cannot be translated.
+    """
+    return OVERLINE.sub("\u203e", _CONVERTER.convert_with_local_state(tex, displaystyle=display))
 
 
 def kept(html: str) -> str:

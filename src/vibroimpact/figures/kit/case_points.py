@@ -1,0 +1,78 @@
+"""The fixed points that a notebook shows: computed from its own parameters, or read from `inputs`, files of a build.
+
+A file that was made with other parameters than those of the notebook is refused.
+"""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
+from vibroimpact.exact.orbits.search import search
+from vibroimpact.figures.kit import tables
+from vibroimpact.figures.kit.fixed_point_table import fixed_point_table, labelled_points
+from vibroimpact.figures.kit.markdown import EXACTLY, plain
+
+AGREES = 1e-8
+"""Difference of coordinates below which two tables hold the same fixed points: they were made by the same code."""
+COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
+HINT = "with inputs = {} the notebook computes from its own parameters"
+
+
+def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
+    """The fixed points of a case, from inputs["points"] if that is given; see `fixed_point_table`.
+
+    Raises:
+        ValueError: the file holds another case, or other points than those of the system.
+    """
+    computed = fixed_point_table(case, system)
+    if not inputs:
+        return computed
+    given = tables.read(inputs["points"])
+    _expect_same_points(given, computed, inputs["points"])
+    return given
+
+
+def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
+    """What every criterion says of each fixed point, from inputs["verdicts"] if that is given.
+
+    Columns label, orbit (label of the exact orbit that goes with the point), floquet (verdict of its multipliers), ...
+
+    Raises:
+        ValueError: the file holds another case, or other points.
+    """
+    if inputs:
+        given = tables.read(inputs["verdicts"])
+        _expect_same_points(given, points, inputs["verdicts"])
+        return given
+    labelled = [(point.label, point) for point in labelled_points(points)]
+    return fixed_point_rows(case, system, labelled, orbit_rows(case, search(system).orbits))
+
+
+def exact(verdicts: pd.DataFrame) -> str:
+    """What the Floquet multipliers of the exact orbits say of fixed points; columns label, orbit, floquet."""
+    if verdicts.empty:
+        return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
+    said = []
+    for verdict, rows in verdicts.groupby("floquet", sort=False):
+        names = [f"**{plain(label)}**" for label in rows["label"]]
+        if verdict == NO_ORBIT:
+            said.append(f"{', '.join(names)}: **no orbit**")
+        else:
+            with_orbits = (f"{name} (orbit {plain(orbit)})" for name, orbit in zip(names, rows["orbit"], strict=True))
+            said.append(f"{', '.join(with_orbits)}: **{verdict}** by Floquet multipliers")
+    return f"{EXACTLY} {'; '.join(said)}."
+
+
+def _expect_same_points(given, expected, path):
+    if list(given["case"]) + list(given["label"]) != list(expected["case"]) + list(expected["label"]):
+        raise ValueError(f"inputs: {path} holds {_named(given)}, the parameters have {_named(expected)}; {HINT}")
+    apart = np.abs(given[COORDINATES].to_numpy(float) - expected[COORDINATES].to_numpy(float)).max(initial=0.0)
+    if not apart < AGREES:
+        raise ValueError(
+            f"inputs: {path} holds the fixed points of other parameters, up to {apart:.2g} from those asked for; {HINT}"
+        )
+
+
+def _named(points):
+    of = f" of case {', '.join(dict.fromkeys(points['case']))}" if len(points) else ""
+    return f"the fixed points {', '.join(points['label']) or '(none)'}{of}"

@@ -1,0 +1,78 @@
+"""Direct integration of a case: the window of its motion after a transient, in float64 or with proved digits."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.system import System
+from vibroimpact.system.state import KINDS, NAMES
+
+SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """The end of a simulation.
+
+    samples: columns tau and the state, evenly spaced, both ends included. events: tau, module, wall, kind and the
+    state just after. strobe: as samples, at the start of every forcing cycle of the whole run. trust: what vouches
+    for the run.
+    """
+
+    samples: pd.DataFrame
+    events: pd.DataFrame
+    strobe: pd.DataFrame
+    trust: dict
+
+
+def window(system: System, settings: dict) -> Window:
+    """Simulate a case and keep its window.
+
+    Args:
+        settings: initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle. With
+            `digits` the run is carried with that many decimal digits and proved by doubling them.
+    """
+    cycles = settings["transient_cycles"] + settings["window_cycles"]
+    starts = np.arange(settings["transient_cycles"]) * system.period
+    times = window_times(system.period, *(settings[name] for name in SPAN))
+    run, trust = _integrate(system, settings, cycles, np.concatenate([starts, times]))
+    samples, every = run.samples[len(starts) :], slice(None, None, settings["samples_per_cycle"])
+    return Window(
+        samples=_states(times, samples),
+        events=_events(run.events[run.events["tau"] >= times[0]]),
+        strobe=_states(
+            np.concatenate([starts, times[every]]), np.concatenate([run.samples[: len(starts)], samples[every]])
+        ),
+        trust=trust,
+    )
+
+
+def window_times(period: float, transient_cycles: int, window_cycles: int, samples_per_cycle: int) -> np.ndarray:
+    """Sample times of the window, both ends included, the same phases in every cycle."""
+    return (transient_cycles + np.arange(window_cycles * samples_per_cycle + 1) / samples_per_cycle) * period
+
+
+def _integrate(system, settings, cycles, times):
+    """The run, and what vouches for it."""
+    if "digits" not in settings:
+        run = simulate(system, settings["initial_state"], cycles, sample_times=times)
+        certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
+        return run, {"method": "float64", "certificate": certificate}
+    from vibroimpact.accuracy.reference.run import proven_run  # needs an extra that float64 does without
+
+    proof = proven_run(system, settings["initial_state"], cycles, digits=settings["digits"], sample_times=times)
+    digits = [proof.coarse.digits, proof.run.digits]
+    return proof.run, {"method": "arbitrary precision", "digits": digits, "agreement": proof.agreement}
+
+
+def _states(times, states):
+    return pd.DataFrame(np.column_stack([times, states]), columns=["tau", *NAMES])
+
+
+def _events(events):
+    table = pd.DataFrame({name: events[name] for name in ("tau", "module", "wall")})
+    table["kind"] = [KINDS[kind] for kind in events["kind"]]
+    table[list(NAMES)] = events["state"]
+    return table

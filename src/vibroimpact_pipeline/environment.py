@@ -1,0 +1,26 @@
+"""The environment variables of every command of the pipeline and of its jobs."""
+
+import os
+from pathlib import Path
+
+CACHES = {
+    "XDG_CACHE_HOME": "",
+    "XDG_CONFIG_HOME": "",
+    "MPLCONFIGDIR": "matplotlib",
+    "IPYTHONDIR": "ipython",
+    "HEYOKA_CACHE_DIR": "heyoka",
+}
+"""Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
+
+
+def set_environment(root: Path) -> None:
+    """Set the variables of this process and of its jobs: caches in the checkout, one thread each.
+
+    Where the checkout cannot be written to, caches lie in the working directory.
+    """
+    cache_folder = (root if os.access(root, os.W_OK) else Path.cwd()) / ".cache"
+    for variable, folder in CACHES.items():
+        (cache_folder / folder).mkdir(parents=True, exist_ok=True)
+        os.environ[variable] = str(cache_folder / folder)
+    os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

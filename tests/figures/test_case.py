@@ -1,0 +1,103 @@
+"""What notebooks show of a case: of their own parameters, not of other files, in words that fit the numbers."""
+
+import json
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import fixed_points
+import orbits
+import simulate
+import verdicts
+from chapter import PARAMETERS
+from vibroimpact.figures.kit import case_motion, case_points
+from vibroimpact.system import System
+
+EQUAL = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
+OTHERS = [EQUAL | change for change in ({"kappa": 0.650001}, {"f20_hat": 0.72}, {"f10_hat": 0.0, "f20_hat": 0.0})]
+RUN = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "samples_per_cycle": 16}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Files of the case `equal`, as a build makes them, by name."""
+    folder = tmp_path_factory.mktemp("made")
+    names = ("fixed_points", "orbits", "search", "verdicts", "samples", "events", "strobe", "summary")
+    files = {name: folder / f"{name}{'.json' if name in ('search', 'summary') else '.csv'}" for name in names}
+    fixed_points.main("equal", EQUAL, files["fixed_points"])
+    orbits.main("equal", EQUAL, {"csv": files["orbits"], "search": files["search"]})
+    verdicts.main("equal", EQUAL, files, files["verdicts"])
+    simulate.main("equal", EQUAL, RUN, files)
+    return files
+
+
+def test_files_and_parameters_say_the_same(made):
+    system = System(**EQUAL)
+    read, own = (case_points.fixed_points("equal", system, inputs) for inputs in (made, {}))
+    pd.testing.assert_frame_equal(read, own)
+    said = [case_points.exact(case_points.verdicts("equal", system, read, inputs)) for inputs in (made, {})]
+    assert said[0] == said[1] != ""
+    for one, other in zip(*(case_motion.simulated("equal", EQUAL, RUN, inputs) for inputs in (made, {})), strict=True):
+        pd.testing.assert_frame_equal(one, other, check_dtype=False)
+
+
+@pytest.mark.parametrize("others", OTHERS)
+def test_files_of_other_parameters_are_refused_in_one_line(made, others):
+    with pytest.raises(ValueError, match=r"inputs: .*fixed_points.csv") as points:
+        case_points.fixed_points("equal", System(**others), made)
+    with pytest.raises(ValueError, match=r"inputs: .*summary.json was made with (kappa|f[12]0_hat) = ") as motion:
+        case_motion.simulated("equal", others, RUN, made)
+    assert all("\n" not in str(error.value) for error in (points, motion))
+
+
+def test_files_of_another_case_or_length_are_refused(made):
+    with pytest.raises(ValueError, match="of case equal"):
+        case_points.fixed_points("unequal", System(**EQUAL), made)
+    with pytest.raises(ValueError, match="was made with case = equal, asked for is unequal"):
+        case_motion.simulated("unequal", EQUAL, RUN, made)
+    with pytest.raises(ValueError, match="was made with window_cycles = 3, asked for is 4"):
+        case_motion.simulated("equal", EQUAL, RUN | {"window_cycles": 4}, made)
+
+
+def test_verdicts_of_other_points_are_refused(made):
+    other = System(**EQUAL | {"f20_hat": 0.95})
+    with pytest.raises(ValueError, match=r"verdicts.csv holds"):
+        case_points.verdicts("equal", other, case_points.fixed_points("equal", other, {}), made)
+
+
+def test_the_exact_verdict_is_that_of_the_multipliers(made):
+    moduli = pd.read_csv(made["orbits"]).set_index("label")["modulus_1"]
+    said = case_points.exact(pd.read_csv(made["verdicts"]))
+    groups = re.findall(r"((?:, )?(?:\*\*\w\*\* \(orbit \w+\)(?:, )?)+): \*\*(\w+)\*\*", said)
+    pairs = [(orbit, verdict) for names, verdict in groups for orbit in re.findall(r"orbit (\w+)", names)]
+    assert len(pairs) == 3
+    assert all((moduli[orbit] < 1) == (verdict == "stable") for orbit, verdict in pairs)
+    assert json.loads(made["summary"].read_text())["system"] == EQUAL
+
+
+def sampled(period, decay=0.0, cycles=6, per_cycle=8):
+    """Displacements that repeat after `period` cycles, but for a part that dies out."""
+    t = np.arange(cycles * per_cycle + 1) / per_cycle
+    return np.outer(np.sin(2 * np.pi * t / period) + decay * np.exp(-t), np.ones(4))
+
+
+@pytest.mark.parametrize(
+    ("repeats", "displacements", "said"),
+    [
+        (1, sampled(1), "it **repeats every period**: in the window it changes after one period"),
+        (2, sampled(2), "it **repeats after 2 periods**: in the window it changes after 2 periods"),
+        (1, sampled(1, decay=0.5), "**repeats every period** once it has settled: in the window it changes after one"),
+        (7, sampled(7), "it **repeats after 7 periods**, which is longer than the window"),
+        (None, sampled(np.pi), "it **does not repeat**: in the window it changes after one period by up to "),
+        (None, sampled(1), "it **leaves** what the window shows, where it nearly repeats: in the window it changes"),
+        (None, sampled(1, cycles=1), "it **leaves** what the window shows"),
+        (None, sampled(3), "nearly repeats: in the window it changes after 3 periods"),
+    ],
+)
+def test_words_on_repetition_fit_the_window(repeats, displacements, said):
+    sentence = case_motion.repetition(repeats, displacements, 8, nearness=0.02)
+    assert said in sentence
+    if "does not repeat" in sentence:
+        assert float(sentence.split()[-1]) > 0.02
