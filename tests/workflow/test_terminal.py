@@ -130,6 +130,7 @@ def test_a_figure_is_made_and_shown_where_it_is(tree):
     assert finished.endswith(" s  figure 10.3")
     assert done.endswith(": 1 job. 1 figure in results/figures/.")
     assert page == "Open first: results/notebooks/fig10_03.html"
+    assert "notebooks/fig10_03.html" in (tree / "results/index.html").read_text(encoding="utf-8")
     assert tree.snakemake("fig10_03").splitlines()[1:] == [f"Nothing to do: all is up to date. {page}"]
 
 
