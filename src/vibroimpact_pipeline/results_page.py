@@ -75,10 +75,8 @@ def write(titles: dict[str, str]) -> None:
 
 
 def _overview():
-    """Where to read on: the report, and how many claims got which verdict."""
+    """How many claims got which verdict, and where they are."""
     said = ["<p>Every figure leads to its page, which says how it is made and what the exact system says of it.</p>"]
-    if _is_current(REPORT):
-        said.append(f"<p>To read: {_link(REPORT, 'the report')}.</p>")
     if (claims := RESULTS / "claims.json").is_file():
         counts = Counter(claim["verdict"] for claim in json.loads(claims.read_text(encoding="utf-8")))
         verdicts = ", ".join(f"{escape(verdict)} {number}" for verdict, number in counts.most_common())
