@@ -7,8 +7,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from pipeline_trees import ROOT, Tree, made_once, with_results
 import vibroimpact_pipeline  # noqa: F401 (sets the environment)
+from pipeline_trees import ROOT, Tree, made_once, with_results
+
 os.environ["PYTHONPATH"] = str(ROOT / "src")
 
 UNTIMED = dict(deadline=None, suppress_health_check=[HealthCheck.too_slow])

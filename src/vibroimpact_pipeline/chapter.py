@@ -37,7 +37,9 @@ def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
     Args:
         seen: the digest of each entry (see `digest`) by its dotted path.
     """
-    return [f"{path} is not the one that docs/claims.yaml knows" for path in seen if _digest_at(config, path) != seen[path]]
+    return [
+        f"{path} is not the one that docs/claims.yaml knows" for path in seen if _digest_at(config, path) != seen[path]
+    ]
 
 
 def _digest_at(config, path):

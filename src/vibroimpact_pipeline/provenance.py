@@ -1,6 +1,6 @@
 """Where a figure comes from: a record beside it and in its metadata, and whether the checkout would still make it so.
 
-    python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
+python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
 
 import argparse
@@ -114,7 +114,8 @@ def _at(config, place):
 
 def main() -> int:
     """Exit status: 0 the file matches, 1 it does not, 2 it has no record."""
-    from vibroimpact_pipeline.config import checked, read as read_config
+    from vibroimpact_pipeline.config import checked
+    from vibroimpact_pipeline.config import read as read_config
 
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
     parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
@@ -126,7 +127,9 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     found = list(differences(file, made, config))
-    print(f"{file}: {made['figure']}, made from commit {made.get('commit') or 'unknown'} ({made.get('tree') or 'no git'})")
+    print(
+        f"{file}: {made['figure']}, made from commit {made.get('commit') or 'unknown'} ({made.get('tree') or 'no git'})"
+    )
     print(*found, f"{len(found)} difference(s)." if found else "It is what this checkout makes.", sep="\n")
     return int(bool(found))
 

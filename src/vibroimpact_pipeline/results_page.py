@@ -1,23 +1,16 @@
-"""What to open first: the report, else results/index.html, a page that links what a build has made."""
+"""The page to open first after a build: what the exact system says of each figure, and links to all results."""
 
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable
 from html import escape
 from itertools import chain
 from pathlib import Path
 from urllib.parse import quote
 
-from vibroimpact.figures.kit.files import replacing
+from vibroimpact_pipeline.report.mathematics import STYLE
+from vibroimpact_pipeline.report.policy import guarded
 
-RESULTS = Path("results")
-INDEX, REPORT = RESULTS / "index.html", RESULTS / "report/index.html"
-OWN = {
-    **dict.fromkeys(("figure_check", "figure_check_strict", "compare_figures"), "figure_check/index.html"),
-    "report": "report/index.html",
-}
-"""Pages of targets; a figure has its own in results/notebooks/, a sweep in results/sweeps/."""
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
 KINDS = {".html": "page", ".png": "PNG", ".svg": "SVG", ".pdf": "PDF", ".csv": "numbers (CSV)"}
 TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*.csv"
@@ -42,56 +35,37 @@ li {{ margin: 0.4rem 0; }}
 """
 
 
-def first_page(targets: Iterable[str]) -> str | None:
-    """Path of the page to open after a build: that of a target, else the report, else the index; None without one.
-
-    A report that is older than a result beside it is passed over.
-    """
-    own = chain.from_iterable(
-        (RESULTS / OWN.get(name, f"notebooks/{name}.html"), RESULTS / f"sweeps/{name.removeprefix('sweep_')}.html")
-        for name in targets
-    )
-    others = [REPORT] * _is_current(REPORT) + [INDEX]
-    return next((str(page) for page in (*own, *others) if page.is_file()), None)
-
-
-def _is_current(report):
-    made = chain.from_iterable(RESULTS.glob(pattern) for pattern in ("*.json", "*.csv", "figures/*", "notebooks/*"))
-    return report.is_file() and report.stat().st_mtime >= max((path.stat().st_mtime for path in made), default=0)
-
-
-def write(titles: dict[str, str]) -> None:
-    """Write the index of what lies in results/.
+def page(results: Path, titles: dict[str, str]) -> str:
+    """The index of the results of a build as HTML that reads offline.
 
     Args:
+        results: the directory.
         titles: of the figures, by name, in the order in which they are listed.
     """
-    from vibroimpact_pipeline.report.mathematics import STYLE  # loads a font and a converter, which few builds need
-    from vibroimpact_pipeline.report.policy import guarded
-
-    parts = [_overview(), *_figures(titles), _list("Tables", map(_file, _tables()))]
-    with replacing(INDEX) as partial:
-        partial.write_text(guarded(PAGE.format(style=STYLE, body="\n".join(parts))), encoding="utf-8")
+    files = sorted(chain.from_iterable(results.glob(pattern) for pattern in TABLES))
+    tables = [_link(*2 * [path.relative_to(results)]) for path in files]
+    parts = [_overview(results), *_figures(results, titles), _list("Tables", tables)]
+    return guarded(PAGE.format(style=STYLE, body="\n".join(parts)))
 
 
-def _overview():
+def _overview(results):
     """How many claims got which verdict, and where they are."""
     said = ["<p>Every figure leads to its page, which says how it is made and what the exact system says of it.</p>"]
-    if (claims := RESULTS / "claims.json").is_file():
+    if (claims := results / "claims.json").is_file():
         counts = Counter(claim["verdict"] for claim in json.loads(claims.read_text(encoding="utf-8")))
         verdicts = ", ".join(f"{escape(verdict)} {number}" for verdict, number in counts.most_common())
-        page = _link(RESULTS / "claims.md", f"{counts.total()} claims of the chapter")
+        page = _link("claims.md", f"{counts.total()} claims of the chapter")
         said.append(f"<p>The {page}, each judged by computed numbers: {verdicts}.</p>")
     return "\n".join(said)
 
 
-def _figures(titles):
+def _figures(results, titles):
     """A list of the figures with pages, and one of the others."""
     entries = {True: [], False: []}
     for name, title in titles.items():
-        page = RESULTS / f"notebooks/{name}.html"
-        drawn = [RESULTS / folder / f"{name}{kind}" for folder in ("figures", "accuracy") for kind in KINDS]
-        links = [_link(path, KINDS[path.suffix]) for path in (page, *drawn) if path.is_file()]
+        page = results / f"notebooks/{name}.html"
+        drawn = [results / folder / f"{name}{kind}" for folder in ("figures", "accuracy") for kind in KINDS]
+        links = [_link(path.relative_to(results), KINDS[path.suffix]) for path in (page, *drawn) if path.is_file()]
         if links:
             entries[page.is_file()].append(f"{escape(title)}: {' · '.join(links)}{_exact(page)}")
     return _list("Figures with a page", entries[True]), _list("Further figures", entries[False])
@@ -103,16 +77,8 @@ def _exact(page):
     return f"<br>{found[1]}" if found else ""
 
 
-def _tables():
-    return sorted(chain.from_iterable(RESULTS.glob(pattern) for pattern in TABLES))
-
-
-def _file(path):
-    return _link(path, path.relative_to(RESULTS))
-
-
-def _link(path, text):
-    return f'<a href="{quote(str(path.relative_to(RESULTS)))}">{escape(str(text))}</a>'
+def _link(address, text):
+    return f'<a href="{quote(str(address))}">{escape(str(text))}</a>'
 
 
 def _list(heading, entries):

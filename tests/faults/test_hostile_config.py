@@ -1,9 +1,9 @@
 """A config made to break what reads it: one line, nothing run, nothing built, however the config is given."""
 
 import pytest
+from snakemake_logger_plugin_brief.given import refusals
 
 from pipeline_trees import ROOT, Tree, copied, run_module
-from snakemake_logger_plugin_brief.given import refusals
 
 SNAKEMAKES = ("Using workflow specific profile", "Config file ")
 """What Snakemake says before it reads a config, by its beginnings."""

@@ -7,8 +7,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
-
 from vibroimpact.figures.kit.artists import describe
+
 from vibroimpact.figures.kit.tables import select
 
 

@@ -6,9 +6,9 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image, ImageChops
+from vibroimpact.figures.kit.files import replacing
 
 from vibroimpact.figures.kit import style, tables
-from vibroimpact.figures.kit.files import replacing
 
 KINDS = ("png", "pdf", "svg")
 

@@ -1,10 +1,10 @@
 """Labels of fixed points are solved for once, and again when something that decides on them has changed."""
 
 import pytest
+from vibroimpact_pipeline.config.labels import remembered
 
 from configs import GOOD
 from vibroimpact_pipeline.config import case_parameters, labels
-from vibroimpact_pipeline.config.labels import remembered
 
 EQUAL, WEAK = (case_parameters(GOOD, case) for case in ("equal", "weak"))
 

@@ -2,9 +2,10 @@
 
 import re
 
+from vibroimpact_pipeline.config.readme import readme
+
 from configs import GOOD
 from pipeline_trees import ROOT
-from vibroimpact_pipeline.config.readme import readme
 
 TEXT = (ROOT / "config/README.md").read_text(encoding="utf-8")
 ROWS = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in TEXT.splitlines() if line.startswith("| `")]

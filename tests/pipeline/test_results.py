@@ -112,7 +112,9 @@ def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypa
     """A power cut after a rename that nothing was flushed before leaves an empty file under the new name."""
     order = []
     flush, rename = os.fsync, os.replace
-    monkeypatch.setattr(os, "fsync", lambda number: (order.append(os.readlink(f"/proc/self/fd/{number}")), flush(number)))
+    monkeypatch.setattr(
+        os, "fsync", lambda number: (order.append(os.readlink(f"/proc/self/fd/{number}")), flush(number))
+    )
     monkeypatch.setattr(os, "replace", lambda old, new: (order.append("renamed"), rename(old, new)))
     with results.replacing("file.txt") as partial:
         partial.write_text("content")

@@ -6,9 +6,10 @@ import subprocess
 import tarfile
 from pathlib import Path
 
-from pipeline_trees import Tree
 from vibroimpact_pipeline.integrity.checksums import digest_of
 from vibroimpact_pipeline.provenance.record import LOCK
+
+from pipeline_trees import Tree
 
 COMMITTED = "2020-02-03T04:05:06+00:00"
 IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]

@@ -3,9 +3,10 @@
 import copy
 import re
 
+from vibroimpact_pipeline.config.text import parse_value
+
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import read
-from vibroimpact_pipeline.config.text import parse_value
 
 TEXT = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
 GOOD = read(ROOT / "config/config.yaml")

@@ -1,6 +1,7 @@
 """Measured cost cuts a sweep into tiles; a point where there is no system costs nothing before it is found."""
 
 import pytest
+from vibroimpact.sweeps.probe import probe
 
 import vibroimpact as vi
 from chapter import PARAMETERS
@@ -8,7 +9,6 @@ from vibroimpact.sweeps import probe as probing
 from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.cost import MOST_TILES, Cost, tiles
 from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.probe import probe
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 

@@ -6,9 +6,9 @@ import subprocess
 import sys
 
 import pytest
+from vibroimpact_pipeline.sources import Sources
 
 from pipeline_trees import ROOT, Tree, run_module
-from vibroimpact_pipeline.sources import Sources
 
 FIGURE = "companion_10_04"
 """A figure with a table, made in a second."""

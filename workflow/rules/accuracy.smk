@@ -12,7 +12,9 @@ rule work_precision:
         **in_report(figure_files("results/accuracy/work_precision", SPECS["work_precision"]), "Accuracy and speed"),
     params:
         figure="work_precision",
-        problems={name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()},
+        problems={
+            name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()
+        },
         seconds=ACCURACY["full_seconds" if FULL else "short_seconds"],
         short=not FULL,
         config={"accuracy": ACCURACY, "cases": all_systems()},
@@ -50,7 +52,10 @@ rule scene_models:
     input:
         [path for figure in MODELLED for path in PLANS[figure][1].values()],
         expand("results/fixed_points/{case}.csv", case=all_systems()),
-        expand("results/orbits/{case}.csv", case={scene["case"] for scene in MODELLED.values() if scene["model"] == "simulation"}),
+        expand(
+            "results/orbits/{case}.csv",
+            case={scene["case"] for scene in MODELLED.values() if scene["model"] == "simulation"},
+        ),
         [f"results/figures/{figure}.csv" for figure in MODELLED],
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),

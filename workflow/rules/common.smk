@@ -42,7 +42,9 @@ if not os.access(".", os.W_OK):
 
 
 # The config: entries of --config and --configfile over config/config.yaml, of the working directory or else the checkout.
-CONFIG_FILE = "config/config.yaml" if Path("config/config.yaml").is_file() and not IS_MODULE else own("config/config.yaml")
+CONFIG_FILE = (
+    "config/config.yaml" if Path("config/config.yaml").is_file() and not IS_MODULE else own("config/config.yaml")
+)
 
 
 def config_files():

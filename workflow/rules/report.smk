@@ -72,7 +72,9 @@ rule report:
         site=directory("results/report"),
     params:
         figures=list(PLANS),
-        tables=sorted({table["file"] for spec, *_ in PLANS.values() for name, table in spec["tables"].items() if name != "csv"}),
+        tables=sorted(
+            {table["file"] for spec, *_ in PLANS.values() for name, table in spec["tables"].items() if name != "csv"}
+        ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes")},
         code=PIPELINE,
     log:

@@ -60,7 +60,9 @@ for name, sweep in SWEEPS.items():
         input:
             table=f"results/sweeps/{name}.csv",
         output:
-            **figure_files(f"results/sweeps/{name}/figure", {"tables": {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}}),
+            **figure_files(
+                f"results/sweeps/{name}/figure", {"tables": {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}}
+            ),
         params:
             figure="sweep",
             settings={"axes": sweep["axes"]},

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from job import running
+
 from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, REMEDY, command, has_failed, lines
 
 

@@ -37,5 +37,11 @@ with running(snakemake) as out:
     made = window(System(**parameters), settings)
     for name in ("samples", "events", "strobe"):
         tables.write(getattr(made, name), getattr(out, name))
-    summary = {"case": case, "system": parameters, "settings": settings, **summarise(made, settings), "trust": made.trust}
+    summary = {
+        "case": case,
+        "system": parameters,
+        "settings": settings,
+        **summarise(made, settings),
+        "trust": made.trust,
+    }
     Path(out.summary).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")

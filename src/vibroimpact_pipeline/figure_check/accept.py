@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from vibroimpact.figures.kit.files import replacing
+
 from vibroimpact_pipeline.figure_check import origins, pictures
 from vibroimpact_pipeline.figure_check.compare import files_of, shown
 from vibroimpact_pipeline.figure_check.verdicts import PASSED

@@ -7,7 +7,6 @@ Every table has the columns `panel` and `series`, then one column per plotted qu
 import numpy as np
 import pandas as pd
 
-
 TEXT = ("panel", "series", "label")
 SAID = (*TEXT, "failed")
 """Columns of words, blank where there is none; in all others a blank is a missing value."""
