@@ -1,4 +1,4 @@
-"""The frame of every job: its log, its code and inputs checked before and after, its outputs put in place at the end."""
+"""The frame of every job: its log, checks of its code and inputs before and after, outputs put in place at the end."""
 
 import ctypes
 import os

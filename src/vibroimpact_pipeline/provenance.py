@@ -127,9 +127,8 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     found = list(differences(file, made, config))
-    print(
-        f"{file}: {made['figure']}, made from commit {made.get('commit') or 'unknown'} ({made.get('tree') or 'no git'})"
-    )
+    commit, tree = made.get("commit") or "not known", made.get("tree") or "without git"
+    print(f"{file}: {made['figure']}, made from commit {commit} ({tree})")
     print(*found, f"{len(found)} difference(s)." if found else "It is what this checkout makes.", sep="\n")
     return int(bool(found))
 

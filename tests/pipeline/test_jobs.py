@@ -69,8 +69,7 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
 @pytest.mark.parametrize("change", [edit, edit_and_put_back, add_a_module, another_build])
 def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
     with pytest.raises(SystemExit, match=r"changed|another build"), jobs.running(job) as out:
-        Path(out.csv).write_text("2")
-        change()
+        (Path(out.csv).write_text("2"), change())
     assert not OUTPUT.exists()
     assert not list(Path("results").glob(f"{results.PARTIAL}*"))
 

@@ -8,7 +8,6 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.results_page import page
 
 with running(snakemake) as out:
-    titles = {
-        name: text["title"] for name, text in figure_texts(ROOT, snakemake.params.config).items() if "title" in text
-    }
+    texts = figure_texts(ROOT, snakemake.params.config)
+    titles = {name: text["title"] for name, text in texts.items() if "title" in text}
     Path(out.html).write_text(page(Path(snakemake.output.html).parent, titles), encoding="utf-8")
