@@ -1,13 +1,9 @@
 """The built project as a git checkout with its archive, and archives unpacked."""
 
-import json
 import shutil
 import subprocess
 import tarfile
 from pathlib import Path
-
-from vibroimpact_pipeline.integrity.checksums import digest_of
-from vibroimpact_pipeline.provenance.record import LOCK
 
 from pipeline_trees import Tree
 
@@ -23,20 +19,10 @@ def commit(root: Path, date: str = COMMITTED) -> None:
 
 
 def checkout(built: Tree, path: Path) -> Tree:
-    """The built project as a checkout, its figures made with its environment.lock."""
-    shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    """The built project as a checkout with one commit."""
+    shutil.copytree(built.path, path, symlinks=True)
     commit(path)
-    tree = Tree(path)
-    if others := made_with_another_lock(tree):
-        tree.snakemake("--forcerun", *others, "--", *others)
-    return tree
-
-
-def made_with_another_lock(tree: Tree) -> list[str]:
-    """Figures in what a build starts from that are older than the lock; Snakemake does not see that."""
-    records = sorted((tree / "results").rglob("*.provenance.json"))
-    lock = digest_of(tree / LOCK)
-    return [path.name.split(".")[0] for path in records if json.loads(path.read_text())["lock"] != lock]
+    return Tree(path)
 
 
 def archive_of(tree: Tree) -> Path:

@@ -15,23 +15,12 @@ ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
     ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
 )
-NOT_BY_DEFAULT = shutil.ignore_patterns(
-    "report",
-    "api",
-    "animations",
-    "force_sweep",
-    "figure_check",
-    "*_full*",
-    "confusion*",
-    "ladder_grid*",
-    "figure.*",
-    "benchmark.csv",
-    "archive",
-)
+NOT_BY_DEFAULT = shutil.ignore_patterns("report", "api", "animations", "force_sweep", "figure_check", "archive")
+"""Results of targets that a default build leaves alone."""
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
-FORKS.set_forkserver_preload(["snakemake.cli", "matplotlib.figure", "matplotlib.style", "grimp"])
+FORKS.set_forkserver_preload(["snakemake.cli", "matplotlib.figure", "matplotlib.style"])
 """Processes that have imported these already: most of what commands of a second spend their time on."""
 
 
@@ -86,7 +75,7 @@ class Tree:
             for line in output.splitlines()
             if line.startswith(("rule ", "localrule ", "checkpoint "))
         }
-        return rules - {"all", "figures", "stability", "companions"}
+        return rules - {"all", "figures", "stability", "companions", "accuracy"}
 
     def edit(self, name, old, new):
         """Replace a text that must be there in a file of the tree."""
@@ -100,24 +89,11 @@ def copied(source: Path, path: Path) -> Tree:
     return Tree(path)
 
 
-def not_by_default(folder, names) -> set[str]:
-    """Results of targets that a default build leaves alone."""
-    # Not above: a process that runs a command of a copy imports this file, and has to find the library of the copy.
-    from vibroimpact_pipeline.config.sweeps import DRAWN
-
-    made = {f"{name}{kind}" for name in DRAWN for kind in ("", ".csv", ".csv.sha256")}
-    others = set(names) - made if Path(folder).name == "sweeps" else set()
-    return NOT_BY_DEFAULT(folder, names) | others
-
-
 def with_results(source: Path, path: Path) -> Tree:
-    """A copy that starts from what the source has built, unless a build is going on there: Snakemake makes the rest."""
+    """A copy that starts from what the source has built, if that is whole: the build of the copy makes the rest."""
     tree = copied(source, path)
-    records = source / ".snakemake"
-    if (source / "results").exists() and not any((records / "locks").glob("*")):
-        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=not_by_default)
-        for part in ("metadata", "incomplete"):
-            shutil.copytree(records / part, path / ".snakemake" / part)
+    if (source / "results").exists():
+        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=NOT_BY_DEFAULT)
     return tree
 
 

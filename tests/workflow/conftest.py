@@ -7,6 +7,9 @@ import pytest
 from archives import checkout
 from pipeline_trees import ROOT, Tree, copied, made_once
 
+FIGURES = "fig10_09", "companion_10_04"
+"""One that reads tables of jobs before it, and one that reads none."""
+
 
 @pytest.fixture
 def tree(tmp_path) -> Tree:
@@ -15,9 +18,17 @@ def tree(tmp_path) -> Tree:
 
 
 @pytest.fixture
+def drawn(tmp_path, tmp_path_factory) -> Tree:
+    """The project with two figures and what they need."""
+    made = made_once(tmp_path_factory, "drawn", lambda path: copied(ROOT, path), *FIGURES)
+    shutil.copytree(made.path, tmp_path / "tree", symlinks=True)
+    return Tree(tmp_path / "tree")
+
+
+@pytest.fixture
 def rebuilt(built, tmp_path) -> Tree:
     """A built tree that a test may change."""
-    shutil.copytree(built.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    shutil.copytree(built.path, tmp_path / "tree", symlinks=True)
     return Tree(tmp_path / "tree")
 
 
