@@ -34,7 +34,7 @@ archive: set-up  ## pack sources, results and what describes them into one file 
 	.venv/bin/snakemake --cores $(CORES) archive
 
 accept: export REASON := $(REASON)
-accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pixels alone)
+accept: set-up  ## make the new figures the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pictures alone)
 	.venv/bin/snakemake --cores $(CORES) compare_figures
 	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(if $(PICTURES),--pictures) $(FIGURES)
 

@@ -16,11 +16,8 @@ rule compare_figures:
     output:
         page="results/figure_check/index.html",
         verdicts="results/figure_check/figure_check.json",
-        junit="results/figure_check/junit.xml",
         summary="results/figure_check/summary.md",
     params:
-        figures=[*config["figures"], *COMPANIONS],
-        columns=compared(config["figure_texts"]),
         asked=time.time_ns(),
         code=code("workflow/scripts/compare_figures.py"),
     log:

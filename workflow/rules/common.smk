@@ -5,7 +5,6 @@ from vibroimpact_pipeline import config as config_checks
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config.labels import MODULES as LABELLED_BY
 from vibroimpact_pipeline.config.labels import remembered
-from vibroimpact_pipeline.data_dictionary import compared
 from vibroimpact_pipeline.environment import prepare
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.sources import sources

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from job import running
-from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, REMEDY, command, has_failed, lines
+from vibroimpact_pipeline.figure_check.check import FAILED, NOT_COMPARABLE, command, has_failed, lines
 
 
 def main(verdicts, page, strict: bool = False) -> int:
@@ -17,8 +17,9 @@ def main(verdicts, page, strict: bool = False) -> int:
     print(*lines(found), f"Reference, new and difference of every figure: {page}", sep="\n")
     if failed := [verdict["figure"] for verdict in found if verdict["status"] == FAILED]:
         print(f"To take a change on purpose into the reference set: {command(failed)}")
-    if any(verdict["status"] == NOT_COMPARABLE for verdict in found):
-        print(REMEDY)
+    if others := [verdict["figure"] for verdict in found if verdict["status"] == NOT_COMPARABLE]:
+        print("Pictures are comparable with the versions that drew the reference, those of environment.lock.")
+        print(f"To keep the tables and draw these anew: {command(others)} PICTURES=1")
     sys.stdout.flush()
     return int(has_failed(found, strict))
 

@@ -89,6 +89,20 @@ def request(figure: str, spec: dict, config: dict) -> dict:
     return {"case": known.get("case"), "paths": paths, "settings": settings, "inputs": inputs}
 
 
+def made(config: dict, known: dict) -> dict[str, dict]:
+    """SPEC of every figure that a config makes, with "module", what draws it, and its "request"."""
+    scenes = config["figures"] | {name: {} for name, spec in known.items() if not {"notebook", "made_by"} & spec.keys()}
+    found = {}
+    for figure, scene in scenes.items():
+        spec = spec_of(figure, scene, known)
+        try:
+            needed = request(figure, spec, config)
+        except LookupError:
+            continue
+        found[figure] = spec | {"module": drawn_by(figure, scene, known), "request": needed}
+    return found
+
+
 def at(config: dict, path: str):
     """The entry of a config at "section.key".
 
