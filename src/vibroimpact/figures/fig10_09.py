@@ -16,11 +16,7 @@ SPEC = {
     "case": "figures.{figure}.case",
     "settings": {"C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
-    "tables": {
-        "csv": {
-            "columns": "fig10_06",
-        },
-    },
+    "columns": "fig10_06",
 }  # fmt: skip
 
 __all__ = ["compute", "draw"]

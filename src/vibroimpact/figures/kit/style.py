@@ -80,8 +80,9 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
 
 def drawn(figure, read: dict) -> Figure:
     """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
-    names = figure.SPEC["tables"]
-    return figure.draw(read) if len(names) > 1 else figure.draw(read["csv"]) if names else figure.draw()
+    if figure.SPEC.get("tables"):
+        return figure.draw(read)
+    return figure.draw(read["csv"]) if "columns" in figure.SPEC else figure.draw()
 
 
 def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = None) -> None:
