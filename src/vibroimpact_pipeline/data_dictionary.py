@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from vibroimpact.figures.specs import columns, each, specs
+from vibroimpact_pipeline.specs import columns, each, specs
 
 FIGURES, DATA = "src/vibroimpact/figures", "report/data.yaml"
 

@@ -45,12 +45,12 @@ rule hazards:
 
 
 # For each figure the cheapest model that its lines cannot tell from the exact result.
-MODELLED = {figure: scene for figure, scene in CHAPTER.items() if "model" in scene and figure in PLANS}
+MODELLED = {figure: scene for figure, scene in CHAPTER.items() if "model" in scene and figure in MADE}
 
 
 rule scene_models:
     input:
-        [path for figure in MODELLED for path in PLANS[figure][1].values()],
+        [path for figure in MODELLED for path in MADE[figure]["request"]["inputs"].values()],
         expand("results/fixed_points/{case}.csv", case=all_systems()),
         expand(
             "results/orbits/{case}.csv",
@@ -60,7 +60,7 @@ rule scene_models:
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
-        figures={figure: [scene, PLANS[figure][2]] for figure, scene in MODELLED.items()},
+        figures={figure: [scene, figure_params(figure, MADE[figure])] for figure, scene in MODELLED.items()},
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=ACCURACY["short_seconds"],
         code=FIGURES,

@@ -7,8 +7,10 @@ rule figure_check:
         rules.figures.input,
         rules.companions.input,
     params:
-        figures=list(PLANS),
+        config=config,
         strict=False,
+        code=PIPELINE,
+    threads: ALL_CORES
     script:
         "../scripts/figure_check.py"
 
@@ -16,5 +18,6 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        figures=list(PLANS),
+        config=config,
         strict=True,
+        code=PIPELINE,

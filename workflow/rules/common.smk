@@ -28,12 +28,12 @@ def own(path):
 
 
 # Jobs run the library beside these rules, with this Python, also where its path has a space.
-os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [os.getenv("PYTHONPATH"), str(ROOT / "src")]))
-sys.path.append(str(ROOT / "src"))
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(ROOT / "src"), os.getenv("PYTHONPATH")]))
+sys.path.insert(0, str(ROOT / "src"))
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact.figures.specs import request, spec_of, specs
+from vibroimpact_pipeline.specs import made, specs
 from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.code import fingerprint
 

@@ -4,32 +4,22 @@
 CHAPTER = config["figures"]
 
 
-def figure_plan(figure, spec):
-    """Inputs and params of a figure's rule; None if the config lacks an entry or a sweep that it shows."""
-    try:
-        asked = request(figure, spec, config)
-    except LookupError:
-        return None
+def figure_params(figure, spec):
+    """The settings of a figure, its systems, and what decides on it: entries of the config by their paths."""
+    asked, case = spec["request"], spec["request"]["case"]
     decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
     systems = {}
-    if asked["case"]:
-        systems["system"] = decides[f"cases.{asked['case']}"] = system_of(asked["case"])
+    if case:
+        systems["system"] = decides[f"cases.{case}"] = system_of(case)
     if spec.get("systems"):
         systems["systems"] = decides["cases"] = all_systems()
-    params = {"figure": figure, "case": asked["case"], "settings": asked["settings"], "config": decides, **systems}
-    return asked["inputs"], params
+    return {"figure": figure, "case": case, "settings": asked["settings"], "config": decides, **systems}
 
 
-PLANS = {
-    figure: (spec, *plan)
-    for figure, spec in [
-        *((figure, spec_of(figure, scene, SPECS)) for figure, scene in CHAPTER.items()),
-        *((figure, spec) for figure, spec in SPECS.items() if figure.startswith("companion_")),
-    ]
-    if (plan := figure_plan(figure, spec))
-}
+# The SPEC of every figure that the config makes.
+MADE = made(config, specs())
 
-for figure, (spec, inputs, params) in PLANS.items():
+for figure, spec in MADE.items():
 
     if "notebook" in spec:
 
@@ -37,13 +27,13 @@ for figure, (spec, inputs, params) in PLANS.items():
             name:
                 figure
             input:
-                **inputs,
+                **spec["request"]["inputs"],
                 notebook=own(f"notebooks/{spec['notebook']}.ipynb"),
             output:
                 **in_report(figure_files(f"results/figures/{figure}", spec), "Figures of the chapter"),
                 html=f"results/notebooks/{figure}.html",
             params:
-                **params,
+                **figure_params(figure, spec),
                 scene=CHAPTER[figure],
                 code=FIGURES | {"pipeline": PIPELINE["pipeline"]},
             priority: 10
@@ -60,11 +50,11 @@ for figure, (spec, inputs, params) in PLANS.items():
             name:
                 figure
             input:
-                **inputs,
+                **spec["request"]["inputs"],
             output:
                 **in_report(figure_files(f"results/figures/{figure}", spec), "Companion figures"),
             params:
-                **params,
+                **figure_params(figure, spec),
                 code=FIGURES,
             log:
                 f"results/logs/figures/{figure}.log",
@@ -75,8 +65,10 @@ for figure, (spec, inputs, params) in PLANS.items():
 
 
 def files_of_figures(of_notebooks):
-    plans = {figure: spec for figure, (spec, *_) in PLANS.items() if ("notebook" in spec) == of_notebooks}
-    return [path for figure, spec in plans.items() for path in figure_files(f"results/figures/{figure}", spec).values()]
+    figures = {figure: spec for figure, spec in MADE.items() if ("notebook" in spec) == of_notebooks}
+    return [
+        path for figure, spec in figures.items() for path in figure_files(f"results/figures/{figure}", spec).values()
+    ]
 
 
 rule figures:

@@ -71,9 +71,9 @@ rule report:
     output:
         site=directory("results/report"),
     params:
-        figures=list(PLANS),
+        figures=list(MADE),
         tables=sorted(
-            {table["file"] for spec, *_ in PLANS.values() for name, table in spec["tables"].items() if name != "csv"}
+            {table["file"] for spec in MADE.values() for name, table in spec["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes")},
         code=PIPELINE,

@@ -3,10 +3,10 @@
 import sys
 from pathlib import Path
 
-from vibroimpact.figures.specs import specs
 from vibroimpact_pipeline import archive
 from vibroimpact_pipeline.code import FIGURES, ROOT
 from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.specs import specs
 
 with running(snakemake) as out:
     titles = {figure: spec["title"] for figure, spec in specs(ROOT / FIGURES).items()}

@@ -1,31 +1,33 @@
-"""Say what the figure check has found; exit status 1 where a figure has failed."""
+"""All figures against the reference set -> a page, the verdicts, a summary; exit status 1 where a figure has failed."""
 
 import json
 import sys
 from pathlib import Path
 
-from job import running
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.figure_check.check import FAILED, NOT_COMPARABLE, check_all, command, has_failed, lines
+from vibroimpact_pipeline.figure_check.page import page
+from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.results import replacing
+from vibroimpact_pipeline.specs import made, specs
 
-from vibroimpact_pipeline.figure_check.verdicts import FAILED, NOT_COMPARABLE, REMEDY, command, has_failed, lines
+FOLDER = Path("results/figure_check")
 
-
-def main(verdicts, page, strict: bool = False) -> int:
-    """Print a line for each figure that has not passed, and what to do; give the exit status.
-
-    strict: whether it is a failure, too, that pixels could not be compared.
-    """
-    found = json.loads(Path(verdicts).read_text(encoding="utf-8"))
-    print(*lines(found), f"Reference, new and difference of every figure: {page}", sep="\n")
+with running(snakemake):
+    found = check_all(made(snakemake.params.config, specs()), ROOT / "figures", ".", snakemake.threads)
+    texts = {
+        "index.html": page(found, ROOT / "figures", "."),
+        "figure_check.json": json.dumps(found, indent=1, allow_nan=False) + "\n",
+        "summary.md": "### Figure check\n\n" + "".join(f"- {line}\n" for line in lines(found)),
+    }
+    for name, text in texts.items():
+        with replacing(FOLDER / name) as partial:
+            partial.write_text(text, encoding="utf-8")
+    print(*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html", sep="\n")
     if failed := [verdict["figure"] for verdict in found if verdict["status"] == FAILED]:
         print(f"To take a change on purpose into the reference set: {command(failed)}")
-    if any(verdict["status"] == NOT_COMPARABLE for verdict in found):
-        print(REMEDY)
+    if others := [verdict["figure"] for verdict in found if verdict["status"] == NOT_COMPARABLE]:
+        print("Pictures are comparable with the versions that drew the reference, those of environment.lock.")
+        print(f"To keep the tables and draw these anew: {command(others)} PICTURES=1")
     sys.stdout.flush()
-    return int(has_failed(found, strict))
-
-
-if "snakemake" in globals():
-    with running(snakemake):
-        page = Path(snakemake.input[0]).with_name("index.html")
-        status = main(snakemake.input[0], page, snakemake.params.get("strict", False))
-    sys.exit(status)
+sys.exit(int(has_failed(found, snakemake.params.strict)))

@@ -12,11 +12,11 @@ from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.figures.kit.style import drawn
-from vibroimpact.figures.specs import drawn_by, specs
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.specs import drawn_by, specs
 
 
 def rungs_of(figure, scene, params, simulation, module, table, folder):

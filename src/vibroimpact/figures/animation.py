@@ -15,7 +15,6 @@ SPEC = {
         "case {case}.",
     "method": "the window of a simulation, frame by frame",
     "made_by": "animation",
-    "tables": {},
 }  # fmt: skip
 
 PLACES = {1: -3.0, 2: 3.0}

@@ -24,17 +24,12 @@ SPEC = {
     "equations": [r"C_{\min} = \frac{1}{1+\rho^2} < C < \frac{\pi^2}{\pi^2 - 4}"],
     "method": "closed form: (10.16), (10.26), limits of Masri's analysis",
     "settings": {"kappa": "system.kappa", "C_max": "stability.companion_10_04.C_max"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"meaning": "pieces of the manifold below, between and above the limits as derived; points: "
-                    r"(10.26), $C_{\min}$, $\pi^2/(\pi^2 - 4)$", "values": ["SIM left", "SIM stable", "SIM right",
-                    "printed", "fold", "symmetry breaking"]},
-                "C": {"compared": "algebra"},
-                "B": {"compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {},
+        "series": {"meaning": "pieces of the manifold below, between and above the limits as derived; points: (10.26), "
+            r"$C_{\min}$, $\pi^2/(\pi^2 - 4)$", "values": ["SIM left", "SIM stable", "SIM right", "printed", "fold",
+            "symmetry breaking"]},
+        "C, B": {"compared": "algebra"},
     },
 }  # fmt: skip
 

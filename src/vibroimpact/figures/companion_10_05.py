@@ -22,17 +22,12 @@ SPEC = {
         r"\frac{2p}{\pi}\big(1+\kappa\cot^2p\big)"],
     "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
     "settings": {"C_range": "stability.companion_10_05.C_range"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"meaning": r"outline of the stable region; lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of "
-                    "the $C$ at which the ball grazes the wall that it has left, and of (10.26); ends of the axes",
-                    "values": ["stable", "fold", "symmetry breaking", "penetration", "printed", "range"]},
-                "kappa": {"compared": "algebra"},
-                "C": {"compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {},
+        "series": {"meaning": r"outline of the stable region; lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of the $C$ "
+            "at which the ball grazes the wall that it has left, and of (10.26); ends of the axes", "values": ["stable",
+            "fold", "symmetry breaking", "penetration", "printed", "range"]},
+        "kappa, C": {"compared": "algebra"},
     },
 }  # fmt: skip
 

@@ -24,18 +24,14 @@ SPEC = {
     "case": "figures.fig10_08.case",
     "inputs": {"points": "results/fixed_points/{case}.csv", "samples": "results/simulations/{case}/samples.csv",
         "events": "results/simulations/{case}/events.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["theory", "simulation"]},
-                "series": {"meaning": "the motion; its mirror image, half a period later with all signs changed; the "
-                    "impacts", "values": ["W_2", "mirror image", "impact"]},
-                "label": {"meaning": "label of the fixed point", "unit": "text"},
-                "phase": {"meaning": r"time since a forcing period began, $\tau/T$", "unit": "forcing periods",
-                    "compared": "trajectory"},
-                "W2": {"meaning": "$W_2 = X_2 - Y_2$", "unit": "dimensionless", "compared": "trajectory"},
-            },
-        },
+    "columns": {
+        "panel": {"values": ["theory", "simulation"]},
+        "series": {"meaning": "the motion; its mirror image, half a period later with all signs changed; the impacts",
+            "values": ["W_2", "mirror image", "impact"]},
+        "label": {"meaning": "label of the fixed point", "unit": "text"},
+        "phase": {"meaning": r"time since a forcing period began, $\tau/T$", "unit": "forcing periods",
+            "compared": "trajectory"},
+        "W2": {"meaning": "$W_2 = X_2 - Y_2$", "unit": "dimensionless", "compared": "trajectory"},
     },
 }  # fmt: skip
 

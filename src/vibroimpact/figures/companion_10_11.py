@@ -17,23 +17,18 @@ SPEC = {
     "alt": "Two panels as in figure 10.11, the displacement X2 and the relative displacement W2, with grey bands where "
         "the ball does not go from wall to wall in time with the forcing. In many of the bands the displacement X2 "
         "swells. A heading says what part of the time the bands take.",
-    "equations": [r"W_i^{\prime +} = -\kappa\,W_i^{\prime -}, \qquad X_i^{\prime +} + \varepsilon Y_i^{\prime +} = "
-        r"X_i^{\prime -} + \varepsilon Y_i^{\prime -}"],
+    "equations": "fig10_08",
     "method": "resonant bursts between the impacts of the simulation",
     "case": "figures.fig10_11.case",
     "inputs": {"samples": "results/simulations/{case}/samples.csv", "events": "results/simulations/{case}/events.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["a", "b", "gaps"]},
-                "series": {"meaning": "the displacement, or a gap of resonance", "values": ["X_2", "W_2", "gap"]},
-                "tau": {"compared": "exact"},
-                "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among "
-                    "the points", "unit": "dimensionless", "compared": "exact"},
-                "end": {"meaning": r"of a gap, whose start is `tau`: its end, $\tau$", "unit": "dimensionless",
-                    "compared": "exact"},
-            },
-        },
+    "columns": {
+        "panel": {"values": ["a", "b", "gaps"]},
+        "series": {"meaning": "the displacement, or a gap of resonance", "values": ["X_2", "W_2", "gap"]},
+        "tau": {"compared": "exact"},
+        "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
+            "points", "unit": "dimensionless", "compared": "exact"},
+        "end": {"meaning": r"of a gap, whose start is `tau`: its end, $\tau$", "unit": "dimensionless",
+            "compared": "exact"},
     },
 }  # fmt: skip
 

@@ -32,21 +32,19 @@ SPEC = {
         "observation": "regimes.observation"},
     "inputs": {"response": "results/sweeps/frequency_response.csv", "clearance": "results/sweeps/clearance.csv",
         "design": "results/sweeps/design.csv"},
+    "columns": {
+        "panel": {"values": ["clearance", "design"]},
+        "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, or the "
+            "linear system", "values": ["balls", "one ball", "without balls", "balls fixed",
+            "absorbers of the textbook", "best absorbers"]},
+        "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
+            "compared": "algebra"},
+        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls also of "
+            "all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
+            "one ball": "extremes", "others": "algebra"}},
+        "kappa": {"compared": "algebra"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["clearance", "design"]},
-                "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, or "
-                    "the linear system", "values": ["balls", "one ball", "without balls", "balls fixed",
-                    "absorbers of the textbook", "best absorbers"]},
-                "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
-                    "compared": "algebra"},
-                "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls "
-                    "also of all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory",
-                    "balls": "extremes", "one ball": "extremes", "others": "algebra"}},
-                "kappa": {"compared": "algebra"},
-            },
-        },
         "summary": {
             "file": "results/absorber.csv",
             "about": "What the balls are good for, in numbers, at the system of the sweep `clearance` and along its "

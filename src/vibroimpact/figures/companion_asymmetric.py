@@ -36,29 +36,25 @@ SPEC = {
     "settings": {"epsilon": "regimes.asymmetric.epsilon", "values": "regimes.asymmetric.values",
         "fit_below": "regimes.asymmetric.fit_below", "C_max": "stability.companion_10_04.C_max"},
     "inputs": {"orbits": "results/orbits.csv"},
+    "columns": {
+        "panel": {"meaning": "manifold, or the case"},
+        "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair as "
+            r"$\varepsilon$ falls, and its end, the fixed point that it leads to"},
+        "label": {"meaning": "case and label of the point or orbit; of a way and its end the label of the orbit",
+            "unit": "text"},
+        "C, B": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
+        "epsilon": {"compared": "algebra"},
+        "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
+            "compared": "roots"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "manifold, or the case"},
-                "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair "
-                    r"as $\varepsilon$ falls, and its end, the fixed point that it leads to"},
-                "label": {"meaning": "case and label of the point or orbit; of a way and its end the label of the "
-                    "orbit", "unit": "text"},
-                "C": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
-                "B": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
-                "epsilon": {"compared": "algebra"},
-                "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
-                    "compared": "roots"},
-            },
-        },
         "points": {
             "file": "results/asymmetric_fixed_points.csv",
             "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
                 r"cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs that "
                 r"lead to them as $\varepsilon$ falls.",
             "columns": {
-                "case": {},
-                "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
+                "case": {}, "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
                 "squared1, squared2": {"meaning": "$v_i^2$, $v_i$ the difference of the two flight times of ball $i$ "
                     "over the period, 0 where they are equal; below 0 no motion at leading order, but where the branch "
                     "goes on beyond symmetry breaking", "unit": "dimensionless"},
@@ -98,8 +94,7 @@ SPEC = {
             "about": "The modulated response as the slow flow sees it, drift to the fold of the manifold and return at "
                 "$B = 1$ ([derivation](derivation.md), section 12), of every case, a row per module.",
             "columns": {
-                "case": {},
-                "module": {},
+                "case, module": {},
                 "burst": {"meaning": "mean length of a stretch in resonance; blank if none ends",
                     "unit": "forcing periods"},
                 "share": {"meaning": "part of the time in resonance", "unit": "share"},

@@ -37,20 +37,18 @@ SPEC = {
     "case": "regimes.basins.case",
     "settings": {"case": "regimes.basins.case", "points": "regimes.basins.points", "observation": "regimes.observation"
         },
+    "columns": {
+        "panel": {"meaning": "the case"},
+        "series": {"meaning": r"a start, the stable asymmetric orbit at $\tau = 0$, its mirror image there, or what "
+            "all starts share", "values": ["start", "orbit", "mirror image", "shared"]},
+        "label": {"meaning": "regime that the start ends in; of two mirrored asymmetric responses one is called "
+            "mirrored", "unit": "text", "compared": {"start": "cells of a basin"}},
+        "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": {
+            "start": "algebra", "others": "roots"}},
+        "X1, X2, dX1, dY1, dX2, dY2": {"meaning": r"place or velocity (d is d/dtau) that all starts share, at $\tau = "
+            "0$", "unit": "dimensionless", "compared": "roots"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "the case"},
-                "series": {"meaning": r"a start, the stable asymmetric orbit at $\tau = 0$, its mirror image there, or "
-                    "what all starts share", "values": ["start", "orbit", "mirror image", "shared"]},
-                "label": {"meaning": "regime that the start ends in; of two mirrored asymmetric responses one is "
-                    "called mirrored", "unit": "text", "compared": {"start": "cells of a basin"}},
-                "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": {
-                    "start": "algebra", "others": "roots"}},
-                "X1, X2, dX1, dY1, dX2, dY2": {"meaning": "place or velocity (d is d/dtau) that all starts share, at "
-                    r"$\tau = 0$", "unit": "dimensionless", "compared": "roots"},
-            },
-        },
         "shares": {
             "file": "results/regimes/basin_shares.csv",
             "about": "Share of the plane of `companion_basins` that leads to each regime.",

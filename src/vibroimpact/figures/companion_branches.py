@@ -49,32 +49,28 @@ SPEC = {
         "seeds": "regimes.branches.seeds", "attractors": "regimes.branches.attractors",
         "observation": "regimes.observation"},
     "inputs": {"lifetimes": "results/regimes/lifetimes.csv"},
+    "columns": {
+        "panel": {"meaning": "a letter for each path, in the order of the config, or mean life"},
+        "series": {"meaning": "family of the branch, attractor, mean life, the window of coexistence, or a case",
+            "values": ["symmetric orbit", "asymmetric orbit", "fixed point", "attractor", "mean life", "coexistence",
+            "case"]},
+        "label": {"meaning": "of a node of a branch what is special about it, of an attractor its regime, of a case "
+            "its name, else the path; blank for other nodes", "unit": "text", "compared": {"attractor": "outcomes"}},
+        "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special points, "
+            "from 0", "unit": "number", "compared": "algebra"},
+        "p": {"compared": {"attractor": "algebra", "mean life": "algebra", "others": "roots"}},
+        "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11); of an attractor that of half the ball's mean way per "
+            "cycle", "compared": {"attractor": "sample", "others": "roots"}},
+        "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, Masri's "
+            "analysis and the slow flow say so", "unit": "true or false"},
+        "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always True",
+            "unit": "true or false"},
+        "life": {"meaning": "mean life of the chaos at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
+            "compared": "life"},
+        "uncertainty": {"meaning": "its standard error", "unit": "forcing periods", "compared": "life"},
+        "least": {"meaning": "its lower bound where no start escaped", "unit": "forcing periods", "compared": "life"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "a letter for each path, in the order of the config, or mean life"},
-                "series": {"meaning": "family of the branch, attractor, mean life, the window of coexistence, or a "
-                    "case", "values": ["symmetric orbit", "asymmetric orbit", "fixed point", "attractor", "mean life",
-                    "coexistence", "case"]},
-                "label": {"meaning": "of a node of a branch what is special about it, of an attractor its regime, of a "
-                    "case its name, else the path; blank for other nodes", "unit": "text", "compared": {
-                    "attractor": "outcomes"}},
-                "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special "
-                    "points, from 0", "unit": "number", "compared": "algebra"},
-                "p": {"compared": {"attractor": "algebra", "mean life": "algebra", "others": "roots"}},
-                "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11); of an attractor that of half the ball's mean "
-                    "way per cycle", "compared": {"attractor": "sample", "others": "roots"}},
-                "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, "
-                    "Masri's analysis and the slow flow say so", "unit": "true or false"},
-                "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always "
-                    "True", "unit": "true or false"},
-                "life": {"meaning": "mean life of the chaos at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
-                    "compared": "life"},
-                "uncertainty": {"meaning": "its standard error", "unit": "forcing periods", "compared": "life"},
-                "least": {"meaning": "its lower bound where no start escaped", "unit": "forcing periods",
-                    "compared": "life"},
-            },
-        },
         "special_points": {
             "file": "results/regimes/special_points.csv",
             "about": "The special points of the branches in `companion_branches`.",

@@ -22,21 +22,16 @@ SPEC = {
     "case": "regimes.decay.case",
     "settings": {"impulses": "regimes.decay.impulses", "values": "regimes.decay.values",
         "fraction": "regimes.decay.fraction", "band": "sweeps.clearance.band"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["module 1", "module 2"]},
-                "series": {"meaning": "balls, where balls are quickest, or the linear system", "values": ["balls",
-                    "shortest", "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
-                "impulse": {"meaning": r"velocity given to the box at rest, $X_i'(0)$, in units of $L\omega_{10}$",
-                    "unit": "dimensionless", "compared": "algebra"},
-                "cycles": {"meaning": "time until a tenth of the energy of the impulse is left",
-                    "unit": "forcing periods", "compared": {"best absorbers": "trajectory", "balls": "trajectory",
-                    "shortest": "trajectory", "others": "algebra"}},
-                "fraction": {"meaning": "the part of the energy that is left then", "unit": "share",
-                    "compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {"values": ["module 1", "module 2"]},
+        "series": {"meaning": "balls, where balls are quickest, or the linear system", "values": ["balls", "shortest",
+            "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
+        "impulse": {"meaning": r"velocity given to the box at rest, $X_i'(0)$, in units of $L\omega_{10}$",
+            "unit": "dimensionless", "compared": "algebra"},
+        "cycles": {"meaning": "time until a tenth of the energy of the impulse is left", "unit": "forcing periods",
+            "compared": {"best absorbers": "trajectory", "balls": "trajectory", "shortest": "trajectory",
+            "others": "algebra"}},
+        "fraction": {"meaning": "the part of the energy that is left then", "unit": "share", "compared": "algebra"},
     },
 }  # fmt: skip
 

@@ -33,33 +33,28 @@ SPEC = {
     "systems": True,
     "settings": {"epsilon": "regimes.epsilon.epsilon", "values": "regimes.epsilon.values",
         "fit_below": "regimes.epsilon.fit_below", "mixed": "regimes.epsilon.mixed"},
+    "columns": {
+        "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted slow rate "
+            "or fast multiplier; two terms: distance with the term of first order added to the fixed point; mixed: "
+            "rates of one point, one by one", "values": ["distance", "slow", "fast", "two terms", "mixed"]},
+        "series": {"meaning": "case and label of the fixed point; in mixed who says it, and the number of the "
+            "multiplier"},
+        "label": {"meaning": "in mixed: case and label of the fixed point", "unit": "text"},
+        "epsilon": {"compared": "algebra"},
+        "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact phases "
+            r"[radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over the slow "
+            r"multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - \mu_0\rvert$ "
+            r"over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless", "compared": "logarithm"},
+        "rate": {"meaning": r"in mixed: $\lvert\log\mu\rvert/(2\pi\varepsilon/\Omega)$, exact and predicted",
+            "unit": "dimensionless", "compared": "logarithm"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted "
-                    "slow rate or fast multiplier; two terms: distance with the term of first order added to the fixed "
-                    "point; mixed: rates of one point, one by one", "values": ["distance", "slow", "fast", "two terms",
-                    "mixed"]},
-                "series": {"meaning": "case and label of the fixed point; in mixed who says it, and the number of the "
-                    "multiplier"},
-                "label": {"meaning": "in mixed: case and label of the fixed point", "unit": "text"},
-                "epsilon": {"compared": "algebra"},
-                "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact "
-                    r"phases [radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over "
-                    r"the slow multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - "
-                    r"\mu_0\rvert$ over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless",
-                    "compared": "logarithm"},
-                "rate": {"meaning": r"in mixed: $\lvert\log\mu\rvert/(2\pi\varepsilon/\Omega)$, exact and predicted",
-                    "unit": "dimensionless", "compared": "logarithm"},
-            },
-        },
         "orders": {
             "file": "results/regimes/epsilon_orders.csv",
             "about": r"Orders $p$ of error $\sim \varepsilon^p$ in `companion_epsilon`, fitted to its smallest "
                 r"$\varepsilon$.",
             "columns": {
-                "case": {},
-                "label": {"meaning": "label of the fixed point", "unit": "text"},
+                "case": {}, "label": {"meaning": "label of the fixed point", "unit": "text"},
                 "panel": {"meaning": "the error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
                     "distance", "slow", "fast", "two terms"]},
                 "order": {"meaning": "the exponent $p$, by least squares on the logarithms", "unit": "dimensionless",

@@ -22,19 +22,14 @@ SPEC = {
         "transient_cycles": "cases.{case}.simulation.transient_cycles"},
     "needs": ["cases.{case}.simulation.digits"],
     "inputs": {"strobe": "results/simulations/{case}/strobe.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"values": ["measured", "expected", "horizon", "window"]},
-                "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes "
-                    "$10^{-3}$, in window both ends of figure 10.11", "unit": "forcing periods", "compared": {
-                    "measured": "algebra", "others": "trajectory"}},
-                "error": {"meaning": "largest difference of a component of the state from the truth, and what the "
-                    "certificate of the run expects of it", "unit": "dimensionless", "compared": {
-                    "measured": "rounding", "others": "certificate"}},
-            },
-        },
+    "columns": {
+        "panel": {}, "series": {"values": ["measured", "expected", "horizon", "window"]},
+        "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$, in "
+            "window both ends of figure 10.11", "unit": "forcing periods", "compared": {"measured": "algebra",
+            "others": "trajectory"}},
+        "error": {"meaning": "largest difference of a component of the state from the truth, and what the certificate "
+            "of the run expects of it", "unit": "dimensionless", "compared": {"measured": "rounding",
+            "others": "certificate"}},
     },
 }  # fmt: skip
 

@@ -32,22 +32,19 @@ SPEC = {
     "settings": {"harmonics": "regimes.ladder.harmonics", "f10_range": "regimes.ladder.f10_range",
         "f20_range": "regimes.ladder.f20_range", "points": "regimes.ladder.points",
         "fold_range": "regimes.ladder.fold_range"},
+    "columns": {
+        "panel": {"meaning": "cases: errors and costs; plane: the cheapest rung", "values": ["cases", "plane"]},
+        "series": {"meaning": "in cases the kind of rung; in plane how far off it may be", "values": ["theory",
+            "harmonics of U", "harmonics of the force", "exact", "5 %", "1 %"]},
+        "label": {"meaning": "in cases rung and case; in plane the lowest rung that has all motions, and no other, "
+            "within the limit", "unit": "text", "compared": {"5 %": "counts of a map", "1 %": "counts of a map"}},
+        "cost": {"meaning": "terms of the boxes' response that are summed until all motions are found",
+            "unit": "number", "compared": "algebra"},
+        "error": {"meaning": "largest error of $C_1$, $C_2$ over the larger of both, of all motions; blank if their "
+            "number is wrong", "unit": "dimensionless", "compared": "logarithm"},
+        "f10_hat, f20_hat": {"compared": "algebra"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "cases: errors and costs; plane: the cheapest rung", "values": ["cases", "plane"]},
-                "series": {"meaning": "in cases the kind of rung; in plane how far off it may be", "values": ["theory",
-                    "harmonics of U", "harmonics of the force", "exact", "5 %", "1 %"]},
-                "label": {"meaning": "in cases rung and case; in plane the lowest rung that has all motions, and no "
-                    "other, within the limit", "unit": "text", "compared": {"5 %": "counts of a map",
-                    "1 %": "counts of a map"}},
-                "cost": {"meaning": "terms of the boxes' response that are summed until all motions are found",
-                    "unit": "number", "compared": "algebra"},
-                "error": {"meaning": "largest error of $C_1$, $C_2$ over the larger of both, of all motions; blank if "
-                    "their number is wrong", "unit": "dimensionless", "compared": "logarithm"},
-                "f10_hat, f20_hat": {"compared": "algebra"},
-            },
-        },
         "verdicts": {
             "file": "results/regimes/ladder_verdicts.csv",
             "about": "What each rung of `companion_ladder` says of its motions over the plane of forces, and what is "

@@ -50,33 +50,30 @@ SPEC = {
         "cycles": "regimes.modulation.cycles", "blocks": "regimes.modulation.blocks",
         "block": "regimes.modulation.block", "windows": "regimes.modulation.windows",
         "observation": "regimes.observation"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["bursts", "exponents", "running"]},
-                "series": {"meaning": "the case, of bursts with the module, else with the number of the exponent; or "
-                    "the window that bursts are watched over"},
-                "label": {"meaning": "of exponents: rest or spread, and the regime that the start ends in; blank else",
-                    "unit": "text", "compared": "few outcomes"},
-                "number": {"meaning": "number of the exponent, the largest has 1", "unit": "number",
-                    "compared": "algebra"},
-                "exponent": {"meaning": "Lyapunov exponent of the motion that a start ends in; blank where it is "
-                    r"$-\infty$", "unit": "per forcing period", "compared": "mean"},
-                "error": {"meaning": "its standard error, by block bootstrap", "unit": "per forcing period",
-                    "compared": "mean"},
-                "length": {"meaning": "length of a resonant burst: two or more flights in a row that lead to the other "
-                    "wall and last between a quarter and three quarters of the period; or that of the window",
-                    "unit": "forcing periods", "compared": {"window": "algebra", "others": "sample"}},
-                "longer": {"meaning": "part of the bursts, of all strongly modulated spread starts of the case, that "
-                    "are at least this long", "unit": "share", "compared": "sample"},
-                "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods",
-                    "compared": "algebra"},
-                "estimate": {"meaning": "the exponent after so many cycles, mean over the strongly modulated spread "
-                    "starts", "unit": "per forcing period", "compared": "running means"},
-                "spread": {"meaning": "the standard error that the bootstrap expects of it",
-                    "unit": "per forcing period", "compared": "running means"},
+    "columns": {
+        "panel": {"values": ["bursts", "exponents", "running"]},
+        "series": {"meaning": "the case, of bursts with the module, else with the number of the exponent; or the "
+            "window that bursts are watched over"},
+        "label": {"meaning": "of exponents: rest or spread, and the regime that the start ends in; blank else",
+            "unit": "text", "compared": "few outcomes"},
+        "number": {"meaning": "number of the exponent, the largest has 1", "unit": "number", "compared": "algebra"},
+        "exponent": {"meaning": r"Lyapunov exponent of the motion that a start ends in; blank where it is $-\infty$",
+            "unit": "per forcing period", "compared": "mean"},
+        "error": {"meaning": "its standard error, by block bootstrap", "unit": "per forcing period", "compared": "mean"
             },
-        },
+        "length": {"meaning": "length of a resonant burst: two or more flights in a row that lead to the other wall "
+            "and last between a quarter and three quarters of the period; or that of the window",
+            "unit": "forcing periods", "compared": {"window": "algebra", "others": "sample"}},
+        "longer": {"meaning": "part of the bursts, of all strongly modulated spread starts of the case, that are at "
+            "least this long", "unit": "share", "compared": "sample"},
+        "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods", "compared": "algebra"
+            },
+        "estimate": {"meaning": "the exponent after so many cycles, mean over the strongly modulated spread starts",
+            "unit": "per forcing period", "compared": "running means"},
+        "spread": {"meaning": "the standard error that the bootstrap expects of it", "unit": "per forcing period",
+            "compared": "running means"},
+    },
+    "tables": {
         "measures": {
             "file": "results/regimes/modulation.csv",
             "about": "What the responses of each case are like, mean over the starts that end in a regime.",
@@ -107,8 +104,7 @@ SPEC = {
             "about": "Two measures of modulation over windows of several lengths, for spread starts that end strongly "
                 "modulated.",
             "columns": {
-                "case, module": {},
-                "cycles": {"meaning": "length of the window", "unit": "forcing periods"},
+                "case, module": {}, "cycles": {"meaning": "length of the window", "unit": "forcing periods"},
                 "quantity": {"meaning": "amplitude variation: standard deviation over mean of the amplitude of $X_i$, "
                     "cycle by cycle. depth from extremes: (largest - smallest) over (largest + smallest), which grows "
                     "with the window", "unit": "text", "values": ["amplitude variation", "depth from extremes"]},
@@ -124,8 +120,7 @@ SPEC = {
                 "case": {},
                 "start": {"meaning": "the start from rest, or the spread ones", "unit": "text", "values": ["rest",
                     "spread"]},
-                "regime": {},
-                "starts": {"meaning": "starts behind the mean", "unit": "number"},
+                "regime": {}, "starts": {"meaning": "starts behind the mean", "unit": "number"},
                 "quantity": {"meaning": "exponent 1 to exponent 8: per forcing period, largest first. Kaplan-Yorke "
                     "dimension: of the attractor, seen once per cycle; a ball that idles adds to it. sum of exponents: "
                     "over the cycles in which no ball sticks. contraction: what damping and impacts say it is, "

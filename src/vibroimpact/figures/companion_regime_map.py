@@ -30,25 +30,20 @@ SPEC = {
     "systems": True,
     "settings": {"starts": "sweeps.regime_map.starts"},
     "inputs": {"table": "results/sweeps/regime_map.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "map"},
-                "series": {"meaning": "cell of the map, case of the config, or what changes on a border", "values": [
-                    "cell", "case", "fixed points", "stable points"]},
-                "label": {"meaning": "regime that the start from rest ends in; name of the case; number of the "
-                    "straight piece of the border, whose two ends are two rows", "unit": "text", "compared": {
-                    "cell": "cells of a map"}},
-                "f10_hat, f20_hat": {"compared": {"cell": "algebra", "case": "algebra", "others": "roots"}},
-                "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text", "compared": {
-                    "cell": "cells of a map"}},
-                "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
-                    "compared": {"cell": "cells of a map"}},
-                "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball "
-                "idle, no impacts, unsettled": {"compared": "cells of a map"},
-                "fixed_points, stable_points": {"compared": "counts of a map"},
-            },
-        },
+    "columns": {
+        "panel": {"meaning": "map"},
+        "series": {"meaning": "cell of the map, case of the config, or what changes on a border", "values": ["cell",
+            "case", "fixed points", "stable points"]},
+        "label": {"meaning": "regime that the start from rest ends in; name of the case; number of the straight piece "
+            "of the border, whose two ends are two rows", "unit": "text", "compared": {"cell": "cells of a map"}},
+        "f10_hat, f20_hat": {"compared": {"cell": "algebra", "case": "algebra", "others": "roots"}},
+        "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text", "compared": {
+            "cell": "cells of a map"}},
+        "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
+            "compared": {"cell": "cells of a map"}},
+        "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball idle, "
+        "no impacts, unsettled": {"compared": "cells of a map"},
+        "fixed_points, stable_points": {"compared": "counts of a map"},
     },
 }  # fmt: skip
 

@@ -42,28 +42,25 @@ SPEC = {
     "case": "sweeps.frequency_response.case",
     "settings": {"band": "sweeps.clearance.band"},
     "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
+    "columns": {
+        "panel": {"values": ["frequency", "force"]},
+        "series": {"meaning": "balls, as simulated; symmetric 1:1 responses by the theory and exact; or the linear "
+            "system", "values": ["balls", "theory", "symmetric orbits", "without balls", "balls fixed",
+            "absorbers of the textbook", "best absorbers"]},
+        "label": {"meaning": "of balls: the `regime` that most starts end in", "unit": "text", "compared": {
+            "balls": "few outcomes"}},
+        "f10_hat, f20_hat": {"compared": "algebra"},
+        "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
+        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of balls also of all starts",
+            "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
+            "theory": "roots", "symmetric orbits": "roots", "others": "algebra"}},
+        "low, high": {"meaning": "of balls: amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of "
+            "the cycles", "unit": "dimensionless", "compared": "extremes"},
+        "impact_share": {"compared": {"balls": "mean", "others": "roots"}},
+        "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
+            "analysis and the slow flow say so", "unit": "true or false"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["frequency", "force"]},
-                "series": {"meaning": "balls, as simulated; symmetric 1:1 responses by the theory and exact; or the "
-                    "linear system", "values": ["balls", "theory", "symmetric orbits", "without balls", "balls fixed",
-                    "absorbers of the textbook", "best absorbers"]},
-                "label": {"meaning": "of balls: the `regime` that most starts end in", "unit": "text", "compared": {
-                    "balls": "few outcomes"}},
-                "f10_hat, f20_hat": {"compared": "algebra"},
-                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
-                    "compared": "algebra"},
-                "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of balls also of all "
-                    "starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
-                    "theory": "roots", "symmetric orbits": "roots", "others": "algebra"}},
-                "low, high": {"meaning": "of balls: amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in "
-                    "5 % of the cycles", "unit": "dimensionless", "compared": "extremes"},
-                "impact_share": {"compared": {"balls": "mean", "others": "roots"}},
-                "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
-                    "analysis and the slow flow say so", "unit": "true or false"},
-            },
-        },
         "shares": {
             "file": "results/impact_shares.csv",
             "about": "What impacts take of the work of the forces, over the frequencies of `companion_response`.",

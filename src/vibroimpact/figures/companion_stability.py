@@ -37,20 +37,14 @@ SPEC = {
     "method": "verdicts and places as computed, limits in closed form",
     "systems": True,
     "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "the case"},
-                "series": {"meaning": "fixed points, exact orbits that are motions of the system, links from one to "
-                    'the other, and lower left and upper right corner of the region that (10.26) ("printed") and '
-                    "Masri's analysis (\"stable\") allow", "values": ["fixed point", "symmetric", "asymmetric", "link",
-                    "printed", "stable"]},
-                "label": {"meaning": "label of the fixed point or orbit, as in `fixed_points.csv` and `orbits.csv`; "
-                    "blank for links and corners", "unit": "text"},
-                "C1, C2": {"compared": "roots", "infinite": True},
-                "printed_10_26, masri_derived, slow_flow, floquet": {},
-            },
-        },
+    "columns": {
+        "panel": {"meaning": "the case"},
+        "series": {"meaning": "fixed points, exact orbits that are motions of the system, links from one to the other, "
+            "and lower left and upper right corner of the region that (10.26) (\"printed\") and Masri's analysis "
+            '("stable") allow', "values": ["fixed point", "symmetric", "asymmetric", "link", "printed", "stable"]},
+        "label": {"meaning": "label of the fixed point or orbit, as in `fixed_points.csv` and `orbits.csv`; blank for "
+            "links and corners", "unit": "text"},
+        "C1, C2": {"compared": "roots", "infinite": True}, "printed_10_26, masri_derived, slow_flow, floquet": {},
     },
 }  # fmt: skip
 

@@ -19,7 +19,6 @@ SPEC = {
         r"\tag{10.1}"],
     "method": "drawn to scale, nothing computed",
     "notebook": "drawings",
-    "tables": {},
 }  # fmt: skip
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 39.0

@@ -13,7 +13,6 @@ SPEC = {
     "equations": [r"|x_i - y_i| \le L, \qquad X_i = x_i/L, \quad Y_i = y_i/L, \quad W_i = X_i - Y_i"],
     "method": "drawn to scale, nothing computed",
     "notebook": "drawings",
-    "tables": {},
 }  # fmt: skip
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 46.0

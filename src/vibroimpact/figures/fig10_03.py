@@ -22,17 +22,12 @@ SPEC = {
     "notebook": "closed_form",
     "settings": {"amplitude": "figures.{figure}.amplitude", "theta": "figures.{figure}.theta",
         "tau0_max": "figures.{figure}.tau0_max"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"values": ["Z", "impacts"]},
-                "tau0": {"meaning": r"fast time $\tau_0$ as a phase; impacts at $\theta + j\pi$", "unit": "radians",
-                    "compared": "algebra"},
-                "Z": {"meaning": r"saw-tooth $Z(\tau_0)$, (10.11); the impacts are its corners",
-                    "unit": "dimensionless", "compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {}, "series": {"values": ["Z", "impacts"]},
+        "tau0": {"meaning": r"fast time $\tau_0$ as a phase; impacts at $\theta + j\pi$", "unit": "radians",
+            "compared": "algebra"},
+        "Z": {"meaning": r"saw-tooth $Z(\tau_0)$, (10.11); the impacts are its corners", "unit": "dimensionless",
+            "compared": "algebra"},
     },
 }  # fmt: skip
 

@@ -24,16 +24,11 @@ SPEC = {
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
     "notebook": "closed_form",
     "settings": {"kappa": "system.kappa", "C_max": "figures.{figure}.C_max"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)",
-                    "values": ["SIM stable", "SIM unstable", "B_min"]},
-                "C": {"compared": "algebra"},
-                "B": {"compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {},
+        "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)", "values": [
+            "SIM stable", "SIM unstable", "B_min"]},
+        "C, B": {"compared": "algebra"},
     },
 }  # fmt: skip
 

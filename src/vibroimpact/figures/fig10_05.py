@@ -21,16 +21,11 @@ SPEC = {
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
     "notebook": "closed_form",
     "settings": {"C_range": "figures.{figure}.C_range"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ "
-                    "of (10.25)", "values": ["stable", "unstable", "C_min"]},
-                "kappa": {"compared": "algebra"},
-                "C": {"compared": "algebra"},
-            },
-        },
+    "columns": {
+        "panel": {},
+        "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ of "
+            "(10.25)", "values": ["stable", "unstable", "C_min"]},
+        "kappa, C": {"compared": "algebra"},
     },
 }  # fmt: skip
 

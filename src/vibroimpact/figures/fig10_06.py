@@ -39,16 +39,11 @@ SPEC = {
     "settings": {"C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
     "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
-                "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection "
-                    'P_i, singular points S_i of (10.24); "beyond" those outside the frame'},
-                "C": {"compared": "roots"},
-                "B": {"compared": "roots"},
-            },
-        },
+    "columns": {
+        "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
+        "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection P_i, "
+            'singular points S_i of (10.24); "beyond" those outside the frame'},
+        "C, B": {"compared": "roots"},
     },
 }  # fmt: skip
 

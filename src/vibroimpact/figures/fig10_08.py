@@ -15,7 +15,8 @@ SPEC = {
         "alt": "Two panels over the window of the simulation of case {case}: a, the displacement X2 of the second box; "
             "b, the relative displacement W2 of its ball between the walls, with a corner at each impact.",
     },
-    "equations": "companion_10_11",
+    "equations": [r"W_i^{\prime +} = -\kappa\,W_i^{\prime -}, \qquad X_i^{\prime +} + \varepsilon Y_i^{\prime +} = "
+        r"X_i^{\prime -} + \varepsilon Y_i^{\prime -}"],
     "method": "motion of the second module as simulated, with its events as corners",
     "notebook": "simulation",
     "case": "figures.{figure}.case",
@@ -23,16 +24,10 @@ SPEC = {
     "notebook_settings": {"simulation": "cases.{case}.simulation", "observation": "regimes.observation"},
     "notebook_inputs": {"points": "results/fixed_points/{case}.csv",
         "summary": "results/simulations/{case}/summary.json"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["a", "b"]},
-                "series": {"values": ["X_2", "W_2"]},
-                "tau": {"compared": "trajectory"},
-                "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among "
-                    "the points", "unit": "dimensionless", "compared": "trajectory"},
-            },
-        },
+    "columns": {
+        "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "trajectory"},
+        "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
+            "points", "unit": "dimensionless", "compared": "trajectory"},
     },
 }  # fmt: skip
 

@@ -17,11 +17,7 @@ SPEC = {
     "settings": {"C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
     "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
-    "tables": {
-        "csv": {
-            "columns": "fig10_06",
-        },
-    },
+    "columns": "fig10_06",
 }  # fmt: skip
 
 __all__ = ["compute", "draw"]

@@ -23,18 +23,11 @@ SPEC = {
         "C_max": "figures.{figure}.C_max"},
     "inputs": {"points": "results/fixed_points/{case}.csv"},
     "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
-    "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"meaning": "label of the fixed point and module; of its response the module"},
-                "series": {"meaning": "as in figures 10.6 and 10.7"},
-                "C": {"compared": "roots"},
-                "B": {"compared": "roots"},
-                "tau": {"compared": "roots"},
-                "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), "
-                    "(10.10)", "unit": "dimensionless", "compared": "roots"},
-            },
-        },
+    "columns": {
+        "panel": {"meaning": "label of the fixed point and module; of its response the module"},
+        "series": {"meaning": "as in figures 10.6 and 10.7"}, "C, B, tau": {"compared": "roots"},
+        "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), (10.10)",
+            "unit": "dimensionless", "compared": "roots"},
     },
 }  # fmt: skip
 

@@ -21,16 +21,12 @@ SPEC = {
     "notebook_settings": {"simulation": "cases.{case}.simulation", "observation": "regimes.observation"},
     "notebook_inputs": {"points": "results/fixed_points/{case}.csv",
         "summary": "results/simulations/{case}/summary.json"},
+    "columns": {
+        "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "exact"},
+        "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
+            "points", "unit": "dimensionless", "compared": "exact"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {"values": ["a", "b"]},
-                "series": {"values": ["X_2", "W_2"]},
-                "tau": {"compared": "exact"},
-                "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among "
-                    "the points", "unit": "dimensionless", "compared": "exact"},
-            },
-        },
         "statistics": {
             "file": "results/figures/fig10_11.statistics.csv",
             "about": "The amplitude of each box, half its peak-to-peak displacement in each forcing period of the "

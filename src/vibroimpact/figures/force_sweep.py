@@ -29,21 +29,17 @@ SPEC = {
         "pale dots for the asymmetric orbits.",
     "method": "fixed points and exact orbits at every value of the force",
     "made_by": "force_sweep",
-    "tables": {
-        "csv": {
-            "file": "results/force_sweep/force_sweep.csv",
-            "columns": {
-                "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
-                "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value "
-                    "grows", "unit": "number"},
-                "C1, B1, C2, B2": {},
-                "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
-                "printed_10_26, masri_derived, slow_flow": {},
-                "fast_and_slow": {"meaning": "by both time scales of the theory, Masri's analysis and the slow flow",
-                    "unit": "text", "values": ["stable", "unstable", "undecided"]},
-                "floquet": {},
-            },
-        },
+    "file": "results/force_sweep/force_sweep.csv",
+    "columns": {
+        "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
+        "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value grows",
+            "unit": "number"},
+        "C1, B1, C2, B2": {},
+        "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
+        "printed_10_26, masri_derived, slow_flow": {},
+        "fast_and_slow": {"meaning": "by both time scales of the theory, Masri's analysis and the slow flow",
+            "unit": "text", "values": ["stable", "unstable", "undecided"]},
+        "floquet": {},
     },
 }  # fmt: skip
 

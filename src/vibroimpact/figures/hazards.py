@@ -15,21 +15,15 @@ SPEC = {
         "undecidable, an exclamation mark refused, an infinity sign did not finish, a cross silently wrong.",
     "method": "error against a reference of extended precision",
     "made_by": "hazards",
-    "tables": {
-        "csv": {
-            "file": "results/accuracy/hazards.csv",
-            "columns": {
-                "group": {"meaning": "what is hard", "unit": "text"},
-                "hazard": {"meaning": "name of the test problem", "unit": "text"},
-                "method, family, setting, steps": {},
-                "verdict": {"meaning": "right: the error of the final state is at most 0.01, and no impact is missed "
-                    "or spurious; silently wrong: neither right nor reported undecidable", "unit": "text", "values": [
-                    "right", "reported undecidable", "refused with an error", "did not finish", "silently wrong",
-                    "unavailable"]},
-                "error_state, error_time, missed, spurious": {},
-                "says": {"meaning": "what the method says of its failure or of its doubt", "unit": "text"},
-            },
-        },
+    "file": "results/accuracy/hazards.csv",
+    "columns": {
+        "group": {"meaning": "what is hard", "unit": "text"},
+        "hazard": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting, steps": {},
+        "verdict": {"meaning": "right: the error of the final state is at most 0.01, and no impact is missed or "
+            "spurious; silently wrong: neither right nor reported undecidable", "unit": "text", "values": ["right",
+            "reported undecidable", "refused with an error", "did not finish", "silently wrong", "unavailable"]},
+        "error_state, error_time, missed, spurious": {},
+        "says": {"meaning": "what the method says of its failure or of its doubt", "unit": "text"},
     },
 }  # fmt: skip
 

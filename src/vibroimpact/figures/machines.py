@@ -36,21 +36,18 @@ SPEC = {
     "settings": {"plant": "figures.{figure}.plant", "clearances": "figures.{figure}.clearances",
         "frequencies": "figures.{figure}.frequencies", "cycles": "figures.{figure}.cycles",
         "settle": "figures.{figure}.settle", "shown": "figures.{figure}.shown"},
+    "columns": {
+        "panel": {},
+        "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in panel b",
+            "unit": "text"},
+        "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz", "compared": "algebra"},
+        "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
+            "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
+        "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+        "place": {"meaning": "displacement $x_1$ of the box or $y_1$ of the ball", "unit": "millimetres",
+            "compared": "trajectory"},
+    },
     "tables": {
-        "csv": {
-            "columns": {
-                "panel": {},
-                "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in "
-                    "panel b", "unit": "text"},
-                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
-                    "compared": "algebra"},
-                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
-                    "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
-                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
-                "place": {"meaning": "displacement $x_1$ of the box or $y_1$ of the ball", "unit": "millimetres",
-                    "compared": "trajectory"},
-            },
-        },
         "summary": {
             "file": "results/figures/machines.summary.csv",
             "about": "The machines at each clearance, at the frequency at which the boxes swing most.",

@@ -18,25 +18,19 @@ SPEC = {
         "lane at the right, numbered.",
     "method": "error against a reference of extended precision, run time as measured",
     "made_by": "work_precision",
-    "tables": {
-        "csv": {
-            "file": "results/accuracy/work_precision.csv",
-            "columns": {
-                "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},
-                "method, family, setting, error_state, error_time, missed, spurious": {},
-                "seconds_per_cycle": {"meaning": "run time per forcing cycle, the shortest of several runs",
-                    "unit": "seconds"},
-                "steps": {},
-                "evaluations": {"meaning": "evaluations of the right-hand side, 0 where the method does not count "
-                    "them", "unit": "number"},
-                "outcome": {"meaning": "finished; refused: an error; unfinished: out of steps; unavailable",
-                    "unit": "text", "values": ["finished", "refused", "unfinished", "unavailable"]},
-                "reason": {"meaning": "why there is no result, or what the method itself calls undecidable",
-                    "unit": "text"},
-                "order": {"meaning": "order of convergence: slope of log error over log step, for methods that have "
-                    "one", "unit": "dimensionless"},
-            },
-        },
+    "file": "results/accuracy/work_precision.csv",
+    "columns": {
+        "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},
+        "method, family, setting, error_state, error_time, missed, spurious": {},
+        "seconds_per_cycle": {"meaning": "run time per forcing cycle, the shortest of several runs", "unit": "seconds"},
+        "steps": {},
+        "evaluations": {"meaning": "evaluations of the right-hand side, 0 where the method does not count them",
+            "unit": "number"},
+        "outcome": {"meaning": "finished; refused: an error; unfinished: out of steps; unavailable", "unit": "text",
+            "values": ["finished", "refused", "unfinished", "unavailable"]},
+        "reason": {"meaning": "why there is no result, or what the method itself calls undecidable", "unit": "text"},
+        "order": {"meaning": "order of convergence: slope of log error over log step, for methods that have one",
+            "unit": "dimensionless"},
     },
 }  # fmt: skip
 

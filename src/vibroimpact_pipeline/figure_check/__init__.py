@@ -1,1 +1,1 @@
-"""The figures against their reference set: numbers, artists, pictures."""
+"""The figures against their reference set: are their numbers the same, and do they draw the same pictures?"""

@@ -1,144 +1,137 @@
 """How far a table of plotted numbers is from its reference, series by series and column by column."""
 
+import math
 from collections import Counter
-from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import yaml
 
 FLOOR = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
-OTHERS = "others"
-"""Stands for the series that have no kind of their own."""
 SAME = 1e-6
 """Share of the axis: an outcome, or a value of a sample, that moves by less is the same."""
+OTHERS = "others"
+"""Stands for the series that have no kind of their own."""
+KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
+"""How each kind of number is compared: by one or several of MEASURES, each with its limit; and why."""
 
 
-@dataclass(frozen=True)
-class Rules:
-    """How the columns of a table are compared.
+def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
+    """Reasons why a table fails, one line each, and the distance of each column from its reference.
 
-    columns: kind of each column that is compared, or its kind in each series (OTHERS: in the rest); every other column
-    of text names its row, and must be the same. limits: for each kind one or several of MEASURES, with their limits.
+    Args:
+        columns: entries of a SPEC. A column of text that is not compared names its row, and must be the same.
+
+    Returns as distances: column, kind, measure, limit, distance, where it is (the row that is farthest off), reference
+    and new (the values there; of a sample the medians).
     """
-
-    columns: dict[str, str | dict[str, str]]
-    limits: dict[str, dict[str, float]]
-
-    def of(self, part: pd.DataFrame, series) -> dict[str, str]:
-        """Kind of each column that a series has, all others left blank."""
-        kinds = {name: _kind(compared, series) for name, compared in self.columns.items()}
-        return {name: kind for name, kind in kinds.items() if kind and name in part and _given(part[name]).any()}
-
-    def are_of_a_sample(self, kinds: dict[str, str]) -> bool:
-        """Whether a series with columns of these kinds is a sample, in which no row has its counterpart."""
-        return bool(kinds) and all("distribution" in self.limits[kind] for kind in kinds.values())
-
-
-def _kind(compared, series) -> str | None:
-    return compared if isinstance(compared, str) else compared.get(series, compared.get(OTHERS))
+    reasons = _structure(old, new, columns) or _lacks(new, columns)
+    found = [] if reasons else list(_distances(old, new, columns).values())
+    for one in found:
+        if one["kind"] is None:
+            reasons.append(f"no limit is stated for column {one['column']}")
+        elif not one["distance"] <= one["limit"]:
+            reasons.append(
+                f"{one['column']} is off by {one['distance']:.2g} {UNITS[one['measure']]}, limit {one['limit']:g} "
+                f"({one['where']}: {_shown(one['new'])} instead of {_shown(one['reference'])})"
+            )
+    return reasons, [{key: _plain(value) for key, value in one.items()} for one in found]
 
 
-@dataclass(frozen=True)
-class Distance:
-    """Distance of a column from its reference in the series where it is largest, and the entry that is farthest off.
-
-    kind and limit are None for numbers without a rule. Of a sample the medians stand for the entry.
-    """
-
-    column: str
-    kind: str | None
-    measure: str
-    limit: float | None
-    distance: float
-    row: str
-    reference: object
-    new: object
+def _plain(value):
+    """A value as JSON has it: no number that is not finite, none of NumPy's."""
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def differences_in_structure(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[str]:
-    """What keeps two tables from being compared: other columns, other rows, other blanks; one line each."""
-    if list(reference.columns) != list(new.columns):
-        return [f"columns {', '.join(new.columns)} instead of {', '.join(reference.columns)}"]
-    old_parts, new_parts, texts = _by_series(reference), _by_series(new), _texts(reference)
+def _shown(value):
+    return value if isinstance(value, str) else f"{value:.9g}"
+
+
+def _structure(old, new, columns):
+    """What keeps two tables from being compared: other columns, other rows, other blanks."""
+    if list(old) != list(new):
+        return [f"columns {', '.join(new)} instead of {', '.join(old)}"]
+    found, texts = [], _texts(old)
+    before, after = _by_series(old), _by_series(new)
+    for series in before | after:
+        parts = [table.get(series, old.iloc[:0]) for table in (before, after)]
+        kinds = [_kinds(part, series, columns) for part in parts]
+        if not all(map(_is_sample, kinds)):
+            found += _rows_that_differ(*parts, [name for name in texts if name not in kinds[0]])
+    return found or ["the same series in another order"] * (list(before) != list(after))
+
+
+def _rows_that_differ(old, new, texts):
+    names, new_names = _names(old, texts), _names(new, texts)
+    counts, new_counts = Counter(names), Counter(new_names)
+    if counts != new_counts:
+        differ = [name for name in counts | new_counts if counts[name] != new_counts[name]]
+        return [f"{name}: {new_counts[name] or 'no'} rows instead of {counts[name] or 'none'}" for name in differ]
+    if names != new_names:
+        return ["the same rows in another order"]
+    blanks = old.isna().to_numpy() != new.isna().to_numpy()
+    return [f"{name}: blank in other rows" for name, other in zip(old, blanks.any(axis=0), strict=True) if other]
+
+
+def _lacks(table, columns):
+    """What a table must have to say anything, also where its reference lacks the same."""
+    compared = {name: entry["compared"] for name, entry in columns.items() if "compared" in entry and name in table}
+    if table.empty or not compared:
+        return ["no rows" if table.empty else "none of the columns that its SPEC declares"]
     found = []
-    for series in old_parts | new_parts:
-        old, fresh = (parts.get(series, reference.iloc[:0]) for parts in (old_parts, new_parts))
-        kinds, fresh_kinds = (rules.of(part, series[-1]) for part in (old, fresh))
-        if not (rules.are_of_a_sample(kinds) and rules.are_of_a_sample(fresh_kinds)):
-            found += _differences(old, fresh, [name for name in texts if name not in kinds])
-    return found or ["the same series in another order"] * (list(old_parts) != list(new_parts))
+    for name, kinds in compared.items():
+        parts = {} if isinstance(kinds, str) else {s: table[table["series"] == s] for s in kinds if s != OTHERS}
+        lacking = [f" in series {s}" for s, part in parts.items() if len(part) and not _given(part[name]).any()]
+        found += [f"no value of {name}{where}" for where in ([] if _given(table[name]).any() else [""]) or lacking]
+    finite = [name for name in table.select_dtypes("number") if not columns.get(name, {}).get("infinite")]
+    return found + [f"{name} is infinite" for name in finite if np.isinf(table[name].to_numpy(float)).any()]
 
 
-def _differences(old, new, texts):
-    old_rows, new_rows = _names(old, texts), _names(new, texts)
-    counts, new_counts = Counter(old_rows), Counter(new_rows)
-    found = [
-        f"{name}: {new_counts[name] or 'no'} rows instead of {counts[name] or 'none'}"
-        for name in dict.fromkeys([*old_rows, *new_rows])
-        if counts[name] != new_counts[name]
-    ]
-    if not found and old_rows != new_rows:
-        found = ["the same rows in another order"]
-    if not found:
-        blanks = old.isna().to_numpy() != new.isna().to_numpy()
-        found = [f"{name}: blank in other rows" for name, other in zip(old, blanks.any(axis=0), strict=True) if other]
+def _distances(old, new, columns):
+    """Of each column, kind and measure the entry that is farthest off, of all series."""
+    new_parts, farthest = _by_series(new), {}
+    numbers, texts = old.select_dtypes("number").columns, _texts(old)
+    for series, part in _by_series(old).items():
+        fresh, kinds = new_parts[series], _kinds(part, series, columns)
+        unruled = {name: None for name in numbers if name not in kinds and part[name].notna().any()}
+        for column, kind in (kinds | unruled).items():
+            scales = _scales(old, column)[part.index]
+            for measure, limit in (KINDS[kind]["limits"] if kind else {"largest": None}).items():
+                far, row = MEASURES[measure](part[column], fresh[column], scales)
+                if far > farthest.get((column, kind, measure), {"distance": -1})["distance"]:
+                    place = {"where": ", ".join(series)} | {
+                        name: float(values[column].median()) if row is None else values[column].iloc[row]
+                        for name, values in (("reference", part), ("new", fresh))
+                    }
+                    if row is not None:
+                        place["where"] = f"{_names(part.iloc[[row]], texts)[0]}, row {part.index[row] + 1}"
+                    rule = {"column": column, "kind": kind, "measure": measure, "limit": limit}
+                    farthest[column, kind, measure] = rule | {"distance": float(far)} | place
+    return farthest
+
+
+def _kinds(part, series, columns):
+    """Kind of each column that has values in a series."""
+    found = {}
+    for name in part:
+        kind = columns.get(name, {}).get("compared")
+        kind = kind.get(series[-1], kind.get(OTHERS)) if isinstance(kind, dict) else kind
+        if kind and _given(part[name]).any():
+            found[name] = kind
     return found
 
 
-def distances(reference: pd.DataFrame, new: pd.DataFrame, rules: Rules) -> list[Distance]:
-    """Distance of each column between tables of the same structure, by the measures of its kind."""
-    new_parts, numbers, farthest = _by_series(new), numeric_columns(reference), {}
-    scales = {column: _scales(reference, column) for column in reference}
-    for series, old in _by_series(reference).items():
-        fresh, kinds = new_parts[series], rules.of(old, series[-1])
-        unruled = [name for name in numbers if name not in kinds and old[name].notna().any()]
-        for column, kind in [*kinds.items(), *((name, None) for name in unruled)]:
-            for measure, limit in rules.limits.get(kind, {"largest": None}).items():
-                far, row = MEASURES[measure](old[column], fresh[column], scales[column][old.index])
-                key = column, kind, measure
-                if key not in farthest or far > farthest[key].distance:
-                    farthest[key] = Distance(*key, limit, far, *_entry(old, fresh, column, row, series))
-    return list(farthest.values())
-
-
-def lacks(table: pd.DataFrame, columns: dict, infinite=()) -> list[str]:
-    """What a table must have to say anything, whatever its reference says: one line each.
-
-    columns: those that are compared, as in `Rules`; where figures share a card, one may lack some. infinite: those in
-    which infinity means something.
-    """
-    if table.empty:
-        return ["no rows"]
-    parts = dict(iter(table.groupby("series"))) if "series" in table else {}
-    there = {name: compared for name, compared in columns.items() if name in table}
-    found = [f"no column of those its card declares: {', '.join(columns)}"] if columns and not there else []
-    for name, compared in there.items():
-        of_series = {} if isinstance(compared, str) else {key: parts[key] for key in compared if key in parts}
-        if not _any(table[name]):
-            found.append(f"no value of {name}")
-        else:
-            found += [f"no value of {name} in series {key}" for key, part in of_series.items() if not _any(part[name])]
-    numbers = [name for name in numeric_columns(table) if name not in infinite]
-    return found + [f"{name} is infinite" for name in numbers if np.isinf(table[name].to_numpy(float)).any()]
-
-
-def _any(values):
-    return _given(values).any()
-
-
-def _entry(old, new, column, row, series):
-    """Where the farthest entry is, and what it was and is."""
-    if row is None:
-        return ", ".join(series), float(old[column].median()), float(new[column].median())
-    (name,) = _names(old.iloc[[row]], _texts(old))
-    values = (table[column].iloc[row] for table in (old, new))
-    return f"{name}, row {old.index[row] + 1}", *(v if isinstance(v, str) else float(v) for v in values)
+def _is_sample(kinds):
+    """Whether a series with columns of these kinds is a sample, in which no row has its counterpart."""
+    return bool(kinds) and all("distribution" in KINDS[kind]["limits"] for kind in kinds.values())
 
 
 def _largest(old, new, scales):
     shares = _shares(old, new, scales)
-    return float(shares.max()), int(shares.argmax())
+    return shares.max(), int(shares.argmax())
 
 
 def _decades(old, new, scales):
@@ -148,46 +141,39 @@ def _decades(old, new, scales):
 def _middle_of_decades(old, new, scales):
     """By how much all values move together, whatever single ones do."""
     old, new = (np.log10(values.dropna().clip(lower=FLOOR)) for values in (old, new))
-    return float(abs(new.median() - old.median())), None
-
-
-def _same(old, new, scales):
-    return (_largest if pd.api.types.is_numeric_dtype(old) else _part_of_rows)(old, new, scales)
+    return abs(new.median() - old.median()), None
 
 
 def _part_of_rows(old, new, scales):
     numbers = pd.api.types.is_numeric_dtype(old)
-    differs = _shares(old, new, scales) > SAME if numbers else old.to_numpy() != new.to_numpy()
-    return float(differs.mean()), int(differs.argmax())
+    differs = _shares(old, new, scales) > SAME if numbers else (old.fillna("") != new.fillna("")).to_numpy()
+    return differs.mean(), int(differs.argmax())
 
 
 def _times_chance(old, new, scales):
-    """Statistic of Kolmogorov and Smirnov for two samples.
-
-    Values that are the same are not told apart, so that rounding does not count where many values are equal.
-    """
+    """Statistic of Kolmogorov and Smirnov for two samples; values that are the same are not told apart."""
     old, new = (np.sort(values.dropna().to_numpy(float)) for values in (old, new))
     slack, n, m = SAME * float(scales.max()), len(old), len(new)
-    return float(max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m))), None
+    return max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m)), None
+
+
+def _lead(ahead, behind, slack):
+    """By how much the part of one sample below some value exceeds that of another below a bit more, at most."""
+    below = np.searchsorted(behind, ahead + slack, side="right") / len(behind)
+    return (np.arange(1, len(ahead) + 1) / len(ahead) - below).max()
 
 
 def _standard_score_of_sizes(old, new, scales):
     """Difference of the sizes of two samples, in units of its standard deviation if single values came by chance."""
     n, m = (int(values.notna().sum()) for values in (old, new))
-    return float(abs(n - m) / np.sqrt(n + m)), None
+    return abs(n - m) / np.sqrt(n + m), None
 
 
 def _standard_errors(old, new, scales):
     """Difference of two means in units of its own standard error."""
     old, new = (values.dropna().to_numpy(float) for values in (old, new))
     error = np.sqrt(sum(values.var(ddof=1) / len(values) if len(values) > 1 else 0.0 for values in (old, new)))
-    return float(abs(old.mean() - new.mean()) / (error + SAME * float(scales.max()))), None
-
-
-def _lead(ahead, behind, slack):
-    """By how much the part of one sample below some value exceeds that of another below a bit more, at most."""
-    below = np.searchsorted(behind, ahead + slack, side="right") / len(behind)
-    return float((np.arange(1, len(ahead) + 1) / len(ahead) - below).max())
+    return abs(old.mean() - new.mean()) / (error + SAME * float(scales.max())), None
 
 
 MEASURES = {
@@ -195,7 +181,6 @@ MEASURES = {
     "decades": _decades,
     "middle of decades": _middle_of_decades,
     "part of rows": _part_of_rows,
-    "same": _same,
     "distribution": _times_chance,
     "size": _standard_score_of_sizes,
     "mean": _standard_errors,
@@ -205,34 +190,12 @@ UNITS = {
     "decades": "decades",
     "middle of decades": "decades in the middle",
     "part of rows": "of its rows",
-    "same": "of its axis or rows",
     "distribution": "times chance",
     "size": "times chance in number",
     "mean": "standard errors",
 }
 """What the distances of each measure count. The axis is the range of the reference's column in its panel; where that
 range is zero, and in tables without panels, the reference itself. What is not finite is infinitely far."""
-
-
-def numeric_columns(table: pd.DataFrame) -> list[str]:
-    return list(table.select_dtypes("number").columns)
-
-
-def _texts(table):
-    numbers = set(numeric_columns(table))
-    return [name for name in table if name not in numbers]
-
-
-def _given(values):
-    there = values.notna()
-    return there if pd.api.types.is_numeric_dtype(values) else there & (values != "")
-
-
-def _by_series(table):
-    """Rows by (panel, series), in their order; all of a table that has none under an empty name."""
-    if not {"panel", "series"} <= set(table):
-        return {("",): table}
-    return dict(iter(table.groupby(["panel", "series"], sort=False)))
 
 
 def _shares(old, new, scales):
@@ -242,17 +205,33 @@ def _shares(old, new, scales):
     return np.where(np.isnan(old) | (old == new), 0.0, np.where(np.isfinite(shares), shares, np.inf))
 
 
-def _scales(reference, name):
+def _scales(table, name):
     """The axis of every row; of a column of text, nothing that is used."""
-    if name not in numeric_columns(reference):
-        return pd.Series(np.nan, reference.index)
-    values = reference[name].replace([np.inf, -np.inf], np.nan)
+    if name in _texts(table):
+        return pd.Series(np.nan, table.index)
+    values = table[name].replace([np.inf, -np.inf], np.nan)
     sizes = values.abs().where(values != 0, 1.0)
-    if "panel" not in reference:
+    if "panel" not in table:
         return sizes
-    panels = values.groupby(reference["panel"])
+    panels = values.groupby(table["panel"])
     ranges = panels.transform("max") - panels.transform("min")
     return ranges.where(ranges > 0, sizes)
+
+
+def _texts(table):
+    numbers = set(table.select_dtypes("number"))
+    return [name for name in table if name not in numbers]
+
+
+def _given(values):
+    return values.notna() if pd.api.types.is_numeric_dtype(values) else values.notna() & (values != "")
+
+
+def _by_series(table):
+    """Rows by (panel, series), in their order; all of a table that has none under an empty name."""
+    if not {"panel", "series"} <= set(table):
+        return {("",): table}
+    return dict(iter(table.groupby(["panel", "series"], sort=False)))
 
 
 def _names(table, texts):

@@ -3,10 +3,10 @@
 import re
 from collections.abc import Callable
 
-from vibroimpact.figures.specs import spec_of, specs
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
+from vibroimpact_pipeline.specs import spec_of, specs
 
 FORCES = ("f10_hat", "f20_hat")
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}

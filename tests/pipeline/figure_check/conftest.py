@@ -1,42 +1,58 @@
-"""Figures drawn once, as reference, and verdicts on figures drawn anew."""
+"""A small reference set, drawn here, so that its pictures are comparable whatever versions draw."""
+
+import datetime
+import shutil
+from types import SimpleNamespace
 
 import pytest
+import yaml
 
-from checking import LIMITS, build, copy_pictures
-from vibroimpact_pipeline.figure_check import compare as figure_check
+from pipeline_trees import ROOT
+from vibroimpact.figures.kit.tables import read
+from vibroimpact_pipeline.figure_check import pictures
+from vibroimpact_pipeline.figure_check.accept import accept
+from vibroimpact_pipeline.figure_check.check import check, kept
+from vibroimpact_pipeline.specs import made, specs
+
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+SPECS = made(CONFIG, specs())
+FIGURES = ["fig10_02", "fig10_04", "fig10_06", "companion_epsilon"]
+"""Without a table, with one, with markers and arrows, with two tables."""
+DAY = datetime.date(2020, 2, 29)
 
 
 @pytest.fixture(scope="session")
-def computed(figures):
-    return {name: scene.compute and scene.compute() for name, scene in figures.items()}
-
-
-@pytest.fixture(scope="session")
-def reference(figures, computed, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("reference")
-    for name, scene in figures.items():
-        build(folder, name, computed[name], scene.draw(computed[name]))
+def drawn(tmp_path_factory):
+    """Folders of a reference set, and of a build that agrees with it, its tables those that are published."""
+    folder = tmp_path_factory.mktemp("drawn")
+    for figure in FIGURES:
+        for file, path in kept(figure, SPECS[figure]).values():
+            (folder / "build" / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / "figures" / file, folder / "build" / path)
+        redraw(folder / "build", figure)
+    (folder / "figures").mkdir()
+    verdicts = [check(figure, SPECS[figure], folder / "figures", folder / "build") for figure in FIGURES]
+    accept(verdicts, folder / "build", folder / "figures", "all are new", DAY)
     return folder
 
 
-@pytest.fixture
-def verdict(reference, tmp_path):
-    """The verdict on a figure that was computed and drawn anew."""
-
-    def judge(name, table, figure):
-        build(tmp_path, name, table, figure)
-        return figure_check.check(name, reference, tmp_path, LIMITS)
-
-    return judge
+def redraw(build, figure):
+    """The pictures of a figure of a build, of its tables as they are."""
+    spec = SPECS[figure]
+    tables = {name: read(build / path) for name, (_, path) in kept(figure, spec).items()}
+    (build / "results/figures").mkdir(parents=True, exist_ok=True)
+    pictures.draw(spec["module"], tables, figure, build / "results/figures")
 
 
 @pytest.fixture
-def verdict_without_pixels(reference, tmp_path):
-    """The same with the picture of the reference, so that numbers and artists alone can tell."""
-
-    def judge(name, table, figure):
-        build(tmp_path, name, table, figure, pictures=False)
-        copy_pictures(name, reference, tmp_path)
-        return figure_check.check(name, reference, tmp_path, LIMITS)
-
-    return judge
+def tree(drawn, tmp_path):
+    """A copy: reference, build, results (of pictures), verdict(figure) and redraw(figure)."""
+    shutil.copytree(drawn, tmp_path / "tree")
+    reference, build = tmp_path / "tree/figures", tmp_path / "tree/build"
+    return SimpleNamespace(
+        reference=reference,
+        build=build,
+        results=build / "results/figures",
+        verdict=lambda figure: check(figure, SPECS[figure], reference, build),
+        redraw=lambda figure: redraw(build, figure),
+    )

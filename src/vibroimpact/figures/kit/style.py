@@ -83,9 +83,10 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
 
 
 def drawn(figure, read: dict) -> Figure:
-    """Draw the tables of a figure's module, given by name: one that has a single table takes that alone."""
-    names = figure.SPEC["tables"]
-    return figure.draw(read) if len(names) > 1 else figure.draw(read["csv"]) if names else figure.draw()
+    """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
+    if figure.SPEC.get("tables"):
+        return figure.draw(read)
+    return figure.draw(read["csv"]) if "columns" in figure.SPEC else figure.draw()
 
 
 def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = None) -> None:

@@ -10,8 +10,9 @@ A SPEC is a literal with these entries.
 - settings: path in the config by argument. inputs: path of a table by argument. {figure} and {case} are filled in.
 - notebook_settings, notebook_inputs: the same for what the notebook reads besides. needs: further paths in the config
   without which the figure is not made.
-- tables: by name the file, what it is about, and its columns: meaning, unit, values, how the figure check compares them
-  (kinds of figure_check/tolerances.yaml, by series where they differ), infinite if they may be. "csv" is plotted.
+- columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
+  figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere.
+- tables: what else `compute` returns, by name its file, what it is about, and its columns.
 
 Equations, columns or own words may be the name of a figure that has the same. A column may stand for several, "C1, C2".
 """
@@ -19,33 +20,33 @@ Equations, columns or own words may be the name of a figure that has the same. A
 import ast
 from pathlib import Path
 
-FOLDER = Path(__file__).parent
+from vibroimpact_pipeline.code import FIGURES, ROOT
+
+FOLDER = ROOT / FIGURES
 LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
 LIKE |= {"physical_units": "machines"}
 """The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
 
 
 def specs(folder=FOLDER) -> dict[str, dict]:
-    """SPEC by figure, of all modules in a folder that have one."""
+    """SPEC by figure, of all modules in a folder that have one; the plotted table is "csv" among its tables."""
     found = {}
     for path in sorted(Path(folder).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)
+    made = {}
     for figure, spec in found.items():
-        spec["own"] = _shared(spec.get("own", {}), lambda name: found[name]["own"])
-        spec["equations"] = _shared(spec.get("equations", []), lambda name: found[name]["equations"])
-        for name, table in spec["tables"].items():
-            table["columns"] = _shared(
-                table["columns"], lambda figure, name=name: found[figure]["tables"][name]["columns"]
-            )
-            table.setdefault("about", f"{spec['title']}.")
-            table.setdefault("file", f"results/figures/{figure}.csv")
-    return found
-
-
-def _shared(entry, of):
-    return of(entry) if isinstance(entry, str) else entry
+        shared = {
+            name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name)
+            for name in ("own", "equations", "columns")
+        }
+        file = spec.get("file", f"results/figures/{figure}.csv")
+        plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}
+        tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
+        said = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
+        made[figure] = said | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
+    return made
 
 
 def drawn_by(figure: str, scene: dict, known: dict) -> str:
@@ -87,6 +88,20 @@ def request(figure: str, spec: dict, config: dict) -> dict:
         at(config, path.format(**known))
     settings = {name: at(config, path) for name, path in paths.items()}
     return {"case": known.get("case"), "paths": paths, "settings": settings, "inputs": inputs}
+
+
+def made(config: dict, known: dict) -> dict[str, dict]:
+    """SPEC of every figure that a config makes, with "module", what draws it, and its "request"."""
+    scenes = config["figures"] | {name: {} for name, spec in known.items() if not {"notebook", "made_by"} & spec.keys()}
+    found = {}
+    for figure, scene in scenes.items():
+        spec = spec_of(figure, scene, known)
+        try:
+            needed = request(figure, spec, config)
+        except LookupError:
+            continue
+        found[figure] = spec | {"module": drawn_by(figure, scene, known), "request": needed}
+    return found
 
 
 def at(config: dict, path: str):

@@ -1,0 +1,181 @@
+"""Verdicts on figures: are the tables those of the reference, and does `draw` make of these the picture it made then?
+
+A figure has passed, failed, or is not comparable: its tables agree, but other versions drew the reference's picture.
+"""
+
+import json
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from itertools import repeat
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from vibroimpact.figures.kit.tables import read
+from vibroimpact_pipeline.figure_check import pictures
+from vibroimpact_pipeline.figure_check.tables import compare
+from vibroimpact_pipeline.specs import each
+
+PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
+OTHER_VERSIONS = "picture not compared: other versions drew that of the reference, see pictures.json"
+SUMS = "pictures.json"
+"""Of a reference set: by figure sums of its PDF and SVG, and the versions that drew them."""
+
+
+def kept(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
+    """Of each table of a figure that is compared, by name: its name in the reference set, and its path in a build."""
+    return {
+        name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
+        for name, table in spec["tables"].items()
+        if any("compared" in column for column in each(table["columns"]).values())
+    }
+
+
+def reference_sums(reference) -> dict[str, dict]:
+    path = Path(reference) / SUMS
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+
+def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
+    """Verdicts on the figures that a config makes (`specs.made`) and on all others that have a reference, by name."""
+    asked = sorted(({path.stem: None for path in Path(reference).glob("*.png")} | figures).items())
+    with ProcessPoolExecutor(processes) as pool:
+        return list(pool.map(check, *zip(*asked, strict=True), repeat(reference), repeat(build)))
+
+
+def check(figure: str, spec: dict | None, reference, build) -> dict:
+    """Verdict on one figure, as JSON data. Whatever a file holds, it is a verdict on this figure alone.
+
+    Args:
+        spec: its SPEC, and as "module" what draws it; None for one that is no longer made.
+        reference: folder of the reference set. build: folder in which results/ lies.
+
+    Returns keys figure, module, files (of each table that is compared its name in the reference set, and its path in
+    the build), status, reasons (one line each), tables (see `tables.compare`, with the table's name).
+    """
+    verdict = {"figure": figure, "module": None, "files": {}, "status": FAILED, "reasons": [], "tables": []}
+    if spec is None:
+        return verdict | {"reasons": ["not built: the config has no such figure"]}
+    verdict["module"], verdict["files"] = spec["module"], kept(figure, spec)
+    built = {kind: Path(build) / f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
+    names = {name: file for name, (file, _) in verdict["files"].items()}
+    old_files = {name: Path(reference) / file for name, file in names.items()}
+    new_files = {name: Path(build) / path for name, (_, path) in verdict["files"].items()}
+    png = Path(reference) / f"{figure}.png"
+    for said, paths in (
+        ("no reference", [png, *old_files.values()]),
+        ("not built", [*built.values(), *new_files.values()]),
+    ):
+        if missing := [path.name for path in paths if not path.is_file()]:
+            verdict["reasons"].append(f"{said}: {', '.join(missing)}")
+    if verdict["reasons"]:
+        return verdict
+    old, new = (_tables(verdict, paths) for paths in (old_files, new_files))
+    for name in old.keys() & new.keys():
+        reasons, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
+        verdict["reasons"] += [f"{names[name]}: {reason}" for reason in reasons]
+        verdict["tables"] += [{"table": names[name], **one} for one in distances]
+    if old.keys() == new.keys() == names.keys():
+        with TemporaryDirectory() as folder:
+            comparable = _compare_pictures(verdict, spec["module"], png, built, old, new, Path(folder))
+        if not verdict["reasons"]:
+            verdict["status"] = PASSED if comparable else NOT_COMPARABLE
+    return verdict
+
+
+def _tables(verdict, paths):
+    """Tables by name; of one that cannot be read, a reason."""
+    found = {}
+    for name, path in paths.items():
+        try:
+            found[name] = read(path)
+        except Exception as error:  # libraries raise errors of all kinds for a spoilt file
+            verdict["reasons"].append(f"{path.name}: unreadable: {_line(error)}")
+    return found
+
+
+def _compare_pictures(verdict, module, png, built, old, new, folder):
+    """Add reasons; return whether the picture of the reference was drawn by the versions in use."""
+    figure, reasons = verdict["figure"], verdict["reasons"]
+    known = reference_sums(png.parent).get(figure, {})
+    comparable = known.get("drawn with") == pictures.environment()
+    try:
+        fresh = pictures.draw(module, new, figure, folder)
+        expected = pictures.sums(fresh)
+        if all(old[name].equals(new[name]) for name in old):
+            again, found = fresh, expected
+        elif comparable:
+            (folder / "again").mkdir()
+            again = pictures.draw(module, old, figure, folder / "again")
+            found = pictures.sums(again)
+    except Exception as error:
+        reasons.append(f"cannot be drawn: {_line(error)}")
+        return comparable
+    for kind, path in built.items():
+        try:
+            if pictures.sums({kind: path})[kind] != expected[kind]:
+                reasons.append(f"{path.name}: not what `draw` makes of the table")
+        except Exception as error:
+            reasons.append(f"{path.name}: unreadable: {_line(error)}")
+    picture = pictures.pixels(fresh["png"].read_bytes())
+    if (picture == picture[0, 0]).all():
+        reasons.append("picture: blank")
+    if comparable:
+        try:
+            before, after = (pictures.pixels(path.read_bytes()) for path in (png, again["png"]))
+        except Exception as error:
+            reasons.append(f"{png.name} of the reference: unreadable: {_line(error)}")
+            return comparable
+        if before.shape != after.shape:
+            reasons.append(f"picture: {_size(after)} instead of {_size(before)}")
+        elif changed := int((before != after).any(axis=-1).sum()):
+            reasons.append(f"picture: `draw` makes {changed} other pixels of the reference's table")
+        others = [kind for kind in ("pdf", "svg") if known.get(kind) != found[kind]]
+        reasons += [f"{kind}: `draw` makes another one of the reference's table" for kind in others]
+    return comparable
+
+
+def _line(error):
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _size(picture):
+    return "{1} x {0} pixels".format(*picture.shape)
+
+
+def share(verdict: dict) -> float:
+    """The largest distance of a figure's tables as a share of its limit."""
+    return max(
+        (one["distance"] / one["limit"] for one in verdict["tables"] if one["distance"] and one["limit"]), default=0.0
+    )
+
+
+def ordered(verdicts: list[dict]) -> list[dict]:
+    """What needs to be looked at first: failures, then by distance, then by name."""
+    order = [FAILED, NOT_COMPARABLE, PASSED]
+    return sorted(verdicts, key=lambda one: (order.index(one["status"]), -share(one), one["figure"]))
+
+
+def command(figures) -> str:
+    """What accepts figures as they are now."""
+    return f'make accept REASON="why" FIGURES="{" ".join(figures)}"'
+
+
+def lines(verdicts: list[dict]) -> list[str]:
+    """One line per figure that did not pass, with its first reason, and a last line that sums up."""
+    said = []
+    for verdict in ordered(verdicts):
+        first, *more = verdict["reasons"] or [OTHER_VERSIONS.format("pictures.json names them")]
+        if verdict["status"] != PASSED:
+            said.append(
+                f"{verdict['figure']}: {verdict['status']}: {first}" + (f" (and {len(more)} more)" if more else "")
+            )
+    counts = Counter(verdict["status"] for verdict in verdicts)
+    far = max(map(share, verdicts), default=0.0)
+    summary = f"{len(verdicts)} figures: " + ", ".join(f"{n} {status}" for status, n in counts.items())
+    return [*said, f"{summary}; largest distance {far:.2g} of its limit"]
+
+
+def has_failed(verdicts: list[dict], strict: bool = False) -> bool:
+    """Whether a figure failed or, if strict, could not be compared, or there was nothing to check."""
+    failures = (FAILED, NOT_COMPARABLE) if strict else (FAILED,)
+    return not verdicts or any(verdict["status"] in failures for verdict in verdicts)

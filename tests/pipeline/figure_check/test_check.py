@@ -1,0 +1,261 @@
+"""What the figure check lets pass and what not: numbers, drawing code, files, and what is wrong in both."""
+
+import json
+import re
+import zlib
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from PIL import Image
+
+from vibroimpact.figures import companion_epsilon, fig10_02, fig10_04, fig10_06
+from vibroimpact.figures.kit import drawing, style, tables
+from vibroimpact_pipeline.figure_check import pictures
+from vibroimpact_pipeline.figure_check.check import SUMS, check, check_all, has_failed, lines, share
+from vibroimpact_pipeline.figure_check.page import page
+
+FIGURES = ["fig10_02", "fig10_04", "fig10_06", "companion_epsilon"]
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_figure_like_its_reference_passes_though_it_bears_another_record(tree, figure):
+    svg = tree.results / f"{figure}.svg"
+    svg.write_text(svg.read_text().replace("</metadata>", "<!-- made elsewhere --></metadata>"))
+    verdict = tree.verdict(figure)
+    assert (verdict["status"], verdict["reasons"], share(verdict)) == ("passed", [], 0.0)
+
+
+# Drawing code
+
+
+CHANGES = {
+    "dashed to solid": ("fig10_04", lambda patch: patch.setitem(style.UNSTABLE, "linestyle", "-")),
+    "a little thicker": ("fig10_04", lambda patch: patch.setitem(style.STABLE, "linewidth", 1.83)),
+    "other dashes": ("fig10_04", lambda patch: patch.setitem(style.UNSTABLE, "linestyle", (0, (4.5, 2.6)))),
+    "another grey": ("fig10_04", lambda patch: patch.setitem(style.LEVEL, "color", "0.01")),
+    "another marker": ("fig10_06", lambda patch: patch.setitem(fig10_06.MARKERS["S"], "marker", "D")),
+    "a smaller marker": ("fig10_06", lambda patch: patch.setitem(fig10_06.MARKERS["P"], "markersize", 4.1)),
+    "a taller row": ("fig10_06", lambda patch: patch.setattr(fig10_06, "ROW_HEIGHT", 35.5)),
+    "smaller letters": ("fig10_06", lambda patch: patch.setitem(fig10_06.NAME, "fontsize", 9.9)),
+    "a thicker body": ("fig10_02", lambda patch: patch.setattr(drawing, "OUTLINE", 1.12)),
+    "a vertex off": ("fig10_02", lambda patch: patch.setattr(fig10_02, "CAVITY_BOTTOM", 13.6)),
+    "another symbol": ("fig10_02", lambda patch: patch.setattr(drawing, "symbol", with_text(drawing.symbol))),
+    "a label turned": ("fig10_02", lambda patch: patch.setattr(drawing, "symbol", turned(drawing.symbol))),
+    "another label": ("companion_epsilon", lambda patch: patch.setitem(companion_epsilon.PANELS, "fast", "error")),
+    "a dot added": ("fig10_04", lambda patch: patch.setattr(fig10_04, "draw_branches", dotted(fig10_04.draw_branches))),
+    "no end": ("fig10_04", lambda patch: patch.setattr(fig10_04, "draw_branches", endless)),
+}
+
+
+def with_text(symbol):
+    return lambda axes, x, y, text, **look: symbol(axes, x, y, text.replace("M", "N"), **look)
+
+
+def turned(symbol):
+    return lambda *arguments, **look: symbol(*arguments, **{"rotation": 3} | look)
+
+
+def dotted(draw_branches):
+    def drawn(axes, table, panel):
+        draw_branches(axes, table, panel)
+        axes.plot([1.0], [0.5], ".", color="0.5", markersize=1)
+
+    return drawn
+
+
+def endless(axes, table, panel):
+    axes.set_xlim(0.0, float("nan"))
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_change_of_the_drawing_code_is_noticed(tree, monkeypatch, change):
+    """By what it makes of the published tables."""
+    figure, changed = CHANGES[change]
+    with monkeypatch.context() as patch:
+        changed(patch)
+        verdict = tree.verdict(figure)
+    assert verdict["status"] == "failed"
+    assert any("of the reference's table" in reason or "cannot be drawn" in reason for reason in verdict["reasons"])
+
+
+@pytest.mark.parametrize("kind", ["pdf", "svg"])
+def test_what_only_a_vector_file_would_show_is_noticed(tree, monkeypatch, kind):
+    """Drawing code that draws one kind otherwise: its sum in the reference set is another."""
+    known = json.loads((tree.reference / SUMS).read_text())
+    known["fig10_04"][kind] = "0" * 64
+    (tree.reference / SUMS).write_text(json.dumps(known))
+    assert tree.verdict("fig10_04")["reasons"] == [f"{kind}: `draw` makes another one of the reference's table"]
+
+
+def test_other_versions_are_not_comparable_and_the_numbers_decide(tree, monkeypatch):
+    elsewhere = pictures.environment() | {"freetype": "9.9"}
+    monkeypatch.setattr(pictures, "environment", lambda: elsewhere)
+    monkeypatch.setitem(style.STABLE, "linewidth", 2.0)
+    tree.redraw("fig10_04")
+    verdict = tree.verdict("fig10_04")
+    assert (verdict["status"], verdict["reasons"]) == ("not comparable", [])
+    assert not has_failed([verdict])
+    assert has_failed([verdict], strict=True)
+    shift(tree, 1e-8)
+    assert tree.verdict("fig10_04")["status"] == "failed"
+
+
+# Files of a build
+
+
+def shift(tree, by):
+    """Move the manifold by a share of its axis, and draw it so."""
+    path = tree.results / "fig10_04.csv"
+    table = tables.read(path)
+    tables.write(table.assign(B=table["B"] + by * np.ptp(table["B"])), path)
+    tree.redraw("fig10_04")
+
+
+def jpeg(path):
+    with Image.open(path) as picture:
+        picture.convert("RGB").save(path, "JPEG", quality=100)
+
+
+def paint(path):
+    with Image.open(path) as picture:
+        spoilt = picture.convert("RGB")
+    spoilt.putpixel((5, 5), (254, 255, 255))
+    spoilt.save(path, "PNG")
+
+
+def label(path):
+    path.write_text(path.read_text().replace("stable<", "stabil<", 1))
+
+
+def move_outline(path):
+    path.write_text(re.sub(r"L (\d+)", lambda number: f"L {int(number[1]) + 1}", path.read_text(), count=1))
+
+
+def dashes(path):
+    """In the page's stream: dashed lines made solid."""
+    content = path.read_bytes()
+    for found in re.finditer(rb"stream\n", content):
+        start = found.end()
+        stream = content[start : content.index(b"\nendstream", start)]
+        try:
+            page = zlib.decompress(stream)
+        except zlib.error:
+            continue
+        if b"] 0 d" in page:
+            other = zlib.compress(re.sub(rb"\[[\d. ]+\] ?[\d.]+ d", b"[] 0 d", page))
+            path.write_bytes(content.replace(stream, other))
+            return
+    raise AssertionError("no dashes")
+
+
+def dot(path):
+    """A later version of the page's object, as editors append it."""
+    more = b"\n99 0 obj\n<< /Length 12 >>\nstream\n0 0 1 1 re f\nendstream\nendobj"
+    path.write_bytes(path.read_bytes().replace(b"\nxref", more + b"\nxref"))
+
+
+def cut(path):
+    path.write_bytes(path.read_bytes()[:1000])
+
+
+@pytest.mark.parametrize(
+    ("kind", "spoil"),
+    [
+        *(("png", spoil) for spoil in (jpeg, paint, cut)),
+        *(("svg", spoil) for spoil in (label, move_outline, cut)),
+        *(("pdf", spoil) for spoil in (dashes, dot, cut, jpeg)),
+    ],
+)
+def test_a_built_file_that_is_not_what_draw_makes_fails(tree, kind, spoil):
+    path = tree.results / f"fig10_04.{kind}"
+    if (kind, spoil) == ("pdf", jpeg):
+        path.write_bytes((tree.results / "fig10_04.png").read_bytes())
+    spoil(path)
+    verdict = tree.verdict("fig10_04")
+    assert verdict["status"] == "failed"
+    assert all(reason.startswith(path.name) for reason in verdict["reasons"])
+
+
+@pytest.mark.parametrize("name", ["fig10_04.csv", "fig10_04.png", "fig10_04.pdf", "fig10_04.svg"])
+def test_a_file_that_is_missing_is_named(tree, name):
+    (tree.results / name).unlink()
+    assert tree.verdict("fig10_04")["reasons"] == [f"not built: {name}"]
+    for path in tree.reference.glob("fig10_04.*"):
+        path.unlink()
+    assert tree.verdict("fig10_04")["reasons"][0] == "no reference: fig10_04.png, fig10_04.csv"
+
+
+@pytest.mark.parametrize("content", [b"", b"\x00\xff", b"panel,series\n\x80\x81,1\n"])
+def test_a_table_that_is_none_fails_its_figure_alone(tree, content):
+    (tree.results / "fig10_04.csv").write_bytes(content)
+    assert tree.verdict("fig10_04")["status"] == "failed"
+    assert tree.verdict("fig10_06")["status"] == "passed"
+
+
+# Numbers
+
+
+@pytest.mark.parametrize(("by", "status"), [(5e-10, "passed"), (2e-9, "failed")])
+def test_a_number_may_be_off_by_its_limit(tree, by, status):
+    shift(tree, by)
+    verdict = tree.verdict("fig10_04")
+    assert verdict["status"] == status
+    assert share(verdict) == pytest.approx(by / 1e-9, rel=1e-6)
+    assert [r for r in verdict["reasons"] if not r.startswith("fig10_04.csv: B is off by 2e-09 of its axis")] == []
+
+
+def test_a_second_table_is_compared_too(tree):
+    path = tree.build / "results/regimes/epsilon_orders.csv"
+    table = tables.read(path)
+    tables.write(table.assign(order=1.001 * table["order"]), path)
+    tree.redraw("companion_epsilon")
+    assert tree.verdict("companion_epsilon")["reasons"][0].startswith("companion_epsilon.orders.csv: order is off by")
+
+
+# Wrong in both
+
+
+def test_a_blank_picture_fails_though_its_reference_is_blank(tree, monkeypatch):
+    monkeypatch.setattr(fig10_02, "draw", lambda: Figure())
+    tree.redraw("fig10_02")
+    assert "picture: blank" in tree.verdict("fig10_02")["reasons"]
+
+
+# What is said
+
+
+def test_figures_of_the_reference_that_are_not_made_fail_and_the_worst_comes_first(tree):
+    shift(tree, 1e-8)
+    verdicts = check_all({}, tree.reference, tree.build) + [tree.verdict(figure) for figure in FIGURES[1:3]]
+    assert {one["reasons"][0] for one in verdicts[: len(FIGURES)]} == {"not built: the config has no such figure"}
+    said = lines(verdicts[-2:])
+    assert said[0].startswith("fig10_04: failed: fig10_04.csv: B is off by 1e-08")
+    assert said[-1] == "2 figures: 1 failed, 1 passed; largest distance 10 of its limit"
+
+
+def test_the_page_shows_every_figure_with_its_difference(tree):
+    table = tables.read(tree.results / "fig10_04.csv")
+    tables.write(table.assign(B=1.05 * table["B"]), tree.results / "fig10_04.csv")
+    tree.redraw("fig10_04")
+    text = page([tree.verdict(figure) for figure in FIGURES], tree.reference, tree.build)
+    assert text.index('id="fig10_04"') < text.index('id="fig10_06"')
+    assert text.count(">Difference<") == 1
+    assert text.count("No pixel differs.") == len(FIGURES) - 1
+    assert "FIGURES=&#34;fig10_04&#34;" in text
+    assert "http://" not in text.replace("http://www.w3.org", "")
+
+
+def test_a_difference_is_orange_where_ink_is_gone_and_blue_where_it_came():
+    before, after = (np.full((30, 30, 4), 255, np.uint8) for _ in range(2))
+    before[4, 4], after[25, 25], before[15, 15], after[15, 15] = 0, 0, 0, 0
+    shown = pictures.difference(before, after)
+    assert (tuple(shown[4, 4]), tuple(shown[25, 25])) == ((200, 80, 0), (0, 90, 200))
+    assert shown[15, 15].tolist() == [204] * 3
+    assert shown[0, 29].tolist() == [255] * 3
+
+
+def test_check_is_a_verdict_that_json_holds(tree):
+    shift(tree, 1e-8)
+    json.dumps(check("fig10_04", {"module": "fig10_04", "tables": {}}, tree.reference, tree.build), allow_nan=False)
+    json.dumps(tree.verdict("fig10_04"), allow_nan=False)
