@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from vibroimpact_pipeline.sources import Sources
 
+from namespaces import unshared
 from pipeline_trees import ROOT, Tree, run_module
 
 FIGURE = "companion_10_04"
@@ -43,14 +43,6 @@ def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path)
     assert not (tree / "results").exists()
 
 
-def test_the_integrator_heyoka_keeps_its_compiled_code_in_the_checkout(tmp_path):
-    pytest.importorskip("heyoka")
-    oscillator = "import heyoka as hy; x, v = hy.make_vars('x', 'v'); hy.taylor_adaptive([(x, v), (v, -x)], [0.0, 1.0])"
-    subprocess.run([sys.executable, "-c", oscillator], env={**os.environ, "HOME": str(tmp_path)}, check=True)
-    assert list(tmp_path.iterdir()) == []
-    assert list((ROOT / ".cache/heyoka").iterdir())
-
-
 def test_no_record_tells_a_path_of_this_machine(built):
     records = [path.read_text() for path in (built / "results").rglob("*.provenance.json")]
     assert [record for record in records if str(built.path) in record or str(ROOT) in record] == []
@@ -58,15 +50,10 @@ def test_no_record_tells_a_path_of_this_machine(built):
 
 
 def test_from_a_read_only_tree_without_a_home(tree, built, tmp_path):
-    """Compiled code of the tree is handed on to where one can write."""
-    compiled = f".cache/numba/{Sources().compiled()}"
-    (tree / compiled).mkdir(parents=True)
-    (tree / compiled / "compiled").touch()
     elsewhere = Tree(tmp_path / "elsewhere")
     elsewhere.path.mkdir()
-    with_tree_read_only(elsewhere, tree, *snakefile(tree), FIGURE, HOME=os.devnull, NUMBA_CACHE_DIR=None)
+    with_tree_read_only(elsewhere, tree, *snakefile(tree), FIGURE, HOME=os.devnull)
     assert_same(FIGURE, elsewhere / "results", built)
-    assert (elsewhere / compiled / "compiled").exists()
     assert not (tree / ".snakemake").exists()
 
 
@@ -171,3 +158,36 @@ def test_every_finding_of_the_linter_is_answered(built):
     _, output = run_module(built.path, "snakemake", "--lint")
     found = {line.removeprefix("    * ").rstrip(":") for line in output.splitlines() if line.startswith("    * ")}
     assert found == ANSWERED.keys()
+
+
+def test_a_long_path_and_a_longer_folder_for_temporary_files(tree, tmp_path):
+    """Sockets have names of 107 characters at most, the line that starts a script 127 or 255."""
+    there = Tree(tree.path.rename(long(tmp_path, 150) / "tree"))
+    temporary = long(tmp_path, 200)
+    there.snakemake("fig10_03", prefix=[interpreter_in(there)], TMPDIR=str(temporary))
+    assert (there / "results/notebooks/fig10_03.html").exists()
+    assert list(temporary.iterdir()) == []
+
+
+def long(folder, length):
+    """A new folder below another one, with a path of so many characters."""
+    path = folder / (max(1, length - len(str(folder)) - 1) * "x")
+    path.mkdir()
+    return path
+
+
+def test_a_user_without_a_name_or_a_home(tree):
+    names = dict.fromkeys(("LOGNAME", "USER", "LNAME", "USERNAME", "XDG_CACHE_HOME"))
+    tree.snakemake(FIGURE, prefix=unshared("--user", "--map-user=12345"), HOME="/proc/none", **names)
+    assert (tree / f"results/figures/{FIGURE}.png").exists()
+
+
+@pytest.mark.parametrize("others", [None, "/nowhere"], ids=["nothing", "a path of others"])
+def test_jobs_use_the_library_beside_the_rules(tree, others):
+    """Not the one that is installed, which is that of this checkout."""
+    tree.edit(
+        "src/vibroimpact/figures/companion_10_04.py", "def compute(", "print('library:', __file__)\n\n\ndef compute("
+    )
+    tree.snakemake(FIGURE, PYTHONPATH=others)
+    log = (tree / f"results/logs/figures/{FIGURE}.log").read_text()
+    assert f"library: {tree / module}\n" in log

@@ -1,0 +1,130 @@
+"""One whole build: complete, explained, recorded, and with nothing to do a second time; then after a change."""
+
+import json
+
+import pytest
+
+FIGURES = [f"fig10_{number:02}" for number in range(1, 12)]
+
+
+def test_every_figure_of_the_chapter_is_there_with_its_page_and_numbers(built):
+    results = built / "results"
+    for figure in FIGURES:
+        kinds = [
+            "figures/{}.png",
+            "figures/{}.pdf",
+            "figures/{}.svg",
+            "figures/{}.provenance.json",
+            "notebooks/{}.html",
+        ]
+        kinds += ["figures/{}.csv"] * (figure not in FIGURES[:2])
+        assert all((results / kind.format(figure)).stat().st_size for kind in kinds), figure
+
+
+def test_a_second_build_has_nothing_to_do_and_neither_has_one_without_what_snakemake_recorded(rebuilt):
+    assert rebuilt.planned() == set()
+    (rebuilt / ".snakemake").rename(rebuilt / "aside")
+    assert rebuilt.planned() == set()
+
+
+def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
+    (rebuilt / "results/figures/fig10_03.png").unlink()
+    said = rebuilt.snakemake("fig10_03")
+    assert "1 of 1 steps (100%) done" in said
+    assert "Open first: results/index.html" in said
+
+
+def test_every_result_has_a_record_and_every_record_its_result(built):
+    results = built / "results"
+    for record in results.rglob(".made/*.json"):
+        assert (record.parents[1] / record.name.removesuffix(".json")).exists(), record
+    folders = ("figures", "fixed_points", "orbits", "verdicts", "simulations", "regimes", "accuracy", "notebooks")
+    for path in (path for folder in folders for path in (results / folder).rglob("*") if path.is_file()):
+        assert path.parent.name == ".made" or (path.parent / f".made/{path.name}.json").is_file(), path
+
+
+def test_a_failed_job_shows_its_log(tree):
+    tree.edit(
+        "src/vibroimpact/figures/companion_10_04.py",
+        "def compute(",
+        "raise SystemExit('no such figure')\n\n\ndef compute(",
+    )
+    said = tree.snakemake("companion_10_04", check=False)
+    assert tree.returncode != 0
+    assert "no such figure" in said
+    assert "Failed: the log above says why" in said
+
+
+EDITS = {
+    "a force": ("f20_hat: 0.89", "f20_hat: 0.88", {"fig10_09", "companion_branches"}, {"fig10_06", "fig10_10"}),
+    "one figure": (
+        "C_range: [0.5, 1.1]",
+        "C_range: [0.5, 1.2]",
+        {"fig10_05"},
+        {"fig10_04", "fixed_points", "simulation"},
+    ),
+    "a simulation": ("window_cycles: 6", "window_cycles: 7", {"simulation", "fig10_08"}, {"fig10_11", "fixed_points"}),
+    "how work is cut": ("# Parameters moved", "tile_seconds: 5\n# Parameters moved", set(), {"table_design"}),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "made", "left"), EDITS.values(), ids=EDITS)
+def test_only_what_depends_on_an_edit_is_planned(rebuilt, old, new, made, left):
+    rebuilt.edit("config/config.yaml", old, new)
+    output = rebuilt.dry_run()
+    planned = {line.split()[0] for line in output.splitlines() if line.split()[1:] and line.split()[1].isdigit()}
+    assert made <= planned, output
+    assert not left & planned, output
+
+
+def test_an_override_changes_what_it_names(rebuilt):
+    planned = rebuilt.planned("figures", "--config", "cases={weak: {f20_hat: 0.4}}", "--", "figures")
+    assert {"fig10_10", "fig10_11"} <= planned
+    assert not {"fig10_06", "fig10_09"} & planned
+
+
+@pytest.mark.parametrize(
+    ("config", "key"),
+    [
+        ("system: {kappa: 1.2}", "system.kappa: "),
+        ("system: {kapa: 0.6}", "system.kapa: unknown key, did you mean 'kappa'?"),
+        ("system: [", "line 1"),
+    ],
+)
+def test_a_wrong_config_is_one_line_and_costs_nothing(rebuilt, config, key):
+    (rebuilt / "try.yaml").write_text(config)
+    said = rebuilt.snakemake("--configfile", "try.yaml", check=False)
+    assert rebuilt.returncode != 0
+    assert "Traceback" not in said
+    assert key in said
+    assert (rebuilt / "results/fixed_points.csv").exists()
+
+
+def test_a_figure_of_a_fixed_point_that_is_not_there_fails_in_its_job(tree):
+    tree.edit("config/config.yaml", "fixed_point: c", "fixed_point: d")
+    said = tree.snakemake("fig10_07", check=False)
+    assert tree.returncode != 0
+    assert "fixed_point" in said
+    assert "'d'" in said
+
+
+def test_the_figures_are_those_of_the_reference_set(rebuilt):
+    said = rebuilt.snakemake("figure_check", check=False)
+    assert rebuilt.returncode == 0, said
+    verdicts = json.loads((rebuilt / "results/figure_check/figure_check.json").read_text())
+    assert {verdict["figure"] for verdict in verdicts} >= set(FIGURES)
+
+
+@pytest.mark.thorough
+def test_two_builds_give_the_same_bytes(built, tree):
+    """But for what holds run times."""
+    tree.snakemake()
+    sums = [
+        {
+            str(path.relative_to(one.path)): json.loads(path.read_text())["sha256"]
+            for path in one.path.rglob(".made/*.json")
+        }
+        for one in (built, tree)
+    ]
+    others = {name for name in sums[0] if sums[0][name] != sums[1].get(name)}
+    assert all("/accuracy/" in name or "provenance" in name or "index.html" in name for name in others), others
