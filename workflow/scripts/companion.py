@@ -1,11 +1,13 @@
 """One companion figure -> the files of the figure and the tables beside it."""
 
+import sys
 from importlib import import_module
 
 from job import running
 from vibroimpact.figures.kit.style import save
 from vibroimpact.figures.kit.tables import read, write
 from vibroimpact.system import System
+from vibroimpact_pipeline.config import with_key
 from vibroimpact_pipeline.provenance.record import recorded
 
 
@@ -18,7 +20,13 @@ def main(module: str, settings: dict, inputs: dict, outputs: dict, provenance: d
         inputs: further arguments, as paths of tables or lists of such paths.
     """
     figure = import_module(module)
-    computed = figure.compute(**with_systems(settings), **{name: read_all(paths) for name, paths in inputs.items()})
+    given = with_systems(settings) | {name: read_all(paths) for name, paths in inputs.items()}
+    try:
+        computed = figure.compute(**given)
+    except ValueError as error:
+        if line := with_key(error, provenance["config"]):
+            sys.exit(line)
+        raise
     tables = computed if isinstance(computed, dict) else {"csv": computed}
     for name in tables.keys() & outputs.keys():
         write(tables[name], outputs[name])

@@ -4,6 +4,7 @@ The executed notebook is kept beside the log, cell by cell as it runs, so that a
 """
 
 import os
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from uuid import uuid4
@@ -14,6 +15,7 @@ from traitlets.config import Config
 from job import running
 from vibroimpact.figures.kit.files import replacing
 from vibroimpact_pipeline.checkout import root_of
+from vibroimpact_pipeline.config import with_key
 from vibroimpact_pipeline.environment import SCRATCH
 from vibroimpact_pipeline.provenance.record import recorded
 from vibroimpact_pipeline.quick_end import OF_KERNEL
@@ -71,4 +73,9 @@ if "snakemake" in globals():
         }
         executed = Path(snakemake.log[0]).with_suffix(".ipynb")
         notebook = root_of(snakemake) / snakemake.params.notebook
-        main(notebook, executed, html, parameters, snakemake.params.title)
+        try:
+            main(notebook, executed, html, parameters, snakemake.params.title)
+        except papermill.PapermillExecutionError as error:
+            if line := with_key(error.evalue, provenance["config"]):
+                sys.exit(line)
+            raise

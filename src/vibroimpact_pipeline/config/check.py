@@ -44,6 +44,19 @@ def case_parameters(config: dict, case: str) -> dict:
     return {**config["system"], "f10_hat": excitation["f10_hat"], "f20_hat": excitation["f20_hat"]}
 
 
+def with_key(error, decided: dict) -> str | None:
+    """Return what the library says of an argument with the key of the config that it comes from; None if from none.
+
+    Args:
+        error: an error, or what it says; it begins with the name of an argument, and a colon. decided: entries of the config by their whole key.
+    """
+    name, _, _ = str(error).partition(":")
+    argument, _, _ = name.partition(".")
+    holding = [key for key, value in decided.items() if isinstance(value, dict) and argument in value]
+    holding += [key.removesuffix(f".{argument}") for key in decided if key.endswith(f".{argument}")]
+    return f"{holding[0]}.{error}" if holding else None
+
+
 def _origin(place, config, contents):
     """Return the last file that has what is at a place, or nearest to it where it is missing; None if none has it."""
     way = _way(config, place)
