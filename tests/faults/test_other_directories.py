@@ -52,7 +52,7 @@ def test_a_config_of_the_directory_goes_before_that_of_the_checkout(elsewhere, t
     ("module", "page"),
     [
         ("vibroimpact_pipeline.data_dictionary", "docs/data.md"),
-        ("vibroimpact_pipeline.config.readme", "config/README.md"),
+        ("vibroimpact_pipeline.config.schema", "workflow/schemas/config.schema.json"),
     ],
 )
 def test_a_page_is_written_into_the_checkout_from_anywhere(tree, tmp_path, module, page):

@@ -48,7 +48,8 @@ def with_key(error, decided: dict) -> str | None:
     """Return what the library says of an argument with the key of the config that it comes from; None if from none.
 
     Args:
-        error: an error, or what it says; it begins with the name of an argument, and a colon. decided: entries of the config by their whole key.
+        error: an error or its text, which begins with the name of an argument and a colon.
+        decided: entries of the config by their whole key.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")
@@ -62,7 +63,7 @@ def _origin(place, config, contents):
     way = _way(config, place)
     for path, content in reversed(contents):
         there = _way(content, place)
-        if len(there) == len(way) and (isinstance(way[-1], dict) or repr(there[-1]) == repr(way[-1])):
+        if len(there) == len(way) and (isinstance(way[-1], dict | list) or repr(there[-1]) == repr(way[-1])):
             return path
     return None
 

@@ -42,9 +42,8 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
         case = f" {table['case'].iloc[0]!r}" if "case" in table and len(table) else ""
-        raise ValueError(
-            f"fixed_point: the case{case} has no fixed point {label!r}, it has {', '.join(points) or 'none'}"
-        )
+        known = ", ".join(points) or "none"
+        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}, it has {known}")
     return points[label]
 
 
