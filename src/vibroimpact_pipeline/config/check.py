@@ -1,5 +1,7 @@
 """A config, checked: everything that is wrong with it, in one line each."""
 
+import reprlib
+
 from pydantic import ValidationError
 
 from vibroimpact_pipeline.config.messages import problems_of
@@ -8,6 +10,8 @@ from vibroimpact_pipeline.config.reading import ConfigError, read, unfit, writte
 
 MOST = 30
 """Lines that are shown at once."""
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlist, _BRIEF.maxlevel = 100, 2
 
 
 def checked(config: dict, origin: str = "--config", files=()) -> dict:
@@ -63,7 +67,7 @@ def _origin(place, config, contents):
     way = _way(config, place)
     for path, content in reversed(contents):
         there = _way(content, place)
-        if len(there) == len(way) and (isinstance(way[-1], dict | list) or repr(there[-1]) == repr(way[-1])):
+        if len(there) == len(way) and (isinstance(way[-1], dict) or _BRIEF.repr(there[-1]) == _BRIEF.repr(way[-1])):
             return path
     return None
 
