@@ -35,7 +35,7 @@ def running(job) -> Iterator[SimpleNamespace]:
 
     What the script prints goes to the job's log. The job fails, with one line there, and replaces nothing, if its code
     is not the code that the rules saw (`params.code`: fingerprints by part), if an input is not what its job wrote, if
-    either changes meanwhile, or if another build has begun.
+    either changes meanwhile, or if another build has begun. An error in an argument from the config is one line, too.
     """
     end_with_parent()
     with ExitStack() as stack:
@@ -60,6 +60,17 @@ def running(job) -> Iterator[SimpleNamespace]:
                 write_record(path, made)
         except (Refused, NotAsMade) as error:
             sys.exit(str(error))
+        except ValueError as error:
+            if line := _with_key(error, job):
+                sys.exit(line)
+            raise
+
+
+def _with_key(error, job) -> str | None:
+    """The error in an argument that stands in the config, with its key there."""
+    from vibroimpact_pipeline.config import with_key  # few jobs need it
+
+    return with_key(error, job.params.get("config") or {})
 
 
 def made_by(job, inputs: dict[str, str]) -> dict:

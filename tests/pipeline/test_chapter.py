@@ -3,11 +3,11 @@
 from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
 from vibroimpact.system import chapter
-from vibroimpact_pipeline.config import parse
+from vibroimpact_pipeline.config import read
 
 
 def test_the_config_is_the_chapters():
-    config = parse((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+    config = read(ROOT / "config/config.yaml")
     assert config["system"] == PARAMETERS
     assert {case: (values["f10_hat"], values["f20_hat"]) for case, values in config["cases"].items()} == FORCES
 

@@ -2,34 +2,80 @@
 
 import copy
 import re
+from pathlib import Path
 
-from vibroimpact_pipeline.config.text import parse_value
+import yaml
 
 from pipeline_trees import ROOT
-from vibroimpact_pipeline.config import read
+from vibroimpact_pipeline.config import ConfigError, checked, read
 
 TEXT = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
 GOOD = read(ROOT / "config/config.yaml")
+MINE = (
+    "sweeps.mine = {case: equal, axes: [{along: [epsilon], range: [0.05, 0.1], values: 3}, {along: [f10_hat, f20_hat], "
+    "listed: [0.5, 0.8]}], observe: [amplitudes, regimes], starts: 5, seed: 1, cycles: 40, settle: 30}"
+)
+
+LINES = Path(__file__).with_name("malformed_configs.txt").read_text(encoding="utf-8").splitlines()
+TABLE = [line.split(" -> ") for line in LINES if not line.startswith("#")]
+UNDAMPED = "system.gamma1_hat = 0 & system.gamma2_hat = 0 & system.gamma12_hat = 0"
+ONE_CASE = "cases = {weak: {f10_hat: 0.5, f20_hat: 0.5, simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], "
+ONE_CASE += "transient_cycles: 0, window_cycles: 60, samples_per_cycle: 8}}}"
+FREE = f"{UNDAMPED} & system.sigma_e_hat = 0 & system.sigma20_hat = 0 & system.alpha12_hat = 0"
+UNFORCED = "cases.weak.f10_hat = 0 & cases.weak.f20_hat = 0"
+SMALL = "initial_state: [1, 0, -1, 0, 0, 0, 0, 0], transient_cycles: 0, window_cycles: 1, samples_per_cycle: 8"
+UNUSUAL = [
+    "system.epsilon = 0.000001",
+    "system.epsilon = 3 & sweeps.frequency_response = ... & sweeps.clearance = ... & sweeps.design = ...",
+    "system.kappa = 0.001",
+    "system.kappa = '0.4' & cases.weak.simulation.initial_state[0] = 1e-3 & regimes.basins.points = '61'",
+    "system.alpha12_hat = 0 & system.gamma12_hat = 0",
+    UNDAMPED,
+    "system.sigma20_hat = -9.9 & stability.verdict_grid.epsilon = [0.1] & regimes.epsilon.fit_below = 0.05",
+    "system.sigma_e_hat = 1000",
+    UNFORCED,
+    f"{UNFORCED} & system.alpha12_hat = 0 & system.gamma12_hat = 0 & cases.weak.f10_hat = 1",
+    f"cases.all = {{f10_hat: 1, f20_hat: -1, simulation: {{{SMALL}}}}}",
+    "cases.weak.simulation.digits = null & figures.fig10_10.C_max = 'null' & regimes.epsilon.mixed = null",
+    "cases.mine = null & figures.fig10_10 = null & sweeps.design = null & figures.fig10_11 = null",
+    "figures = {mine: {notebook: simulation, model: simulation, case: equal}}",
+    "stability.verdict_grid.epsilon = [0.1]",
+    "regimes.branches.paths = [{along: [kappa, epsilon], range: [0.1, 0.5]}]",
+    "regimes.confusion.f10_range = [-1.6, 1.6]",
+    "sweeps = ...",
+    "sweeps.design = ... & sweeps.frequency_response.axes[1].tuples = [[0.5, 0.5], [1.0, -1.0], [2.0, 0.1]]",
+    "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
+    "{along: [f20_hat], range: [0, 1], cells: 2}]",
+    "MINE & sweeps.mine.axes[0] = {along: [sigma20_hat, sigma_e_hat], tuples: [[-20, 0], [1, -20]]} "
+    "& sweeps.mine.axes[1] = {along: [epsilon], listed: [0.01, 0.02]}",
+    "regimes.epsilon.epsilon = [0.0001, 0.1]",
+    "report.animations = {fast: {case: weak, cycles: 120}}",
+]
+"""Configs as `edited` makes them: refused with the keys that are told, and accepted."""
 
 
 def edited(edits: str) -> dict:
-    """The good config after edits "place = YAML", several with " & " between them; the value ... deletes.
-
-    Raises:
-        ValueError: the YAML of a value is refused.
-    """
+    """The good config after edits "place = YAML", several with " & " between them; the value ... deletes."""
     config = copy.deepcopy(GOOD)
-    for edit in edits.split(" & "):
+    for edit in edits.replace("MINE", MINE).split(" & "):
         place, _, value = edit.partition(" =")
-        _edit(config, place, value.strip())
+        *above, key = [int(part[1:]) if part[0] == "[" else part for part in re.findall(r"\[\d+|[^.\[\]]+", place)]
+        inside = config
+        for part in above:
+            inside = inside[part]
+        if value.strip() == "...":
+            del inside[key]
+        else:
+            inside[key] = yaml.safe_load(value)
     return config
 
 
-def _edit(config, place, value):
-    *above, key = [int(part[1:]) if part[0] == "[" else part for part in re.findall(r"\[\d+|[^.\[\]]+", place)]
-    for part in above:
-        config = config[part]
-    if value == "...":
-        del config[key]
-    else:
-        config[key] = parse_value(value)
+def problems(config: dict) -> dict[str, str]:
+    """What is wrong with a config by its key, each in one line that can be printed."""
+    try:
+        checked(config)
+    except ConfigError as refusal:
+        lines = str(refusal).split("\n")
+        assert all(line.isprintable() and len(line) < 1000 for line in lines), lines
+        return dict(line.removeprefix("--config: ").split(": ", 1) for line in lines if not line.startswith("... and"))
+    return {}

@@ -83,8 +83,9 @@ def test_the_workflow_parses(bare, asked):
     assert "fig10_06" in said or asked in (["--summary"], ["--lint"])
 
 
-def test_the_schema_refuses_what_is_wrong(bare):
-    status, said = bare("--dry-run", "--cores", "1", "--config", "system={kappa: 1.5}")
+def test_the_schema_refuses_what_is_wrong(bare, tmp_path):
+    (tmp_path / "try.yaml").write_text("system: {kappa: 1.5}\n")
+    status, said = bare("--dry-run", "--cores", "1", "--configfile", str(tmp_path / "try.yaml"))
     assert status != 0
     assert "kappa" in said
 

@@ -185,9 +185,7 @@ def test_a_user_without_a_name_or_a_home(tree):
 @pytest.mark.parametrize("others", [None, "/nowhere"], ids=["nothing", "a path of others"])
 def test_jobs_use_the_library_beside_the_rules(tree, others):
     """Not the one that is installed, which is that of this checkout."""
-    tree.edit(
-        "src/vibroimpact/figures/companion_10_04.py", "def compute(", "print('library:', __file__)\n\n\ndef compute("
-    )
+    module = "src/vibroimpact/figures/companion_10_04.py"
+    tree.edit(module, "def compute(", "print('library:', __file__)\n\n\ndef compute(")
     tree.snakemake(FIGURE, PYTHONPATH=others)
-    log = (tree / f"results/logs/figures/{FIGURE}.log").read_text()
-    assert f"library: {tree / module}\n" in log
+    assert f"library: {tree / module}\n" in (tree / f"results/logs/figures/{FIGURE}.log").read_text()

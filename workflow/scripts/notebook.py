@@ -26,7 +26,8 @@ def execute(notebook, executed, parameters: dict):
     path of 107 characters at most.
 
     Raises:
-        ValueError: the parameters of the notebook are others; papermill itself would only warn.
+        ValueError: the parameters of the notebook are others, of which papermill itself would only warn; or a cell has
+            found one of them wrong.
         papermill.PapermillExecutionError: a cell failed.
     """
     for names, of in ((papermill.inspect_notebook(str(notebook)), f"{notebook} has"), (parameters, "given are")):
@@ -35,14 +36,17 @@ def execute(notebook, executed, parameters: dict):
     with TemporaryDirectory() as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
         sockets = {"transport": "ipc", "ip": f"@vibroimpact-{uuid4()}", "connection_file": f"{folder}/kernel.json"}
-        return papermill.execute_notebook(
-            str(notebook),
-            str(executed),
-            parameters,
-            kernel_name="python3",
-            progress_bar=False,
-            config=Config({"KernelManager": sockets}),
-        )
+        try:
+            return papermill.execute_notebook(
+                str(notebook),
+                str(executed),
+                parameters,
+                kernel_name="python3",
+                progress_bar=False,
+                config=Config({"KernelManager": sockets}),
+            )
+        except papermill.PapermillExecutionError as error:
+            raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
 
 
 with running(snakemake) as out:

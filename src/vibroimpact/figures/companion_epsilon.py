@@ -87,12 +87,18 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     Returns "csv": columns panel (one of PANELS; "two terms": as "distance", the term of first order added to the fixed
     point; or "mixed"), series ("case, label"; in "mixed" "exact", "slow flow", "impact map" with the number of the
     multiplier), epsilon, error or rate; and "orders": columns case, label, panel, order, uncertainty.
+
+    Raises:
+        ValueError: the case of `mixed` has no fixed point of its label.
     """
     epsilon = np.geomspace(*epsilon, values)
     curves, orders = [], []
+    points = {case: _by_label(system) for case, system in systems.items()}
+    if mixed and mixed["label"] not in (known := points[mixed["case"]]):
+        what = f"the case {mixed['case']!r} has no fixed point {mixed['label']!r}, it has {', '.join(known) or 'none'}"
+        raise ValueError(f"mixed.label: {what}; null leaves the entry out")
     for case, system in systems.items():
-        points = fixed_points(system)
-        for label, point in sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]):
+        for label, point in points[case].items():
             found = list(_compared(system, point, epsilon))
             if {"case": case, "label": label} == mixed:
                 curves += _mixed(f"{case}, {label}", found)
@@ -110,6 +116,12 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     nothing = pd.DataFrame(columns=["panel", "series", "label", "epsilon", "error", "rate"])
     columns = ["case", "label", "panel", "order", "uncertainty"]
     return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
+
+
+def _by_label(system):
+    """The fixed points by their labels, in ascending order."""
+    points = fixed_points(system)
+    return dict(sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]))
 
 
 def _compared(system, point, epsilon):

@@ -3,7 +3,7 @@
 One section per file; limits and conditions stand beside the fields they are about. The rules get plain values.
 """
 
-from vibroimpact_pipeline.config.check import case_parameters, checked
+from vibroimpact_pipeline.config.check import case_parameters, checked, with_key
 from vibroimpact_pipeline.config.reading import ConfigError, read
 
-__all__ = ["ConfigError", "case_parameters", "checked", "read"]
+__all__ = ["ConfigError", "case_parameters", "checked", "read", "with_key"]

@@ -1,5 +1,7 @@
 """A config, checked: everything that is wrong with it, in one line each."""
 
+import reprlib
+
 from pydantic import ValidationError
 
 from vibroimpact_pipeline.config.messages import problems_of
@@ -8,6 +10,8 @@ from vibroimpact_pipeline.config.reading import ConfigError, read, unfit, writte
 
 MOST = 30
 """Lines that are shown at once."""
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlist, _BRIEF.maxlevel = 100, 2
 
 
 def checked(config: dict, origin: str = "--config", files=()) -> dict:
@@ -44,12 +48,26 @@ def case_parameters(config: dict, case: str) -> dict:
     return {**config["system"], "f10_hat": excitation["f10_hat"], "f20_hat": excitation["f20_hat"]}
 
 
+def with_key(error, decided: dict) -> str | None:
+    """Return what the library says of an argument with the key of the config that it comes from; None if from none.
+
+    Args:
+        error: an error or its text, which begins with the name of an argument and a colon.
+        decided: entries of the config by their whole key.
+    """
+    name, _, _ = str(error).partition(":")
+    argument, _, _ = name.partition(".")
+    holding = [key for key, value in decided.items() if isinstance(value, dict) and argument in value]
+    holding += [key.removesuffix(f".{argument}") for key in decided if key.endswith(f".{argument}")]
+    return f"{holding[0]}.{error}" if holding else None
+
+
 def _origin(place, config, contents):
     """Return the last file that has what is at a place, or nearest to it where it is missing; None if none has it."""
     way = _way(config, place)
     for path, content in reversed(contents):
         there = _way(content, place)
-        if len(there) == len(way) and (isinstance(way[-1], dict) or repr(there[-1]) == repr(way[-1])):
+        if len(there) == len(way) and (isinstance(way[-1], dict) or _BRIEF.repr(there[-1]) == _BRIEF.repr(way[-1])):
             return path
     return None
 

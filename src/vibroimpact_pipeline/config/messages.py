@@ -41,7 +41,8 @@ def problems_of(error: ValidationError) -> list[Problem]:
 
 def _described(kind, value, about, message):
     if kind in PHRASES:
-        return PHRASES[kind].format(shown(value), words=WORDS.get(about.get("pattern")), **about)
+        given = shown(value, plain=kind != "string_pattern_mismatch")  # numbers may be texts
+        return PHRASES[kind].format(given, words=WORDS.get(about.get("pattern")), **about)
     if kind == "union_tag_not_found":
         return "missing"
     if kind in ("literal_error", "union_tag_invalid"):

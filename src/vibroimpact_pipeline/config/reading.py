@@ -26,7 +26,7 @@ def read(path) -> dict:
     """Return the entries of a config file.
 
     Raises:
-        ConfigError: the file cannot be read, or is not a mapping in YAML; in one line.
+        ConfigError: the file cannot be read, is not a mapping in YAML, or holds what no config does; in one line.
     """
     try:
         with open(path, "rb") as file:
@@ -36,6 +36,8 @@ def read(path) -> dict:
         config = yaml.load(content.decode("utf-8"), _Loader)
         if not isinstance(config, dict):
             raise ValueError(f"{shown(config)} is not a mapping of system, cases and figures")
+        for place, problem in unfit(config):
+            raise ValueError(f"{written(place)}: {problem}")
         return config
     except OSError as error:
         what = error.strerror

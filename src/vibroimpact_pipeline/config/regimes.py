@@ -79,7 +79,7 @@ class Branches(Section):
     """Branches of 1:1 responses along paths through the parameters."""
 
     case: CaseName
-    paths: items(BranchPath, 1, 4)
+    paths: items(BranchPath, 1, 4, "Lines through the parameters")
     longest_step: float = Field(gt=0, le=1000, description=f"Longest step of a branch, {FINEST} of every path at most")
     seeds: int = Field(ge=1, le=100, description="Values of a path at which branches are looked for")
     attractors: Attractors
@@ -116,7 +116,7 @@ class TorusPath(Line):
 class Tori(Section):
     """The size of the tori next to Neimark-Sacker points."""
 
-    paths: items(TorusPath, 1, 10)
+    paths: items(TorusPath, 1, 10, "Values on both sides of Neimark-Sacker points")
     cycles: int = Field(ge=2, le=1_000_000, description="Cycles that a torus is seen for [forcing periods]")
     discarded: Cycles = Field(description="Cycles before those [forcing periods]")
 

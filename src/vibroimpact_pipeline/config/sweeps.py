@@ -72,7 +72,7 @@ class Sweep(Section):
     """One or two axes, the case whose other parameters are kept, and what is observed at every point."""
 
     case: CaseName
-    axes: items(Axis, 1, 2)
+    axes: items(Axis, 1, 2, "What moves over the grid")
     observe: items(OBSERVATIONS, 1, 7, "What is observed; the first five simulate, from every start")
     starts: int | None = Field(None, ge=1, le=10_000, description="Starts, spread evenly; the first is rest")
     seed: int | None = Field(None, ge=0, le=2**32 - 1, description="Scrambles the starts")

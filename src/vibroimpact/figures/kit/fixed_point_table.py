@@ -55,9 +55,9 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     """
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
-        raise ValueError(
-            f"fixed_point: {label!r} is not among the fixed points of this case ({', '.join(points) or 'none'})"
-        )
+        case = f" {table['case'].iloc[0]!r}" if "case" in table and len(table) else ""
+        known = ", ".join(points) or "none"
+        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}, it has {known}")
     return points[label]
 
 

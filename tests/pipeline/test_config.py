@@ -1,0 +1,182 @@
+"""The config: what is refused, at which key; and whatever is accepted can be built."""
+
+import copy
+import subprocess
+import sys
+import time
+from dataclasses import fields
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from configs import FREE, GOOD, ONE_CASE, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSUAL, edited, problems
+from pipeline_trees import ROOT
+from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.system import System
+from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, with_key
+from vibroimpact_pipeline.config.system import NAMES
+
+THIRD = (3 * 1.02) ** 2 * 10 - 10
+"""The detuning with which box 2 resonates at three times the frequency of the forcing."""
+
+
+def test_the_config_of_the_chapter_is_as_it_is_written():
+    before, made = copy.deepcopy(GOOD), checked(GOOD)
+    for sweep in made["sweeps"].values():
+        assert sweep.pop("limit_hours") == 1
+    assert made == GOOD == before
+
+
+def test_the_table_is_long_and_has_no_row_twice():
+    assert len(TABLE) == len({edits for edits, _ in TABLE}) > 400
+
+
+@pytest.mark.parametrize(("edits", "keys"), TABLE, ids=[edits[:60] for edits, _ in TABLE])
+def test_a_malformed_config_is_refused_at_its_key(edits, keys):
+    assert ", ".join(problems(edited(edits))) == keys
+
+
+@pytest.mark.parametrize("edits", UNUSUAL)
+def test_an_unusual_config_is_accepted(edits):
+    assert problems(edited(edits)) == {}
+
+
+@pytest.mark.parametrize(
+    ("edits", "key"),
+    [
+        (f"{FREE} & {ONE_CASE} & {UNFORCED}", "system.sigma_e_hat"),
+        (
+            f"{UNDAMPED} & system.alpha12_hat = 0 & system.sigma20_hat = {(3 * 1.02) ** 2 * 10 - 10} & {ONE_CASE}",
+            "cases.weak",
+        ),
+    ],
+)
+def test_an_undamped_system_without_isolated_responses_is_refused(edits, key):
+    """At a resonance that no force loads, and at one with the third harmonic of the impacts."""
+    found = {place: what for place, what in problems(edited(edits)).items() if "unknown case" not in what}
+    assert list(found) == [key]
+    assert "resonance" in found[key]
+
+
+def test_numbers_are_read_from_texts_and_entries_taken_away():
+    made = checked(edited("system.kappa = '4e-1' & cases.weak.simulation.digits = '60' & figures.fig10_10 = null"))
+    assert made["system"]["kappa"] == 0.4
+    assert made["cases"]["weak"]["simulation"]["digits"] == 60
+    assert "fig10_10" not in made["figures"]
+
+
+def test_a_misspelt_name_is_one_problem_with_a_question():
+    assert problems(edited("system.kappa = ... & system.kapa = 1")) == {
+        "system.kapa": "unknown key, did you mean 'kappa'?"
+    }
+    assert "a space belongs" in problems(edited("system.kappa:0 = 1"))["system.kappa:0"]
+    assert problems(edited("figures.fig10_06.case = equl"))["figures.fig10_06.case"].endswith("did you mean 'equal'?")
+
+
+def test_a_complaint_names_the_file_to_mend(tmp_path):
+    whole, other = tmp_path / "config.yaml", tmp_path / "try.yaml"
+    whole.write_text(TEXT.replace("    f20_hat: 0.89\n", "    f20_hat: x\n").replace("  gamma1_hat: 0.2\n", ""))
+    other.write_text("system: {kappa: 2, epsilon: 0.1}\n")
+    config = edited("system.gamma1_hat = ... & cases.unequal.f20_hat = x & system.kappa = 2 & system.epsilon = 99")
+    with pytest.raises(ConfigError) as refusal:
+        checked(config, files=[whole, other])
+    assert [line.rsplit(": ", 1)[0] for line in str(refusal.value).splitlines()] == [
+        f"{whole}: cases.unequal.f20_hat",
+        "--config: system.epsilon",
+        f"{other}: system.gamma1_hat",
+        f"{other}: system.kappa",
+    ]
+
+
+def test_an_argument_is_named_by_its_key():
+    decided = {"figures.mine": {"fixed_point": "d"}, "regimes.epsilon.mixed": {"label": "z"}, "system.kappa": 0.65}
+    assert with_key(ValueError("fixed_point: no"), decided) == "figures.mine.fixed_point: no"
+    assert with_key("mixed.label: no", decided) == "regimes.epsilon.mixed.label: no"
+    assert with_key("something: no", decided) is None
+
+
+def test_a_path_may_lead_along_every_parameter():
+    assert list(NAMES) == [field.name for field in fields(System)]
+
+
+@pytest.mark.parametrize("place", ["system", "cases", "figures", "sweeps"])
+@pytest.mark.parametrize("entry", [1, {}])
+def test_thousands_of_problems_are_found_within_a_second(place, entry):
+    config = copy.deepcopy(GOOD)
+    config[place] |= {f"k{number}": entry for number in range(5000)}
+    started = time.process_time()
+    assert problems(config)
+    assert time.process_time() - started < 1
+
+
+def test_the_import_is_light():
+    code = "import sys, vibroimpact_pipeline.config; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert not {"scipy", "matplotlib", "numba", "pandas", "snakemake"} & set(loaded)
+
+
+def places(value, above=()):
+    """All places in a config, with its mappings and lists."""
+    yield above
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, item in items:
+        yield from places(item, (*above, key))
+
+
+def at(config, place):
+    for part in place:
+        config = config[part]
+    return config
+
+
+PLACES = list(places(GOOD))[1:]
+NUMBERS = [place for place in PLACES if isinstance(at(GOOD, place), int | float)]
+SCALARS = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(-(10**400), 10**400),
+    st.floats(),
+    st.text(max_size=8),
+    st.sampled_from(["equal", "weak", "a", "z", "kappa", "f20_hat", "simulation", "1e-3", "nan", "inf", "all", 1, 2.5]),
+)
+KEYS = st.one_of(st.text(max_size=8), st.sampled_from(["case", "epsilon", "range", "fig10_06", "notebook"]))
+VALUES = st.one_of(
+    st.recursive(SCALARS, lambda inner: st.lists(inner, max_size=8) | st.dictionaries(KEYS, inner, max_size=4)),
+    st.sampled_from(PLACES).map(lambda place: copy.deepcopy(at(GOOD, place))),
+)
+
+
+@given(st.lists(st.tuples(st.sampled_from(PLACES), KEYS | st.none(), VALUES), min_size=1, max_size=4))
+@settings(max_examples=200)
+def test_whatever_is_done_to_a_config_it_is_accepted_or_refused_in_lines(changes):
+    config = copy.deepcopy(GOOD)
+    for (*above, last), key, value in changes:
+        try:
+            inside = at(config, above)
+            inside[last if key is None or isinstance(inside, list) else key] = value
+        except (LookupError, TypeError):
+            continue  # something above is not there any more
+    problems(config)
+
+
+@given(st.sampled_from(NUMBERS), st.sampled_from([-1, 0, 0.5, 1.5, 2, 10, 1e-3, 1e6]) | st.floats(-3, 3))
+@settings(max_examples=300)
+def test_every_number_that_is_accepted_builds_the_systems_and_sweeps(place, factor):
+    config = copy.deepcopy(GOOD)
+    value = at(GOOD, place) * factor
+    at(config, place[:-1])[place[-1]] = round(value) if isinstance(at(GOOD, place), int) else value
+    if problems(config):
+        return
+    made = checked(config)
+    systems = {case: System(**case_parameters(made, case)) for case in made["cases"]}
+    for sweep in made["sweeps"].values():
+        axes = [axis(**entry) for entry in [*sweep["axes"], *([sweep["band"]] if "band" in sweep else [])]]
+        if all(len(set(entry.values)) == len(entry.values) for entry in axes) and len(axes) < 3:
+            grid = Grid(systems[sweep["case"]], axes)
+            assert all(isinstance(grid.system(number), System) for number in grid.spread(50))
+
+
+def test_the_editor_is_told_of_the_schema():
+    name = TEXT.splitlines()[0].removeprefix("# yaml-language-server: $schema=")
+    assert (ROOT / "config" / name).resolve() == ROOT / "workflow/schemas/config.schema.json"

@@ -1,0 +1,72 @@
+"""The schema that is committed is that of the model, and Snakemake's own check agrees with the model's."""
+
+import copy
+import json
+
+import jsonschema
+import pytest
+from pydantic import ValidationError
+from snakemake.exceptions import WorkflowError
+from snakemake.utils import validate
+
+from configs import GOOD, TABLE, UNUSUAL, edited, problems
+from vibroimpact_pipeline.config.model import Config
+from vibroimpact_pipeline.config.schema import TARGET, schema
+
+CHECK = jsonschema.Draft202012Validator(json.loads(schema()))
+MODELS = {"condition", "finite_number"}
+"""Errors that are found by the model alone."""
+
+
+def nodes(node):
+    yield node
+    for item in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield from nodes(item)
+
+
+def test_it_is_up_to_date():
+    assert TARGET.read_text(encoding="utf-8") == schema(), "run python -m vibroimpact_pipeline.config.schema"
+
+
+def test_every_number_has_limits_on_both_sides_and_every_key_a_description():
+    found = [node for node in nodes(CHECK.schema) if isinstance(node, dict)]
+    numbers = [node for node in found if {"number", "integer"} & set(node.get("type", ()))]
+    assert len(numbers) > 80
+    for node in numbers:
+        assert {"minimum", "exclusiveMinimum"} & node.keys(), node
+        assert {"maximum", "exclusiveMaximum"} & node.keys(), node
+    keys = [child for node in found for child in node.get("properties", {}).values()]
+    lacking = [child for child in keys if isinstance(child, dict) and not described(child)]
+    assert not lacking
+
+
+def described(node) -> bool:
+    """Whether a key says what it is, or refers to what does."""
+    inner = [node, *node.get("anyOf", [])]
+    return any("description" in one or "$ref" in one for one in inner)
+
+
+def test_snakemake_accepts_the_config_with_it():
+    config = copy.deepcopy(GOOD)
+    validate(config, str(TARGET))
+    assert problems(config) == {}
+    with pytest.raises(WorkflowError):
+        validate(edited("system.kappa = 1.2"), str(TARGET))
+
+
+@pytest.mark.parametrize("edits", UNUSUAL)
+def test_what_the_model_accepts_the_schema_accepts(edits):
+    assert not [error.message for error in CHECK.iter_errors(edited(edits.replace("'null'", "null")))]
+
+
+def test_what_is_wrong_with_one_value_the_schema_refuses():
+    """Conditions across values are the model's alone, and so are limits of numbers in texts."""
+    refused = 0
+    for edits, _ in TABLE:
+        try:
+            Config.model_validate(edited(edits))
+        except ValidationError as error:
+            if any(found["type"] not in MODELS and not isinstance(found["input"], str) for found in error.errors()):
+                assert not CHECK.is_valid(edited(edits)), edits
+                refused += 1
+    assert refused > 200
