@@ -23,6 +23,7 @@ THIRD = (3 * 1.02) ** 2 * 10 - 10
 
 def test_the_config_of_the_chapter_is_as_it_is_written():
     before, made = copy.deepcopy(GOOD), checked(GOOD)
+    assert made.pop("tile_seconds") == 20.0
     for sweep in made["sweeps"].values():
         assert sweep.pop("limit_hours") == 1
     assert made == GOOD == before

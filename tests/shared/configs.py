@@ -41,7 +41,6 @@ UNUSUAL = [
     "figures = {mine: {notebook: simulation, model: simulation, case: equal}}",
     "stability.verdict_grid.epsilon = [0.1]",
     "regimes.branches.paths = [{along: [kappa, epsilon], range: [0.1, 0.5]}]",
-    "regimes.confusion.f10_range = [-1.6, 1.6]",
     "sweeps = ...",
     "sweeps.design = ... & sweeps.frequency_response.axes[1].tuples = [[0.5, 0.5], [1.0, -1.0], [2.0, 0.1]]",
     "sweeps.regime_map.axes = [{along: [f10_hat], range: [0, 1], values: 3}, "
