@@ -86,7 +86,7 @@ def test_box_amplitudes_are_those_of_the_simulated_motion(ways):
 
 @pytest.mark.parametrize(("f20", "between"), [(1.0, (0.0021, 0.0023)), (0.89, (0.0075, 0.0088))])
 def test_a_pair_is_born_where_the_symmetric_orbit_loses_its_symmetry(f20, between):
-    """Against the multiplier of the symmetric orbit, which passes 1 there; followed in steps of a fifth, as in a build."""
+    """Against the multiplier of the symmetric orbit, which passes 1 there; in steps of a fifth, as in a build."""
     system = EQUAL.with_(f20_hat=f20)
 
     def excess(epsilon):

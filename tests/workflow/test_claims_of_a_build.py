@@ -24,11 +24,14 @@ LARGEST_OF_FEW = (
     'impact_shares.csv | source == "balls"',
 )
 """What comes from a few runs, most of them chaotic."""
-LONG = (
-    'regimes/modulation.csv | case == "weak" and start == "spread" and quantity == "largest Lyapunov exponent" | mean',
-    'regimes/modulation.csv | case == "unequal" and start == "spread" and quantity == "largest Lyapunov exponent" | mean',
-    'regimes/spectra.csv | case == "weak" and start == "spread" and quantity == "exponent 2" | mean',
-    'regimes/spectra.csv | case == "weak" and start == "spread" and quantity == "sum of exponents" | mean',
+LONG = tuple(
+    f'regimes/{file}.csv | case == "{case}" and start == "spread" and quantity == "{quantity}" | mean'
+    for file, case, quantity in (
+        ("modulation", "weak", "largest Lyapunov exponent"),
+        ("modulation", "unequal", "largest Lyapunov exponent"),
+        ("spectra", "weak", "exponent 2"),
+        ("spectra", "weak", "sum of exponents"),
+    )
 )
 """Chaotic, over so many cycles that the digits of the findings are those of every build."""
 

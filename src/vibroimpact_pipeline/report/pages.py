@@ -85,7 +85,8 @@ class Pages:
     def _with_source(self, found, number):
         """A number of a document as a button that shows its value, where that stands, and the command that makes it.
 
-        The number is that of the build, to as many decimals as the document gives. In a build with other settings there may be no such value: then the number stays as it is.
+        The number is that of the build, to as many decimals as the document gives. In a build with other settings there
+        may be no such value: then the number stays as it is.
         """
         file, *place = found["place"].split(" | ")
         try:

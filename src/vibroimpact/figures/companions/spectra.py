@@ -146,7 +146,7 @@ def draw_running(axes, table, _="") -> None:
             "clip_on": False,
             "label": RUNNING,
         }
-        axes.plot(1.03 * line["cycles"].iloc[-1], line["estimate"].iloc[-1], **looks)
+        axes.plot(1.17 * line["cycles"].iloc[-1], line["estimate"].iloc[-1], **looks)
     _common(axes, table["estimate"])
     axes.set(xscale="log", xlabel="cycles", xlim=(table["cycles"].min(), table["cycles"].max()))
 
