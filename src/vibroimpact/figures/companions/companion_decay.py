@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from vibroimpact.absorbers.decay import decay_time
+from vibroimpact.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.figures.companions.companion_response import linear_systems
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, letter_panel, new_figure, styled
@@ -22,7 +22,7 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
         band: arguments of `sweeps.grid.axis` along sigma_e_hat, over which the best absorbers are tuned.
 
     Returns "csv": columns panel ("module 1" or 2, which is hit), series (balls, a linear system, or where balls are
-    quickest), impulse, cycles (inf: never).
+    quickest, which may lie between the impulses of the others), impulse, cycles (inf: never).
     """
     velocities = np.geomspace(*impulses, values)
     linear = linear_systems(system, (1.0, 1.0), band)
@@ -31,10 +31,10 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
         panel = f"module {module}"
         for name, one in linear.items():
             curves.append(curve(panel, name, impulse=impulses, cycles=one.decay_time(module, fraction) / system.period))
-        times = np.array([decay_time(system, velocity, module, fraction) for velocity in velocities]) / system.period
-        best = times.argmin()
-        curves.append(curve(panel, "balls", impulse=velocities, cycles=times))
-        curves.append(curve(panel, SHORTEST, impulse=velocities[best], cycles=times[best]))
+        times = np.array([decay_time(system, velocity, module, fraction) for velocity in velocities])
+        best, shortest = quickest_decay(system, velocities, times, module, fraction)
+        curves.append(curve(panel, "balls", impulse=velocities, cycles=times / system.period))
+        curves.append(curve(panel, SHORTEST, impulse=best, cycles=shortest / system.period))
     return {"csv": join(curves), "fraction": fraction}
 
 

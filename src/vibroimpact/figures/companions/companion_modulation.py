@@ -18,7 +18,7 @@ from vibroimpact.figures.kit.style import (
     styled,
 )
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
+from vibroimpact.regimes.classification import CHAOS, REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.modulation import (
     PER_CYCLE,
@@ -47,7 +47,8 @@ def compute(
 
     Args:
         systems: case -> system. starts: number of spread starts beside the one from rest.
-        cycles: window of the measures. blocks, block: of the Lyapunov exponent, so many blocks of so many cycles.
+        cycles: window of the measures. blocks, block: of Lyapunov exponents of chaotic spread starts, so
+            many blocks of so many cycles; exponents of other starts come from the window.
         windows: lengths in cycles over which measures of the envelope are compared.
         observation: arguments of `regimes.settling.Observation`.
 
@@ -85,10 +86,11 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
     rows, curves, compared, exponents = [], [], [], []
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
-        watched = spectra.watch(system, states, blocks, block)
+        lasts = start == "spread" and name in CHAOS
+        watched = spectra.watch(system, states, blocks * block if lasts else cycles, block)
         found = [
-            measures(system, state, cycles) | {(EXPONENT, 0): one.exponents[0]}
-            for state, (one, *_) in zip(states, watched, strict=True)
+            measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
+            for state, one in zip(states, watched, strict=True)
         ]
         key = {"case": case, "start": start, "regime": name}
         if start == "spread":
@@ -98,7 +100,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
         for quantity, module in found[0]:
             mean, error, count = mean_and_error([values[quantity, module] for values in found])
             if quantity == EXPONENT and count == 1:
-                error = watched[0][1][0]
+                error = watched[0].errors[0]
             named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
             rows.append({**key, "starts": count, **named})
         exponents += spectra.rows(key, watched)
