@@ -14,8 +14,8 @@ def den_hartog(system) -> Tuning:
     """The tuning of the textbook (Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; damping: Brock 1946).
 
     It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
-    static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled the
-    rule is approximate.
+    static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled
+    the rule is approximate.
 
     The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
     frequency Omega_n of the box. `Tuning.damping` refers to that of the absorber, which is Omega_n / (1 + epsilon): so
