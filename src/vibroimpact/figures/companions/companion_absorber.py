@@ -68,7 +68,7 @@ def compute(
     alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
     again = {"band": band, "states": starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
     own = _again(system, _lowest(clearance), **again)
-    restitution = [_again(system, _lowest(mine), **again) for _, mine in design.groupby("kappa")]
+    restitution = [_again(system, _lowest(mine), **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     # By the sweep: what is measured again decides nothing, or the lowest would be where chance was kind, again.
     best = min(restitution, key=lambda place: place["swept"])
     optima = {BALLS: (own, number), BEST_KAPPA: (best, number)}
@@ -150,10 +150,10 @@ def _levels(peaks, over, table):
 
 def _of_restitution(places):
     rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
-    return [*rows, {"quantity": PLATEAU, "who": BALLS, "value": _plateau(places)}]
+    return [*rows, {"quantity": PLATEAU, "who": BALLS, "value": plateau(places)}]
 
 
-def _plateau(places):
+def plateau(places):
     """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest; nan if the first is not."""
     level = LEVEL * min(place["value"] for place in places)
     last = float("nan")
