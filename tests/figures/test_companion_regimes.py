@@ -385,9 +385,9 @@ def test_lowest_peaks_are_measured_again_at_their_places_with_a_spread(balls, ta
 
 
 @pytest.mark.parametrize(
-    ("peaks", "level"), [([9.0, 8.5, 9.2, 12.0], 0.3), ([8.0, 12.0, 8.1, 8.2], 0.1), ([9.0, 8.0, 8.0, 8.0], np.nan)]
+    ("peaks", "level"), [([9.0, 8.5, 9.2, 12.0], 0.3), ([8.0, 12.0, 8.1, 8.2], 0.1), ([9.7, 8.0, 8.0, 8.0], np.nan)]
 )
-def test_a_plateau_ends_where_a_lowest_peak_is_a_tenth_higher(peaks, level):
+def test_a_plateau_ends_where_a_lowest_peak_is_a_fifth_higher(peaks, level):
     places = [{"kappa": kappa, "value": value} for kappa, value in zip((0.1, 0.2, 0.3, 0.4), peaks, strict=True)]
     np.testing.assert_equal(companion_absorber.plateau(places), level)
 

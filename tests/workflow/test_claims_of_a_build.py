@@ -19,8 +19,11 @@ CHAOTIC = tuple(
     f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
 )
 LARGEST_OF_FEW = (
-    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "one ball")),
-    *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("frequencies won", "least", "greatest")),
+    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa", "one ball")),
+    *(
+        f'absorber.csv | quantity == "{quantity}"'
+        for quantity in ("lowest peak", "frequencies won", "least", "greatest")
+    ),
     'impact_shares.csv | source == "balls"',
 )
 """What comes from a few runs, most of them chaotic."""

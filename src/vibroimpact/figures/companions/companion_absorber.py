@@ -30,7 +30,7 @@ PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
 """Quantities of the summary, beside those of `_held_against`."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
-LEVEL = 1.1
+LEVEL = 1.2
 """The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
 FRESH = 8
 """Starts that a lowest peak is measured from again, rest among them."""
