@@ -36,8 +36,8 @@ FRESH = 8
 """Starts that a lowest peak is measured from again, rest among them."""
 PANELS = {"clearance": "clearance", "kappa": "restitution"}
 """Panels of curves, by what they are over."""
-FROM_SWEEP = ("kappa", *FORCES, "clearance", "swept", "narrowest", "widest")
-AGAIN = ("value", "spread", "sigma_e_hat")
+TOLD = ("value", "spread", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
+"""What the summary tells of a place."""
 
 
 def compute(
@@ -90,7 +90,7 @@ def compute(
     rows += _held_against(system, per_force(system, response), band)
     summary = pd.DataFrame(rows)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
-        summary.insert(3, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
+        summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
     return {"csv": join([*levels, *curves, _lowest_peaks(restitution)]), "summary": summary}
 
 
@@ -125,7 +125,7 @@ def _again(system, place, band, states, cycles, settle):
 
 
 def _told(place):
-    return {name: place[name] for name in (*AGAIN, *FROM_SWEEP) if name in place}
+    return {name: place[name] for name in TOLD if name in place}
 
 
 def _regime(system, place, observation, number, seed):
