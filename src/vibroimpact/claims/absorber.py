@@ -96,10 +96,8 @@ def can_be_optimised(evidence):
     Both at the clearance that is best for each coefficient, measured again there. Over small coefficients the lowest
     peak is level: which of them is best is left to chance.
     """
-    clearance, lowest = (
-        _per_force(evidence.system, evidence.clearance),
-        evidence.absorber.query("quantity == 'lowest peak'"),
-    )
+    clearance = _per_force(evidence.system, evidence.clearance)
+    lowest = evidence.absorber.query("quantity == 'lowest peak'")
     peaks = evidence.absorber.query("quantity == 'peak'").set_index("who")
     balls, best = peaks.loc["balls"], peaks.loc["balls, best kappa"]
     own = clearance.loc[clearance["f10_hat"].sub(evidence.system.f10_hat).abs().idxmin(), "ratio"]
