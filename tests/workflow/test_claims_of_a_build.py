@@ -19,8 +19,11 @@ CHAOTIC = tuple(
     f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
 )
 LARGEST_OF_FEW = (
-    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "one ball")),
-    *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("frequencies won", "least", "greatest")),
+    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa", "one ball")),
+    *(
+        f'absorber.csv | quantity == "{quantity}"'
+        for quantity in ("lowest peak", "frequencies won", "least", "greatest")
+    ),
     'impact_shares.csv | source == "balls"',
 )
 """What comes from a few runs, most of them chaotic."""
@@ -76,7 +79,7 @@ def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
     """The number as quoted is the one of the results, rounded to as many decimals.
 
     Statistics of chaotic motions differ from one machine to another: they agree within five times their uncertainty, or
-    15 % where they come from a single run.
+    15 % where they come from a single run. A spread of a few starts is known to its order of magnitude.
     """
     decimals = len(quoted.partition(".")[2])
     scale = 100 if source.startswith("percent | ") else 1
@@ -88,7 +91,7 @@ def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
         spread = 5 * results.value(*place[:-1], "uncertainty")
         spread = 0.15 * abs(found) if pd.isna(spread) else spread
     elif " | ".join(place).startswith(LARGEST_OF_FEW):
-        spread = 0.15 * abs(found)
+        spread = (1.0 if place[-1] == "spread" else 0.15) * abs(found)
     assert abs(scale * found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + scale * spread
 
 

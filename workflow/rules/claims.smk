@@ -31,7 +31,6 @@ EVIDENCE = {
     "epsilon_orders": "results/regimes/epsilon_orders.csv",
     "absorber": "results/absorber.csv",
     "clearance": "results/sweeps/clearance.csv",
-    "design": "results/sweeps/design.csv",
 } | {
     f"{case}_{name.split('.')[0]}": f"results/simulations/{case}/{name}"
     for case in CLAIMED_SIMULATIONS

@@ -83,7 +83,9 @@ def absorber_of(response, clearance, design):
     return {
         "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
         "system": SWEEPS[clearance]["case"],
-        "settings": {"band": f"{sweep}.band", "number": f"{sweep}.starts", "seed": f"{sweep}.seed"} | OBSERVED,
+        "settings": {name: f"{sweep}.{name}" for name in ("band", "seed", "cycles", "settle")}
+        | {"number": f"{sweep}.starts"}
+        | OBSERVED,
         "config": [key for name in tables.values() for key in sweep_keys(name)],
         "inputs": {table: table_of(name) for table, name in tables.items()},
         "before": [step(*STEPS["tile_of_sweep"])],

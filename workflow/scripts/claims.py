@@ -18,7 +18,7 @@ from vibroimpact.system.chapter import CASES
 
 TABLES = (
     *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
-    *("absorber", "clearance", "design"),
+    *("absorber", "clearance"),
 )
 
 

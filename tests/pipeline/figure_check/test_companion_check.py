@@ -109,6 +109,8 @@ COMPUTE = {
         observation=BRIEFLY,
         number=2,
         seed=1,
+        cycles=60,
+        settle=40,
     ),
     "companion_decay": lambda change: companion_decay.compute(change(SYSTEMS["equal"]), [0.5, 50.0], 21, 0.1, BAND),
     "companion_asymmetric": lambda change: asymmetric({"equal": change(SYSTEMS["equal"])}),
