@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.absorbers.decay import decay_time
+from vibroimpact.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.absorbers.references import fixed_balls, tuned, without_balls
 from vibroimpact.absorbers.tuning import den_hartog
 from vibroimpact.system.energy import stored_energy
@@ -77,3 +77,17 @@ def test_what_is_not_damped_never_decays():
 def test_malformed_arguments_are_refused(name, given):
     with pytest.raises(ValueError, match=f"^{name}: "):
         decay_time(SYSTEM, **{"impulse": 1.0, name: given})
+
+
+@pytest.mark.parametrize("count", [41, 81])
+@pytest.mark.parametrize(("module", "first", "last"), [(1, 1.08, 1.1), (2, 1.25, 1.3)])
+def test_the_quickest_decay_is_that_of_a_dense_search(module, first, last, count):
+    """As quick as at any of very many impulses around it, and not quicker than a neighbour of one of them can be."""
+    impulses = np.geomspace(0.5, 50.0, count)
+    times = [decay_time(SYSTEM, impulse, module) for impulse in impulses]
+    impulse, shortest = quickest_decay(SYSTEM, impulses, times, module)
+    assert shortest == decay_time(SYSTEM, impulse, module) < min(times)
+    dense = np.linspace(first, last, 501)
+    found = np.array([decay_time(SYSTEM, one, module) for one in dense])
+    assert shortest <= found.min() < shortest + 5e-3 * SYSTEM.period
+    assert impulse == pytest.approx(dense[found.argmin()], abs=2 * (dense[1] - dense[0]))

@@ -22,7 +22,7 @@ DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
 TABLES = ("fixed_points", "orbits", "verdict_grid", "absorber")
-SWEEPS = ("clearance", "design")
+SWEEPS = ("clearance",)
 REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import vibroimpact as vi
 from chapter import PARAMETERS
@@ -81,3 +82,19 @@ def test_box_amplitudes_are_those_of_the_simulated_motion(ways):
     U = samples[:, [0, 2]] + system.epsilon * samples[:, [1, 3]]
     harmonic = 2 * np.abs(np.exp(-1j * system.Omega * tau) @ U) / len(tau)
     np.testing.assert_allclose(station.box_amplitudes, harmonic, rtol=2e-4)
+
+
+@pytest.mark.parametrize(("f20", "between"), [(1.0, (0.0021, 0.0023)), (0.89, (0.0075, 0.0088))])
+def test_a_pair_is_born_where_the_symmetric_orbit_loses_its_symmetry(f20, between):
+    """Against the multiplier of the symmetric orbit, which passes 1 there; in steps of a fifth, as in a build."""
+    system = EQUAL.with_(f20_hat=f20)
+
+    def excess(epsilon):
+        orbits = [one for one in vi.orbits(system.with_(epsilon=epsilon)) if one.symmetric]
+        values = min(orbits, key=lambda one: abs(one.C[1] - 1.681)).multipliers
+        return min(values.real[np.abs(values.imag) < 1e-9] - 1, key=abs)
+
+    steps = np.geomspace(0.1, 3e-4, 31)[1:]
+    ways = [asymmetric_limit.follow(system, root, steps) for root in asymmetric_solutions(system)[0]]
+    born = [asymmetric_limit.onset(way) for way in ways if way[-1].system.epsilon > 2e-3]
+    assert min(abs(np.array(born) - brentq(excess, *between, xtol=1e-10))) < 1e-7

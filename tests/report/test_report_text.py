@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -200,3 +201,17 @@ def test_letters_of_the_chapter_are_set_in_names_of_numbers(name, said):
 def test_a_figure_without_files_is_refused(tmp_path):
     with pytest.raises(ValueError, match="fig10_99"):
         Results(tmp_path).files("fig10_99")
+
+
+def test_numbers_of_documents_are_those_of_the_build(tmp_path):
+    """To as many decimals as a document gives, with its sign; where a build has no such value, as it is written."""
+    values = {"a": 0.70984, "b": -3.17987, "c": 0.6916}
+    results = SimpleNamespace(judged=True, value=lambda file, name: values[name])
+    pages = Pages(ROOT, results, SETTINGS, CONFIG, {})
+    pages.root = tmp_path
+    (tmp_path / "docs").mkdir()
+    text = "0.69<!-- x.csv | a -->, −3.2<!-- x.csv | b -->; 70<!-- percent | x.csv | c --> %, 5<!-- x.csv | d -->."
+    (tmp_path / "docs/some.md").write_text(text, encoding="utf-8")
+    shown = pages.markdown({"source": "docs/some.md"}, "html")
+    assert re.findall(r'popovertarget="[^"]+">([^<]+)</button>', shown) == ["0.71", "−3.2", "69"]
+    assert shown.endswith("5.")

@@ -80,6 +80,23 @@ def test_the_share_of_impacts_is_that_of_the_certified_runs(found):
     assert 0.1 < found[1]["impact_share"] < 1
 
 
+def test_starts_whose_balls_rest_are_in_no_share_of_impacts():
+    """At this detuning rest never brings a ball to a wall, and the other starts do: it is counted, and left out."""
+    system = BASE.with_(sigma_e_hat=-2.0)
+    asked = Asked(("energy",), starts=3, seed=1, cycles=120, settle=60)
+    row = observed(system, asked)
+    runs = [vi.simulate(system, start, 120) for start in spread_starts(3, 1)]
+    hits = [any(run.events["tau"] > 60 * system.period) for run in runs]
+    assert hits == [False, True, True]
+    cycles = [run.energy.per_cycle[60:] for run, hit in zip(runs, hits, strict=True) if hit]
+    work, impacts = (sum(energy[name].sum() for energy in cycles) for name in ("work", "impacts"))
+    assert row["impact_share"] == pytest.approx(impacts / work, rel=1e-9)
+    assert row["starts_without_impacts"] == 1
+    from_rest = observed(system, Asked(("energy",), starts=1, seed=1, cycles=120, settle=60))
+    assert np.isnan(from_rest["impact_share"])
+    assert from_rest["starts_without_impacts"] == 1
+
+
 def test_an_envelope_leaves_out_a_twentieth_of_the_cycles_on_either_side(found):
     times = (20 + np.arange(10 * PER_CYCLE) / PER_CYCLE) * BASE.period
     runs = [vi.simulate(BASE, start, 30, sample_times=times).samples for start in spread_starts(3, 1)]

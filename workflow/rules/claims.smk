@@ -11,7 +11,6 @@ EVIDENCE = {
     "epsilon_orders": "results/regimes/epsilon_orders.csv",
     "absorber": "results/absorber.csv",
     "clearance": "results/sweeps/clearance.csv",
-    "design": "results/sweeps/design.csv",
     "equal_samples": "results/simulations/equal/samples.csv",
     "equal_events": "results/simulations/equal/events.csv",
     "equal_summary": "results/simulations/equal/summary.json",

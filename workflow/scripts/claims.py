@@ -19,7 +19,7 @@ from vibroimpact_pipeline.jobs import running
 
 TABLES = (
     *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
-    *("absorber", "clearance", "design"),
+    *("absorber", "clearance"),
 )
 
 

@@ -33,10 +33,26 @@ class Linear:
         Raises:
             numpy.linalg.LinAlgError: it is driven at an undamped resonance.
         """
+        return np.abs(self._responses(Omega)[..., :2])
+
+    def strokes(self, Omega) -> np.ndarray:
+        """Largest |X_i - Y_i| of the steady response, shape (..., 2): how far absorbers move in their boxes.
+
+        Raises:
+            ValueError: there are no absorbers.
+            numpy.linalg.LinAlgError: it is driven at an undamped resonance.
+        """
+        if len(self.force) != 4:
+            raise ValueError(f"strokes: needs two boxes with an absorber each, got {len(self.force)} coordinates")
+        responses = self._responses(Omega)
+        return np.abs(responses[..., :2] - responses[..., 2:])
+
+    def _responses(self, Omega):
+        """Complex amplitudes of all coordinates, shape (..., n)."""
         Omega = np.asarray(Omega, float)[..., None, None]
         impedance = self.stiffness - Omega**2 * self.mass + 1j * Omega * self.damping
         force = np.broadcast_to(self.force, impedance.shape[:-1])[..., None]
-        return np.abs(np.linalg.solve(impedance, force)[..., :2, 0])
+        return np.linalg.solve(impedance, force)[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
         """The largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.
@@ -44,24 +60,29 @@ class Linear:
         Raises:
             ValueError: the band is none.
         """
+        return self._highest(self.amplitudes, band)
+
+    def stroke(self, band: tuple[float, float]) -> float:
+        """The largest |X_i - Y_i| of both absorbers over a band of frequencies: the room that they need on each side.
+
+        Raises:
+            ValueError: the band is none, or there are no absorbers.
+        """
+        return self._highest(self.strokes, band)
+
+    def _highest(self, measure, band):
+        """The largest value of amplitudes or strokes over a band; inf if an undamped resonance is in it."""
         low, high = checked_band(band)
         resonances = np.abs(self.poles.imag)
         inside = resonances[(resonances > low) & (resonances < high)]
         grid = np.unique([*np.linspace(low, high, POINTS), *inside])
         try:
-            heights = self.amplitudes(grid).max(axis=1)
+            heights = measure(grid).max(axis=1)
             ringed = np.concatenate([[-math.inf], heights, [-math.inf]])
             humps = np.flatnonzero((heights >= ringed[:-2]) & (heights >= ringed[2:]))
-            return max(self._height(grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]) for k in humps)
+            return max(_height(measure, grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]) for k in humps)
         except np.linalg.LinAlgError:
             return math.inf
-
-    def _height(self, low, high):
-        """The largest |X_i| between two frequencies with one hump between them."""
-        best = minimize_scalar(
-            lambda Omega: -self.amplitudes(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
-        )
-        return float(max(-best.fun, *self.amplitudes([low, high]).ravel()))
 
     @property
     def rate(self) -> np.ndarray:
@@ -100,6 +121,14 @@ class Linear:
     def _energy(self, state):
         places, speeds = np.split(state, 2)
         return 0.5 * (speeds @ self.mass @ speeds + places @ self.stiffness @ places)
+
+
+def _height(measure, low, high):
+    """The largest value between two frequencies with one hump between them."""
+    best = minimize_scalar(
+        lambda Omega: -measure(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
+    )
+    return float(max(-best.fun, *measure([low, high]).ravel()))
 
 
 def checked_band(band) -> tuple[float, float]:

@@ -14,11 +14,16 @@ def den_hartog(system) -> Tuning:
     """The tuning of the textbook (Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; damping: Brock 1946).
 
     It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
-    static deflection. Each box is taken as if it were alone: where boxes are damped or coupled the rule is approximate.
+    static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled
+    the rule is approximate.
+
+    The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
+    frequency Omega_n of the box. `Tuning.damping` refers to that of the absorber, which is Omega_n / (1 + epsilon): so
+    it is sqrt(3 epsilon / (8 (1 + epsilon))).
     """
     ratio = system.epsilon
     host = np.sqrt([1.0, system.stiffness2])
-    damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio) ** 3)))
+    damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio))))
     return Tuning(tuple(float(value) for value in host / (1 + ratio)), (damping, damping))
 
 

@@ -22,22 +22,27 @@ SWINGS = 3
 """Cycles within which the largest swing after a shock is over."""
 NOTICED = 0.99
 """What is called shorter, or lower, is so by a hundredth at least."""
+SURE = 2
+"""Spreads by which a peak has to be lower than another."""
 STARTS, SEED, CYCLES, SETTLE = 17, 2, 700, 200
 """Of the modulated response; rest, the first start, is left out: from there one ball may stay idle."""
 
 
 def efficient(evidence):
-    """Peaks over a band of frequencies, at the best clearance of those tried, against those of linear systems."""
+    """Peaks over a band of frequencies, at the best clearance of those tried, against those without balls and fixed.
+
+    The chapter cites others and sets no measure of "very efficient"; how far linear absorbers go is told beside.
+    """
     peaks = evidence.absorber.query("quantity == 'peak'").set_index("who")
     balls, best = peaks.loc["balls"], peaks.loc["balls, best kappa"]
     parts = {
-        "peak without balls at least halved": balls["of_without"] <= 0.5,
-        "lower than with the balls fixed": balls["value"] < peaks.loc["balls fixed", "value"],
-        "no higher than with linear absorbers of the same mass": balls["of_absorbers"] <= 1,
+        "lower than without balls": balls["value"] + SURE * balls["spread"] < peaks.loc["without balls", "value"],
+        "lower than with the balls fixed": balls["value"] + SURE * balls["spread"] < peaks.loc["balls fixed", "value"],
     }
     numbers = {"part of the peak without balls": balls["of_without"], "of linear absorbers": balls["of_absorbers"]}
-    at_best = {"the best kappa": best["kappa"], "without balls, there": best["of_without"]}
-    return Finding(parts, numbers | at_best | {"of linear absorbers, there": best["of_absorbers"]})
+    numbers |= {"spread, of the peak": balls["spread"] / balls["value"], "the best kappa": best["kappa"]}
+    numbers |= {"without balls, there": best["of_without"], "of linear absorbers, there": best["of_absorbers"]}
+    return Finding(parts, numbers | {"spread, of the peak there": best["spread"] / best["value"]})
 
 
 def absorbs_rapidly(evidence):
@@ -49,8 +54,7 @@ def absorbs_rapidly(evidence):
     without, absorbers = (one.decay_time() for one in (without_balls(system), tuned(system, den_hartog(system))))
     parts = {
         "impacts take most of the energy": share > 0.5,
-        "twice as soon as without balls": soonest <= without / 2,
-        "as soon as with linear absorbers of the same mass": soonest <= absorbers,
+        "sooner than without balls": soonest < NOTICED * without,
     }
     numbers = {"share of the impacts": share, "impulse": impulse, "time with balls": soonest}
     return Finding(parts, numbers | {"without balls": without, "with linear absorbers": absorbers})
@@ -67,9 +71,9 @@ def suppresses_shocks(evidence):
     parts = {
         "felt for a shorter time, if a ball meets a wall": met.any() and (times[met] < NOTICED).all(),
         "with a lower swing, if a ball meets a wall": met.any() and (swings[met] < NOTICED).all(),
-        "however weak the shock is": (times < NOTICED).all(),
     }
     numbers = {"impulses": IMPULSES, "time, of that without balls": times, "swing, of that without balls": swings}
+    numbers |= {"a ball meets a wall from": IMPULSES[met].min() if met.any() else None}
     return Finding(parts, numbers)
 
 
@@ -87,24 +91,32 @@ def _struck(impulse):
 
 
 def can_be_optimised(evidence):
-    """Whether a clearance and a restitution coefficient are best, none of them the last that was tried."""
-    clearance, design = (_per_force(table) for table in (evidence.clearance, evidence.design))
-    best = design.loc[design["ratio"].idxmin()]
-    own = clearance["f10_hat"].sub(evidence.system.f10_hat).abs().idxmin()
-    found = evidence.absorber.query("quantity == 'peak'").set_index("who")["regime"]
+    """Peaks lowered by a clearance inside what was tried, and by another restitution coefficient beyond their spread.
+
+    Both at the clearance that is best for each coefficient, measured again there. Over small coefficients the lowest
+    peak is level: which of them is best is left to chance.
+    """
+    clearance = _per_force(evidence.system, evidence.clearance)
+    lowest = evidence.absorber.query("quantity == 'lowest peak'")
+    peaks = evidence.absorber.query("quantity == 'peak'").set_index("who")
+    balls, best = peaks.loc["balls"], peaks.loc["balls, best kappa"]
+    own = clearance.loc[clearance["f10_hat"].sub(evidence.system.f10_hat).abs().idxmin(), "ratio"]
+    uncertain = math.hypot(balls["spread"], best["spread"])
     parts = {
         "by the clearance": _inside(clearance, "f10_hat"),
-        "by the restitution coefficient": _inside(design, "kappa"),
-        "to a lower peak than at the chapter's": best["ratio"] < clearance.loc[own, "ratio"],
+        "by the restitution coefficient": best["value"] + SURE * uncertain < balls["value"],
+        "to a lower peak than at the chapter's": best["value"] + SURE * best["spread"] < own,
     }
-    numbers = {"best kappa": best["kappa"], "of those from": design["kappa"].min(), "to": design["kappa"].max()}
-    numbers |= {"best forces, in place of the clearance": best["f10_hat"]}
-    numbers |= {"peak, of the chapter's": best["ratio"] / clearance.loc[own, "ratio"]}
-    return Finding(parts, numbers | {"regime there": found["balls, best kappa"], "at its own kappa": found["balls"]})
+    numbers = {"best kappa": best["kappa"], "best forces, in place of the clearance": best["f10_hat"]}
+    numbers |= {"kappa": lowest["kappa"].to_list(), "lowest peaks": lowest["value"].to_list()}
+    numbers |= {"their spreads": lowest["spread"].to_list()}
+    numbers |= {"level up to": evidence.absorber.set_index("quantity").loc["plateau", "value"]}
+    numbers |= {"peak, of the chapter's": best["value"] / own}
+    return Finding(parts, numbers | {"regime there": best["regime"], "at its own kappa": balls["regime"]})
 
 
-def _per_force(table):
-    return table.assign(ratio=table["peak"] / table["f10_hat"])
+def _per_force(system, table):
+    return table.assign(ratio=table["peak"] / (system.epsilon * table["f10_hat"]))
 
 
 def _inside(table, name):

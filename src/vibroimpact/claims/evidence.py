@@ -21,7 +21,7 @@ class Evidence:
     """Results of a build.
 
     systems: case -> system. fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders, absorber:
-    the tables of these names; clearance, design: those of the sweeps. proofs: case -> what is proved of the lists.
+    the tables of these names; clearance: that of the sweep. proofs: case -> what is proved of the lists.
     simulations: case -> Simulation.
     """
 
@@ -35,7 +35,6 @@ class Evidence:
     epsilon_orders: pd.DataFrame
     absorber: pd.DataFrame
     clearance: pd.DataFrame
-    design: pd.DataFrame
     simulations: dict[str, Simulation]
 
     @property

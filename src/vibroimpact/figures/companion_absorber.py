@@ -9,40 +9,49 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.absorbers.peaks import peak
 from vibroimpact.figures.companion_response import FORCES, frequencies, linear_systems, per_force, ratios
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, LEAST, LINES, MOST, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.figures.sweep import SYMBOLS, edges
 from vibroimpact.regimes.classification import starts
-from vibroimpact.regimes.settling import Observation, settle
-from vibroimpact.sweeps.grid import LOGARITHMIC
+from vibroimpact.regimes.settling import Observation
+from vibroimpact.regimes.settling import settle as settled
+from vibroimpact.sweeps.grid import LOGARITHMIC, axis
 
 SPEC = {
     "title": "Which balls serve best",
     "caption": r"The highest :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat "
         "f_{i0}`, in a band of frequencies. a: over the clearance; triangles: from rest only one ball ever meets a "
-        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the same over the "
-        "restitution, too. Stars: the lowest peak, with a bar where it is at most 1.25 times as high.",
-    "alt": "Two panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
-        "around its lowest dots. b: a map in grey with the lowest peak marked by a star.",
+        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the lowest peak over the "
+        "clearance, for each restitution, measured again from rest and seven other starts at twice as many frequencies; "
+        "upright bars: its spread, if these starts were drawn again. c: the peak over both. Stars: where a sweep has its "
+        "lowest peak, in a and b as high as measured again; level bars: clearances whose peak is at most 1.25 times as "
+        "high.",
+    "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
+        "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
+        "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
     "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
     "case": "sweeps.clearance.case",
     "settings": {"band": "sweeps.clearance.band", "number": "sweeps.clearance.starts", "seed": "sweeps.clearance.seed",
+        "cycles": "sweeps.clearance.cycles", "settle": "sweeps.clearance.settle",
         "observation": "regimes.observation"},
     "inputs": {"response": "results/sweeps/frequency_response.csv", "clearance": "results/sweeps/clearance.csv",
         "design": "results/sweeps/design.csv"},
     "columns": {
-        "panel": {"values": ["clearance", "design"]},
-        "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, or the "
-            "linear system", "values": ["balls", "one ball", "without balls", "balls fixed",
-            "absorbers of the textbook", "best absorbers"]},
+        "panel": {"values": ["clearance", "restitution", "design"]},
+        "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, the lowest "
+            "peak of the balls measured again, or the linear system", "values": ["balls", "one ball", "lowest peak",
+            "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
         "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
             "compared": "algebra"},
         "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls also of "
             "all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
-            "one ball": "extremes", "others": "algebra"}},
+            "one ball": "extremes", "lowest peak": "extremes", "others": "algebra"}},
         "kappa": {"compared": "algebra"},
+        "low, high": {"meaning": "of a lowest peak: less and more its spread, the `spread` of `absorber.csv`",
+            "unit": "dimensionless", "compared": "extremes"},
     },
     "tables": {
         "summary": {
@@ -51,15 +60,25 @@ SPEC = {
                 "band.",
             "columns": {
                 "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls at the "
-                    "clearance (and kappa) where it is lowest. Of balls against who, at one force: frequencies won, "
-                    "the share of frequencies at which the boxes move less with balls; least and greatest of the "
-                    r"largest $\lvert X_i\rvert$ over that of who", "unit": "text", "values": ["peak",
-                    "frequencies won", "least", "greatest"]},
+                    "clearance (and kappa) where it is lowest in the sweep. lowest peak: the same at each kappa of "
+                    "the sweep `design`. plateau: the largest kappa up to which lowest peaks are at most 1.2 times the "
+                    r"lowest of all. stroke: the largest $\lvert X_i - Y_i\rvert/f$ of linear absorbers in the band, "
+                    "the room that they need to each side, as balls have the clearance. Of balls against who, at one "
+                    "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
+                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who", "unit": "text", "values": ["peak",
+                    "lowest peak", "plateau", "stroke", "frequencies won", "least", "greatest"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
                     "one ball at the kappa of the config while the other meets no wall, or what they are held against",
                     "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
                     "absorbers of the textbook", "best absorbers"]},
-                "value": {"meaning": "what the quantity says", "unit": "dimensionless", "compared": "extremes"},
+                "value": {"meaning": "what the quantity says; of a peak of balls measured again where the sweep has "
+                    "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
+                    "as in the sweep, from rest", "unit": "dimensionless", "compared": "extremes"},
+                "spread": {"meaning": "standard deviation of `value` if its starts were drawn again (bootstrap, "
+                    "exact). It is no bound: the largest displacement of few starts is below that of many, never above",
+                    "unit": "dimensionless", "compared": "free"},
+                "swept": {"meaning": "the lowest peak as the sweep has it; lower than `value` where chance chose the "
+                    "place", "unit": "dimensionless", "compared": "extremes"},
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
                     "over that without balls", "unit": "dimensionless", "compared": "extremes"},
                 "kappa, f10_hat, f20_hat": {"compared": "extremes"},
@@ -81,47 +100,72 @@ SWEPT = {
     ONE_BALL: {**DOTS, "marker": "^", "markersize": 6.5, "markerfacecolor": "none"},
 }
 _MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": "its margin"}
+PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
+"""Quantities of the summary, beside those of `_held_against`."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
+LEVEL = 1.2
+"""The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
+FRESH = 8
+"""Starts that a lowest peak is measured from again, rest among them."""
+PANELS = {"clearance": "clearance", "kappa": "restitution"}
+"""Panels of curves, by what they are over."""
+TOLD = ("value", "spread", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
+"""What the summary tells of a place."""
 
 
-def compute(system, response, clearance, design, band: dict, observation: dict, number: int, seed: int) -> dict:
+def compute(
+    system, response, clearance, design, band: dict, observation: dict, number: int, seed: int, cycles: int, settle: int
+) -> dict:
     """What sweeps of the balls found, per force, beside linear systems in closed form.
+
+    A lowest peak of a sweep is too low: the largest displacement of a few starts is below that of many, and the lowest
+    of many places is where chance was kind. So it is measured again at its place, from rest and other starts and at the
+    frequencies of the band and those half-way between them (`absorbers.peaks`). Its spread is what drawing these starts
+    again would make of it. Still, no start and no frequency between these may be met that moves the boxes further.
 
     Args:
         system: whose other parameters the sweeps keep.
         response: table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
         clearance, design: of peaks along `band`, over both forces; over kappa, then both forces.
         band: arguments of `sweeps.grid.axis`, along sigma_e_hat.
-        observation, number, seed: how long, and from how many starts, the regime at an optimum is looked for.
+        observation, number: how long, and from how many starts, the regime at an optimum is looked for.
+        seed: of the starts of the sweeps. cycles, settle: of their runs.
 
-    Returns "csv": columns panel ("clearance" or "design"), series, clearance, kappa, ratio (X / f).
+    Returns "csv": columns panel ("clearance", "restitution" or "design"), series, clearance, kappa, ratio (X / f), low
+    and high (of a lowest peak, by its spread).
     "summary": columns quantity, who, value, ... (docs/data.md).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
     clearance, design = (_peaks(system, table) for table in (clearance, design))
     alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
-    ends = clearance["clearance"].agg(["min", "max"]).to_numpy()
-    curves = [curve("clearance", name, clearance=ends, ratio=peak) for name, peak in peaks.items()]
-    for panel, series, table in (
-        ("clearance", BALLS, clearance),
-        ("clearance", ONE_BALL, alone),
-        ("design", BALLS, design),
-    ):
-        curves.append(curve(panel, series, **{name: table[name] for name in ("clearance", "kappa", "ratio")}))
-    optima = {BALLS: (clearance, number), BEST_KAPPA: (design, number), ONE_BALL: (alone, 1)}
-    rows = [{"quantity": "peak", "who": name, "value": peak} for name, peak in peaks.items()]
+    again = {"band": band, "states": starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
+    own = _again(system, _lowest(clearance), **again)
+    restitution = [_again(system, _lowest(mine), **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
+    # By the sweep: what is measured again decides nothing, or the lowest would be where chance was kind, again.
+    best = min(restitution, key=lambda place: place["swept"])
+    optima = {BALLS: (own, number), BEST_KAPPA: (best, number)}
+    if len(alone):  # from rest only: there are no starts to draw again
+        one_ball = _lowest(alone)
+        optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
+
+    swept = (("clearance", BALLS, clearance), ("clearance", ONE_BALL, alone), ("design", BALLS, design))
+    columns = "clearance", "kappa", "ratio"
+    curves = [curve(panel, who, **{name: table[name] for name in columns}) for panel, who, table in swept]
+    levels = _levels(peaks, "clearance", clearance) + _levels(peaks, "kappa", design)
+    rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
     rows += [
-        _optimum(system, who, table, observation, starts(several, seed))
-        for who, (table, several) in optima.items()
-        if len(table)
+        {"quantity": PEAK, "who": who, **_told(place), "regime": _regime(system, place, observation, several, seed)}
+        for who, (place, several) in optima.items()
     ]
+    rows += _of_restitution(restitution)
+    rows += _strokes(system, linear, band)
     rows += _held_against(system, per_force(system, response), band)
     summary = pd.DataFrame(rows)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
-        summary.insert(3, column, (summary["value"] / peaks[name]).where(summary["quantity"] == "peak"))
-    return {"csv": join(curves), "summary": summary}
+        summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
+    return {"csv": join([*levels, *curves, _lowest_peaks(restitution)]), "summary": summary}
 
 
 def _peaks(system, table):
@@ -133,26 +177,72 @@ def _peaks(system, table):
     )
 
 
-def _optimum(system, who, table, observation, states):
-    """The clearance (and kappa) of the lowest peak, how wide clearances may be about it, and the regime at its peak."""
-    best = table.loc[table["ratio"].idxmin()]
-    beside = table[table["kappa"] == best["kappa"]].sort_values("clearance")
-    far = ~(beside["ratio"] <= NEARLY * best["ratio"]).to_numpy()
-    here = int(np.flatnonzero(beside["clearance"] == best["clearance"])[0])
+def _lowest(table):
+    """The place of a sweep over the clearance with the lowest peak, and the margin of its clearance."""
+    beside = table.sort_values("clearance").reset_index(drop=True)
+    here = int(beside["ratio"].idxmin())
+    place = beside.loc[here].to_dict()
+    far = ~(beside["ratio"] <= NEARLY * place["ratio"]).to_numpy()
     first, last = np.flatnonzero(np.r_[True, far[:here]])[-1], here + int(np.argmax(np.r_[far[here:], True])) - 1
-    moved = {"kappa": "kappa", "f10_hat": "f10_hat", "f20_hat": "f10_hat", "sigma_e_hat": "peak_at"}
-    there = system.with_(**{name: float(best[column]) for name, column in moved.items()})
-    names = Counter(regime.name for regime in settle(there, states, Observation(**observation)))
-    return {
-        "quantity": "peak",
-        "who": who,
-        "value": best["ratio"],
-        **{name: getattr(there, name) for name in ("kappa", "f10_hat", "f20_hat", "sigma_e_hat")},
-        "clearance": best["clearance"],
-        "narrowest": beside["clearance"].iloc[first],
-        "widest": beside["clearance"].iloc[last],
-        "regime": names.most_common(1)[0][0],
-    }
+    margin = {"narrowest": beside["clearance"][first], "widest": beside["clearance"][last]}
+    return {**place, "swept": place["ratio"], **margin}
+
+
+def _again(system, place, band, states, cycles, settle):
+    """A place with its peak measured again: value, per force, its spread, and sigma_e_hat where it is met."""
+    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
+    detunings = np.sort(np.ravel(axis(**band).values))
+    detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
+    found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
+    measured = {"value": found.value * place["clearance"], "spread": found.spread * place["clearance"]}
+    return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
+
+
+def _told(place):
+    return {name: place[name] for name in TOLD if name in place}
+
+
+def _regime(system, place, observation, number, seed):
+    """The regime that most starts end in at a place, at the frequency of its peak."""
+    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
+    names = Counter(regime.name for regime in settled(there, starts(number, seed), Observation(**observation)))
+    return names.most_common(1)[0][0]
+
+
+def _lowest_peaks(places):
+    """Rows of the lowest peak at each kappa, with its spread."""
+    table = pd.DataFrame(places)
+    low, high = (table["value"] + sign * table["spread"] for sign in (-1, 1))
+    return curve("restitution", LOWEST, **table[["clearance", "kappa"]], ratio=table["value"], low=low, high=high)
+
+
+def _levels(peaks, over, table):
+    """Rows of the linear systems over all that was tried of a column."""
+    panel, ends = PANELS[over], table[over].agg(["min", "max"]).to_numpy()
+    return [curve(panel, name, **{over: ends}, ratio=peak) for name, peak in peaks.items()]
+
+
+def _of_restitution(places):
+    rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
+    return [*rows, {"quantity": PLATEAU, "who": BALLS, "value": plateau(places)}]
+
+
+def plateau(places):
+    """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest; nan if the first is not."""
+    level = LEVEL * min(place["value"] for place in places)
+    last = float("nan")
+    for place in places:
+        if place["value"] > level:
+            break
+        last = place["kappa"]
+    return last
+
+
+def _strokes(system, linear, band):
+    """How far the absorbers move in their boxes."""
+    for name in ("absorbers of the textbook", "best absorbers"):
+        stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
+        yield {"quantity": STROKE, "who": name, "value": stroke}
 
 
 def _held_against(system, response, band):
@@ -167,15 +257,17 @@ def _held_against(system, response, band):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: the performance curve, and the map of kappa and clearance."""
-    table, summary = tables["csv"], tables["summary"].query("quantity == 'peak'").set_index("who")
+    """Draw the tables of `compute`: peaks over the clearance, lowest ones over kappa, and the map of both."""
+    table, summary = tables["csv"], tables["summary"].query(f"quantity == '{PEAK}'").set_index("who")
     peaks = summary.loc[list(LINES), "value"]
-    figure = new_figure(DOUBLE_COLUMN, 82.0)
-    left, right = figure.subplots(1, 2)
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    left, middle, right = figure.subplots(1, 3, width_ratios=[1.0, 0.85, 1.15])
     _draw_clearance(left, table[table["panel"] == "clearance"], summary.loc[BALLS])
     logarithmic(left, "y", LEAST, MOST * peaks.max())
+    _draw_restitution(middle, table[table["panel"] == "restitution"], summary.loc[BEST_KAPPA])
+    middle.set(xlim=(0.0, 1.0), ylim=(0.0, 0.5 * peaks["without balls"]))
     _draw_design(right, select(table, "design", BALLS), summary.loc[BEST_KAPPA], peaks["without balls"])
-    for axes, letter in ((left, "a"), (right, "b")):
+    for axes, letter in zip((left, middle, right), "abc", strict=True):
         letter_panel(axes, letter)
     figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
     return figure
@@ -189,6 +281,15 @@ def _draw_clearance(axes, rows, best):
     _mark(axes, best, best["value"])
     logarithmic(axes, "x")
     axes.set(xlabel="clearance $1/f$", ylabel="peak $|X_i|\\,/\\,f$ of the band")
+
+
+def _draw_restitution(axes, rows, best):
+    draw_lines(axes, rows, "kappa", "ratio")
+    mine = select(rows, "restitution", LOWEST)
+    axes.vlines(mine["kappa"], mine["low"], mine["high"], color=BLACK, linewidth=0.9, label="its spread")
+    axes.plot(mine["kappa"], mine["ratio"], label="lowest peaks", **DOTS)
+    axes.plot(best["kappa"], best["value"], label=LOWEST, **BEST)
+    axes.set(xlabel=SYMBOLS["kappa"], ylabel="lowest peak over the clearance")
 
 
 def _draw_design(axes, cells, best, darkest):
@@ -205,4 +306,4 @@ def _draw_design(axes, cells, best, darkest):
 def _mark(axes, best, height):
     """The optimum, and its margin."""
     axes.plot([best["narrowest"], best["widest"]], [height, height], **_MARGIN)
-    axes.plot(best["clearance"], height, label="lowest peak", **BEST)
+    axes.plot(best["clearance"], height, label=LOWEST, **BEST)

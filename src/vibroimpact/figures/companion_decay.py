@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.absorbers.decay import decay_time
+from vibroimpact.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.figures.companion_response import linear_systems
 from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, draw_lines, logarithmic
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, letter_panel, new_figure, styled
@@ -14,7 +14,8 @@ SPEC = {
     "title": "How long an impulse is felt",
     "caption": r"Cycles of the forcing, :math:`2\pi/\Omega` each, until a tenth of the energy of an impulse on a box "
         "is left, over the impulse; no force acts. Lines: linear systems in closed form, which do not ask how large "
-        "the impulse is; those of the two absorbers nearly coincide. Star: where balls are quickest.",
+        "the impulse is; those of the two absorbers nearly coincide. Star: where balls are quickest, "
+        "looked for between the dots.",
     "alt": "Two panels, for an impulse on box 1 and on box 2. Dots of the balls lie on the line without balls up to an "
         "impulse of about 1, drop to less than half of it, and rise slowly from there; the tuned absorbers stay below "
         "them throughout.",
@@ -47,7 +48,8 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
             evenly on a logarithmic scale.
         band: arguments of `sweeps.grid.axis` along sigma_e_hat, over which the best absorbers are tuned.
 
-    Returns columns panel ("module 1" or 2, which is hit), series (balls, a linear system, or where balls are quickest),
+    Returns columns panel ("module 1" or 2, which is hit), series (balls, a linear system, or where balls are quickest,
+    which may lie between the impulses of the others),
     impulse, cycles (inf: never), fraction (as given).
     """
     velocities = np.geomspace(*impulses, values)
@@ -57,10 +59,10 @@ def compute(system, impulses: list[float], values: int, fraction: float, band: d
         panel = f"module {module}"
         for name, one in linear.items():
             curves.append(curve(panel, name, impulse=impulses, cycles=one.decay_time(module, fraction) / system.period))
-        times = np.array([decay_time(system, velocity, module, fraction) for velocity in velocities]) / system.period
-        best = times.argmin()
-        curves.append(curve(panel, "balls", impulse=velocities, cycles=times))
-        curves.append(curve(panel, SHORTEST, impulse=velocities[best], cycles=times[best]))
+        times = np.array([decay_time(system, velocity, module, fraction) for velocity in velocities])
+        best, shortest = quickest_decay(system, velocities, times, module, fraction)
+        curves.append(curve(panel, "balls", impulse=velocities, cycles=times / system.period))
+        curves.append(curve(panel, SHORTEST, impulse=best, cycles=shortest / system.period))
     return join(curves).assign(fraction=fraction)
 
 

@@ -18,7 +18,7 @@ from vibroimpact.figures.kit.style import (
     styled,
 )
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.regimes.classification import REGIMES, STRONGLY_MODULATED
+from vibroimpact.regimes.classification import CHAOS, REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.modulation import (
     PER_CYCLE,
@@ -37,8 +37,10 @@ SPEC = {
     "caption": "Modulated responses. a, b: how long resonant bursts last. They are watched over a window (dotted) and "
         r"cut off at its end: where a line drops there, they last longer. c: Lyapunov exponents :math:`\lambda_1` to "
         r":math:`\lambda_6` of the motion that every start ends in, with their standard errors; in modulated motions, "
-        r"where a ball sticks at times, the other two are :math:`-\infty`. d: their estimates after more and more "
-        "cycles, means over the modulated starts, within twice the error that the bootstrap expects.",
+        r"where a ball sticks at times, the other two are :math:`-\infty`. Cycles in which both balls stick at once "
+        r"are left out: they are a few in a million, and with them :math:`\lambda_5` and :math:`\lambda_6` of the weak "
+        r"case are :math:`-\infty`, too. d: their estimates after more and more cycles, "
+        " means over the modulated starts, within twice the error that the bootstrap expects.",
     "alt": "Panels of equal axes with the share of resonant bursts that last longer than a given number of cycles, for "
         "both modules, and a dotted line at the length of the window, at which the line of bursts that last longer "
         "drops; a panel with groups of dots for six Lyapunov exponents, in the weak case two of them positive and the "
@@ -121,19 +123,22 @@ SPEC = {
                 "start": {"meaning": "the start from rest, or the spread ones", "unit": "text", "values": ["rest",
                     "spread"]},
                 "regime": {}, "starts": {"meaning": "starts behind the mean", "unit": "number"},
-                "quantity": {"meaning": "exponent 1 to exponent 8: per forcing period, largest first. Kaplan-Yorke "
-                    "dimension: of the attractor, seen once per cycle; a ball that idles adds to it. sum of exponents: "
+                "quantity": {"meaning": "exponent 1 to exponent 8: per forcing period, largest first, without the "
+                    "cycles in which both balls stick at once. Kaplan-Yorke dimension: of these exponents, seen once "
+                    "per cycle; a ball that idles adds to it, and where double sticks occur the attractor itself has "
+                    "at most 4. double sticks per million cycles: cycles in which both balls stick at once, counted "
+                    "over all starts together. sum of exponents: "
                     "over the cycles in which no ball sticks. contraction: what damping and impacts say it is, "
                     r"$2\ln\kappa$ for every impact, less $2\pi/\Omega$ times the trace of the damping matrix",
                     "unit": "text", "values": ["exponent 1", "exponent 2", "exponent 3", "exponent 4", "exponent 5",
                     "exponent 6", "exponent 7", "exponent 8", "Kaplan-Yorke dimension", "sum of exponents",
-                    "contraction"]},
+                    "contraction", "double sticks per million cycles"]},
                 "mean": {"meaning": "its mean over the starts, -inf where a ball sticks at times: the motion forgets "
                     "two directions", "unit": "of its quantity"},
-                "uncertainty": {"meaning": "its standard error over the starts, blank for one start",
-                    "unit": "of its quantity"},
+                "uncertainty": {"meaning": "its standard error over the starts, blank for one start; of double sticks "
+                    "the square root of their number, at least of one", "unit": "of its quantity"},
                 "bootstrap": {"meaning": "the standard error of one start by block bootstrap, mean over the starts; "
-                    "blank for sums", "unit": "of its quantity"},
+                    "blank for sums and double sticks", "unit": "of its quantity"},
             },
         },
     },
@@ -154,7 +159,8 @@ def compute(
 
     Args:
         systems: case -> system. starts: number of spread starts beside the one from rest.
-        cycles: window of the measures. blocks, block: of the Lyapunov exponent, so many blocks of so many cycles.
+        cycles: window of the measures. blocks, block: of Lyapunov exponents of chaotic spread starts, so
+            many blocks of so many cycles; exponents of other starts come from the window.
         windows: lengths in cycles over which measures of the envelope are compared.
         observation: arguments of `regimes.settling.Observation`.
 
@@ -192,10 +198,11 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
     rows, curves, compared, exponents = [], [], [], []
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
-        watched = spectra.watch(system, states, blocks, block)
+        lasts = start == "spread" and name in CHAOS
+        watched = spectra.watch(system, states, blocks * block if lasts else cycles, block)
         found = [
-            measures(system, state, cycles) | {(EXPONENT, 0): one.exponents[0]}
-            for state, (one, *_) in zip(states, watched, strict=True)
+            measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
+            for state, one in zip(states, watched, strict=True)
         ]
         key = {"case": case, "start": start, "regime": name}
         if start == "spread":
@@ -205,7 +212,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
         for quantity, module in found[0]:
             mean, error, count = mean_and_error([values[quantity, module] for values in found])
             if quantity == EXPONENT and count == 1:
-                error = watched[0][1][0]
+                error = watched[0].errors[0]
             named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
             rows.append({**key, "starts": count, **named})
         exponents += spectra.rows(key, watched)

@@ -18,6 +18,7 @@ from vibroimpact.system.matrices import dynamic_stiffness
 
 _BORN = 1e-6  # v^2 below which an orbit is symmetric to Newton's accuracy
 _NEAR = 0.01
+_THROUGH = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,11 +81,17 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """The epsilon at which an orbit whose v^2 falls to 0 is born, by a line through the last two stations; else 0."""
-    (eps, skew), (eps_before, skew_before) = (
-        (s.system.epsilon, s.place[2:4].max()) for s in (stations[-1], stations[-2])
+    """The epsilon at which an orbit whose v^2 falls to 0 is born, else 0.
+
+    Epsilon at v^2 = 0 of the polynomial in v^2 through the last stations, `_THROUGH` of them at most. A line through
+    two has three right digits where stations are a fifth apart.
+    """
+    last = stations[-_THROUGH:]
+    epsilon, skew = (
+        np.array(part) for part in zip(*((s.system.epsilon, s.place[2:4].max()) for s in last), strict=True)
     )
-    return max(0.0, eps - skew * (eps - eps_before) / (skew - skew_before))
+    weights = [np.prod(np.delete(skew, k) / (np.delete(skew, k) - skew[k])) for k in range(len(last))]
+    return max(0.0, float(epsilon @ weights))
 
 
 def compare(station, point) -> Comparison:

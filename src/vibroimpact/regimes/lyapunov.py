@@ -1,25 +1,27 @@
 """Lyapunov exponents of a motion, from the exact Jacobian of the flow through impacts, chatter and sticking.
 
-A frame of perturbations is carried along by the Jacobian of every block of cycles, saltation matrices included (Müller
-1995), and made orthonormal again, by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990): the logarithms of
-the diagonal of R are the growth of that block. The time of a start is no perturbation: a flow in the extended phase
-space has one exponent more, 0, and its attractor one dimension more.
+A frame of perturbations is carried along by the Jacobian of every cycle, saltation matrices included (Müller 1995), and
+made orthonormal again, by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990): the logarithms of the diagonal
+of R are the growth of that cycle. The time of a start is no perturbation: a flow in the extended phase space has one
+exponent more, 0, and its attractor one dimension more.
+
+A ball that sticks loses two directions, both at once lose four. If that happens with a positive frequency, however low,
+almost every point of the attractor has it in its past: four exponents are -inf, and the dimension is at most 4. Runs
+without it see more, `Spectrum.without_double_sticks`.
 """
 
 from dataclasses import dataclass
-from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
-from scipy.linalg.lapack import dgeqrf, dorgqr
 
-from vibroimpact.exact.engine.replay import FORCING, WALLS
+from vibroimpact.exact.engine.growth import growth
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system.matrices import damping_matrix
-from vibroimpact.system.state import IMPACT
 
-SIZE = 8
+SIZE, BOTH = 8, 2
+AT_ONCE = 1000
+"""Cycles that are simulated at a time."""
 _OTHERS = np.random.default_rng(1).normal(size=(SIZE, SIZE - 1))  # a frame with a pattern may span too little
 _FRAME = np.linalg.qr(np.column_stack([np.ones(SIZE), _OTHERS]))[0]
 
@@ -49,10 +51,10 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     """
     if blocks < 2:
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
-    factors = np.array([factor for _, (factor,) in _carried(system, state, discarded + blocks, cycles, 1)])
+    factors = np.array([grown.factors for grown in _carried(system, state, [cycles] * (discarded + blocks), 1)])
     if not factors.all():
         raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
-    rates = np.log(factors[discarded:]) / cycles
+    rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     return Exponent(float(rates.mean()), float(rates.std(ddof=1) / np.sqrt(blocks)))
 
 
@@ -61,12 +63,28 @@ class Spectrum:
     """All Lyapunov exponents of a motion, of the map from one forcing cycle to the next, largest first.
 
     growth: (n, 8) of the eight directions in each of n cycles; where a ball sticks, how it came to its wall is
-        forgotten: -inf for two of them, for four where both do.
+        forgotten: -inf for two of them, for four where both stick at once.
     contraction: (n,) of volume in each cycle, in closed form: what the growths add up to.
+    stuck: (n,) most balls that stick at one time in each cycle.
     """
 
     growth: np.ndarray
     contraction: np.ndarray
+    stuck: np.ndarray
+
+    @property
+    def double_sticks(self) -> int:
+        """Number of cycles in which both balls stick at once."""
+        return int(np.count_nonzero(self.stuck == BOTH))
+
+    def without_double_sticks(self) -> "Spectrum":
+        """The spectrum over the other cycles: what is measured until both balls stick at once.
+
+        It hardly depends on how many such cycles a run meets. Of four of its directions each sets in anew behind one,
+        and turns to where it grows as it should within some ten cycles, which count.
+        """
+        others = self.stuck < BOTH
+        return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
 
     @property
     def exponents(self) -> np.ndarray:
@@ -91,7 +109,8 @@ class Spectrum:
         """
         n, forgotten = len(self.growth), np.isneginf(self.exponents)
         finite = np.where(forgotten, 0.0, self.growth)
-        stretches = sliding_window_view(np.concatenate([finite, finite[: block - 1]]), block, axis=0).mean(axis=-1)
+        sums = np.cumsum(np.concatenate([np.zeros((1, SIZE)), finite, finite[: block - 1]]), axis=0)
+        stretches = (sums[block:] - sums[:-block]) / block
         drawn = stretches[np.random.default_rng(seed).integers(n, size=(resamples, n // block))].mean(axis=1)
         dimensions = [kaplan_yorke(np.where(forgotten, -np.inf, exponents)) for exponents in drawn]
         return np.where(forgotten, np.nan, drawn.std(axis=0, ddof=1)), float(np.std(dimensions, ddof=1))
@@ -99,28 +118,28 @@ class Spectrum:
 
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
     """All Lyapunov exponents over so many forcing cycles after others, from a state as for `largest_exponent`."""
-    runs, factors = zip(*islice(_carried(system, state, discarded + cycles, 1, SIZE), discarded, None), strict=True)
-    left = SIZE - 2 * np.array([_stuck(run) for run in runs])
+    whole, rest = divmod(discarded + cycles, AT_ONCE)
+    parts = zip(*_carried(system, state, [AT_ONCE] * whole + [rest] * (rest > 0), SIZE), strict=True)
+    factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
-        growth = np.log(factors)
-    growth[np.arange(SIZE) >= left[:, None]] = -np.inf  # in floats, rounding
-    volume = np.array([contraction(run) for run in runs])
-    return Spectrum(growth[:, np.argsort(-growth.mean(axis=0), kind="stable")], volume)
+        rates = np.log(factors)
+    rates[np.arange(SIZE) >= SIZE - 2 * stuck[:, None]] = -np.inf  # in floats, rounding
+    return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
-def contraction(run) -> float:
-    """Logarithm of the factor by which a run shrinks volumes of states.
+def _largest_first(rates):
+    return rates[:, np.argsort(-rates.mean(axis=0), kind="stable")]
+
+
+def contraction(system, impacts, stuck) -> np.ndarray:
+    """Logarithm of the factor by which each cycle shrinks volumes of states, of its impacts and balls that stick, (n,).
 
     Flights shrink them by the damping, exp(-tr D t). In the gap of its module, its rate and the motion of their centre
     of mass an impact is triangular, with -kappa for the gap (the saltation) and -kappa for its rate (Newton's rule):
     the factor is kappa^2, whatever the flights around it. A ball that sticks leaves no volume: -inf.
     """
-    if _stuck(run):
-        return -np.inf
-    impacts = np.count_nonzero(run.events["kind"] == IMPACT)
-    return float(
-        2 * impacts * np.log(run.system.kappa) - np.trace(damping_matrix(run.system)) * run.cycles * run.system.period
-    )
+    volume = 2 * np.asarray(impacts) * np.log(system.kappa) - np.trace(damping_matrix(system)) * system.period
+    return np.where(np.asarray(stuck) > 0, -np.inf, volume)
 
 
 def kaplan_yorke(exponents) -> float:
@@ -136,18 +155,11 @@ def kaplan_yorke(exponents) -> float:
     return float(whole + sums[whole - 1] / -exponents[whole])
 
 
-def _carried(system, state, blocks, cycles, directions):
-    """Run and factors of growth (directions,) of each block of cycles."""
+def _carried(system, state, runs, directions):
+    """Growth of a frame along each of some runs, of so many cycles, one after another."""
     frame = _FRAME[:, :directions]
-    for _ in range(blocks):
+    for cycles in runs:
         run = simulate(system, state, cycles)
-        # as `np.linalg.qr` does it, which takes longer to prepare than a cycle takes
-        upper, reflections, *_ = dgeqrf(run.carry(frame))
-        frame, state = dorgqr(upper, reflections)[0], run.final
-        yield run, np.abs(upper.diagonal())
-
-
-def _stuck(run):
-    """Most balls that stick at one time."""
-    _, flights, _ = run.course
-    return int(np.abs(flights[:, WALLS:FORCING]).sum(axis=1).max())
+        grown = growth(run, frame)
+        frame, state = grown.frame, run.final
+        yield grown

@@ -12,9 +12,9 @@ flight
 
 An impact kicks the box, too, but not the centre of mass (X + epsilon Y) / (1 + epsilon) of box and ball, whose
 acceleration is a / (1 + epsilon): it is the other coordinate of a module. All eight are continuous; the right-hand
-side jumps, at walls and where v changes its sign. Without locating the jumps a step across one is an error of the order
-of the step squared, whatever the order of the integrator, here Runge and Kutta's four stages. There is no state of
-rest on a wall: a ball that sticks goes on impacting.
+side jumps, at walls and where v changes its sign. A step of length h across a jump that is not located errs by the
+order of h, whatever the order of the integrator, here Runge and Kutta's four stages: the method is of first order.
+There is no state of rest on a wall: a ball that sticks goes on impacting.
 """
 
 import math

@@ -23,7 +23,7 @@ COLUMNS = {
     AMPLITUDES: AMPLITUDE_COLUMNS,
     ENVELOPES: ("low_X1", "low_X2", "high_X1", "high_X2"),
     PEAKS: ("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"),
-    ENERGY: ("impact_share",),
+    ENERGY: ("impact_share", "starts_without_impacts"),
     FIXED_POINTS: ("fixed_points", "stable_points"),
     ORBITS: ("orbits", "stable_orbits"),
 }
@@ -95,11 +95,16 @@ def _one_ball(runs):
 
 
 def _energy(system, states, asked):
-    """What impacts take of the work of the forces, over all starts."""
+    """What impacts take of the work of the forces, over starts with a ball that meets a wall; how many are without.
+
+    A start whose balls rest is another motion, without impacts: its work is in no share.
+    """
     runs = ensemble(system, states, asked.cycles, settle=asked.settle, energy=True)
-    done = runs["energy"][runs["status"] == FINISHED]
-    work = done["work"].sum()
-    return (done["impacts"].sum() / work if work else np.nan,)
+    done = runs[runs["status"] == FINISHED]
+    hits = done["impacts"].any(axis=1)
+    energy = done["energy"][hits]
+    work = energy["work"].sum()
+    return energy["impacts"].sum() / work if work else np.nan, np.count_nonzero(~hits)
 
 
 def _fixed_points(system, states, asked):

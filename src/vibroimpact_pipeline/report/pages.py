@@ -19,7 +19,7 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
-SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?:percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
+SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?P<percent>percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
 """A number of a document, in a comment behind it the file that it comes from and the place there, and what ends it."""
 SOURCE = (
     '`<span class="kept"><button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
@@ -87,14 +87,18 @@ class Pages:
     def _with_source(self, found, number):
         """A number of a document as a button that shows its value, where that stands, and the command that makes it.
 
-        In a build with other settings there may be no such value: then the number stays as it is.
+        The number is that of the build, to as many decimals as the document gives. In a build with other settings there
+        may be no such value: then the number stays as it is.
         """
         file, *place = found["place"].split(" | ")
         try:
-            value = f"{self.results.value(file, *place):.6g}"
-        except (LookupError, ValueError, StopIteration, OSError):
+            value = self.results.value(file, *place)
+            decimals = len(found["number"].partition(".")[2])
+            inserted = f"{value * (100 if found['percent'] else 1):.{decimals}f}".replace("-", "−")
+        except (LookupError, TypeError, ValueError, StopIteration, OSError):
             return found["number"] + found["mark"]
-        told = found.groupdict() | {"value": value, "file": file, "place": ", ".join(place), "id": number}
+        told = {"number": inserted, "mark": found["mark"], "value": f"{value:.6g}"}
+        told |= {"file": file, "place": ", ".join(place), "id": number}
         return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):

@@ -33,17 +33,17 @@ def carried(flow, flights, events, total):
     for n in range(len(flights)):
         if flights[n, LENGTH] > 0.0:
             fill_flight(flow, flights[n], matrix)
-            _fill_product(matrix, total, later)
+            fill_product(matrix, total, later)
             total, later = later, total
         if n < len(events):
             fill_event(flow.coefficients, flights, events, n, matrix)
-            _fill_product(matrix, total, later)
+            fill_product(matrix, total, later)
             total, later = later, total
     return total
 
 
 @inlined
-def _fill_product(matrix, vectors, product):
+def fill_product(matrix, vectors, product):
     """Fill the product with (8, k) vectors; so small a one takes BLAS longer to prepare than to compute."""
     for row in range(8):
         for column in range(vectors.shape[1]):

@@ -1,15 +1,18 @@
 """Lyapunov spectra of the motions that starts end in: a table, and two panels of companion_modulation."""
 
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.lines import Line2D
 
 from vibroimpact.figures.kit.style import BLACK, GREY
 from vibroimpact.figures.kit.tables import curve
-from vibroimpact.regimes.lyapunov import SIZE, spectrum
+from vibroimpact.regimes.lyapunov import SIZE, Spectrum, spectrum
 from vibroimpact.regimes.modulation import mean_and_error
 
 EXPONENTS, RUNNING = "exponents", "running"
 DIMENSION, SUM, CONTRACTION = "Kaplan-Yorke dimension", "sum of exponents", "contraction"
+DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 DRAWN = SIZE - 2
 """So many exponents are left where a ball sticks at times."""
 FIRST = 50
@@ -23,29 +26,50 @@ _DOTS = {**_DOT, "markersize": 2.4, "elinewidth": 0.5, "capsize": 0}
 _BAND = {"color": "0.8", "linewidth": 0}
 
 
-def watch(system, states, blocks: int, block: int) -> list:
-    """Spectrum and bootstrap errors of each motion, over so many blocks of so many cycles after ten of them."""
-    found = [spectrum(system, state, blocks * block, 10 * block) for state in states]
-    return [(one, *one.errors(block)) for one in found]
+class Watched(NamedTuple):
+    """Spectrum of a motion without the cycles in which both balls stick at once; bootstrap errors of its exponents,
+    (8,), and of its dimension; how many cycles were left out."""
+
+    spectrum: Spectrum
+    errors: np.ndarray
+    dimension_error: float
+    double_sticks: int
+
+
+def watch(system, states, cycles: int, block: int) -> list[Watched]:
+    """Watch each motion over so many cycles after ten blocks of them; the blocks are those of the bootstrap, which
+    needs two."""
+    found, block = [], max(1, min(block, cycles // 2))
+    for state in states:
+        one = spectrum(system, state, cycles, 10 * block)
+        single = one.without_double_sticks()
+        found.append(Watched(single, *single.errors(block), one.double_sticks))
+    return found
 
 
 def rows(key: dict, found) -> list[dict]:
     """Rows of the table for motions of one regime: mean, standard error over them, mean bootstrap error of one.
 
-    Sum and contraction are of the cycles in which no ball sticks.
+    Sum and contraction are of the cycles in which no ball sticks. Double sticks are counted over all motions.
     """
-    columns = {f"exponent {k + 1}": [(one.exponents[k], errors[k]) for one, errors, _ in found] for k in range(SIZE)}
-    columns[DIMENSION] = [(one.dimension, error) for one, _, error in found]
-    columns[SUM] = [(one.growth[_free(one)].sum(axis=1).mean(), np.nan) for one, _, _ in found]
-    columns[CONTRACTION] = [(one.contraction[_free(one)].mean(), np.nan) for one, _, _ in found]
-    return [
-        {**key, "starts": len(found), "quantity": name, **_summary(*zip(*values, strict=True))}
-        for name, values in columns.items()
-    ]
+    columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(SIZE)}
+    columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
+    columns[SUM] = [(_free(one, one.growth.sum(axis=1)), np.nan) for one, *_ in found]
+    columns[CONTRACTION] = [(_free(one, one.contraction), np.nan) for one, *_ in found]
+    values = {name: _summary(*zip(*column, strict=True)) for name, column in columns.items()}
+    values[DOUBLE] = _rate(sum(one.double_sticks for one in found), sum(len(one.spectrum.growth) for one in found))
+    return [{**key, "starts": len(found), "quantity": name, **summary} for name, summary in values.items()]
 
 
-def _free(one):
-    return np.isfinite(one.contraction)
+def _rate(count, others):
+    """Rate of rare events with the standard error of their number, which is that of one event where none was met."""
+    scale = OF_CYCLES / (count + others)
+    return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
+
+
+def _free(one, values):
+    """Mean over the cycles in which no ball sticks."""
+    return values[one.stuck == 0].mean()
 
 
 def _summary(values, errors):
@@ -58,17 +82,17 @@ def _summary(values, errors):
 def curves(case: str, label: str, found):
     """What is drawn of the motions of one regime: each exponent of each, with its error."""
     for k in range(DRAWN):
-        exponent, error = zip(*((one.exponents[k], errors[k]) for one, errors, _ in found), strict=True)
+        exponent, error = zip(*((one.spectrum.exponents[k], one.errors[k]) for one in found), strict=True)
         yield curve(EXPONENTS, f"{case}, {k + 1}", label=label, number=k + 1, exponent=_finite(exponent), error=error)
 
 
 def running(case: str, found):
     """Estimates after more and more cycles, mean over motions, and the error expected of them by the bootstrap."""
-    cycles = len(found[0][0].growth)
+    cycles = min(len(one.spectrum.growth) for one in found)
     after = np.unique(np.geomspace(min(FIRST, cycles), cycles, 25).astype(int))
     for k in range(DRAWN):
-        estimates = np.mean([one.running[after - 1, k] for one, _, _ in found], axis=0)
-        error = np.mean([errors[k] for _, errors, _ in found]) * np.sqrt(cycles / after / len(found))
+        estimates = np.mean([one.spectrum.running[after - 1, k] for one in found], axis=0)
+        error = np.mean([one.errors[k] for one in found]) * np.sqrt(cycles / after / len(found))
         yield curve(RUNNING, f"{case}, {k + 1}", number=k + 1, cycles=after, estimate=_finite(estimates), spread=error)
 
 
@@ -122,9 +146,9 @@ def draw_running(axes, table, _="") -> None:
             "clip_on": False,
             "label": RUNNING,
         }
-        axes.plot(1.03 * line["cycles"].iloc[-1], line["estimate"].iloc[-1], **looks)
+        axes.plot(1.17 * line["cycles"].iloc[-1], line["estimate"].iloc[-1], **looks)
     _common(axes, table["estimate"])
-    axes.set(xlabel="cycles", xlim=(table["cycles"].min(), table["cycles"].max()))
+    axes.set(xscale="log", xlabel="cycles", xlim=(table["cycles"].min(), table["cycles"].max()))
 
 
 def cases_of(table) -> list[str]:

@@ -37,11 +37,14 @@ class Proof:
 
     isolated: pairs of charts and the boxes of their parameters, each with exactly one fixed point.
     undecided: the same, where nothing is proved; everywhere else there is none with v^2 in [-1, 1].
+    motions: how many of the isolated points are motions at leading order, C_i > 0 and v_i^2 > 0; a box across 0 is not
+        counted. On the asymmetric branch C is positive anyway.
     complete: nothing is undecided, and `search` lists exactly one point in each isolated box.
     """
 
     isolated: list[tuple[tuple[str, str], Box]]
     undecided: list[tuple[tuple[str, str], Box]]
+    motions: int
     complete: bool
 
 
@@ -53,7 +56,7 @@ def certify(system) -> Proof:
     """
     listed = search(system)
     if system.has_undriven_module:
-        return Proof([], [], not listed)
+        return Proof([], [], 0, not listed)
     isolated, undecided, complete = [], [], True
     with ctx.workprec(BITS):
         for pair in PAIRS:
@@ -62,7 +65,8 @@ def certify(system) -> Proof:
             complete &= not unclear and matched(found, [point.x for point in listed if point.charts == pair])
             isolated += [(pair, box) for box in found]
             undecided += [(pair, box) for box in unclear]
-    return Proof(isolated, undecided, complete)
+    motions = sum(all(low > 0 for low, _ in box) for _, box in isolated)
+    return Proof(isolated, undecided, motions, complete)
 
 
 def _meets(box):
