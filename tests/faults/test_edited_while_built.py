@@ -37,12 +37,15 @@ def held(name, mark, go):
 @pytest.fixture
 def slow(tree, tmp_path):
     """The project; a companion figure waits before it loads the module that draws it, and after it has drawn."""
-    load, last = "    figure = import_module(module)\n", "    save(figure.draw(computed), outputs, provenance)\n"
-    script = (tree / "workflow/scripts/companion.py").read_text()
+    load, last = (
+        "    figure = import_module(module)\n",
+        "    write_and_draw(figure, figure.compute(**given), outputs, provenance)\n",
+    )
+    script = (tree / "workflow/scripts/figure.py").read_text()
     assert load in script
     assert last in script
     before, after = ("    " + held("", tmp_path / name, tmp_path / f"go {name}") for name in ("before", "after"))
-    (tree / "workflow/scripts/companion.py").write_text(script.replace(load, before + load).replace(last, last + after))
+    (tree / "workflow/scripts/figure.py").write_text(script.replace(load, before + load).replace(last, last + after))
     return tree
 
 

@@ -33,9 +33,7 @@ def hear_ctrl_c():
 @pytest.fixture
 def held(tree):
     """The project with a figure that is drawn as soon as there is a file `go`."""
-    tree.edit(
-        "workflow/scripts/companion.py", "from importlib import import_module\n", f"from importlib import *\n{HOLD}"
-    )
+    tree.edit("workflow/scripts/figure.py", "from importlib import import_module\n", f"from importlib import *\n{HOLD}")
     return tree
 
 

@@ -51,7 +51,6 @@ def test_a_config_of_the_directory_goes_before_that_of_the_checkout(elsewhere, t
 @pytest.mark.parametrize(
     ("module", "page"),
     [
-        ("vibroimpact_pipeline.data_dictionary", "docs/data.md"),
         ("vibroimpact_pipeline.config.readme", "config/README.md"),
     ],
 )
@@ -87,7 +86,7 @@ def test_a_command_that_compiles_does_so_for_the_checkout(tmp_path, script):
 @pytest.mark.parametrize("others", [None, "/nowhere"], ids=["nothing", "a path of others"])
 def test_jobs_use_the_library_beside_the_rules(tree, others):
     """Not the one that is installed, which is that of this checkout."""
-    tree.edit("workflow/scripts/companion.py", "from importlib import import_module\n", PRINTED)
+    tree.edit("workflow/scripts/figure.py", "from importlib import import_module\n", PRINTED)
     tree.snakemake("companion_10_04", PYTHONPATH=others)
     log = (tree / "results/logs/companions/companion_10_04.log").read_text()
     assert f"library: {tree / 'src/vibroimpact/__init__.py'}\n" in log

@@ -12,6 +12,7 @@ from rocrate.rocrate import ROCrate
 
 from archives import COMMITTED, archive_of, unpacked
 from pipeline_trees import ROOT
+from vibroimpact.figures.specs import specs
 from vibroimpact_pipeline.archive.codecheck import command
 
 METADATA, CONFIG = "ro-crate-metadata.json", yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
@@ -154,12 +155,12 @@ def test_the_manifest_lists_every_figure_once_with_what_makes_it(tree, manifest)
     pictures = {str(path.relative_to(tree.path)) for path in (tree / "results").rglob("*.png")}
     assert sorted(listed) == sorted(pictures)
     assert {f"results/figures/{figure}.png" for figure in CONFIG["figures"]} <= pictures
-    cards = yaml.safe_load((ROOT / "report/figures.yaml").read_text(encoding="utf-8"))
+    known = specs()
     for entry in manifest["manifest"]:
         figure = entry["file"].split("/")[-1].removesuffix(".png")
         assert entry["command"] == command(figure)
         if not figure.startswith("fig10_"):
-            assert entry["comment"].startswith(cards[figure]["title"])
+            assert entry["comment"].startswith(known[figure]["title"])
     assert manifest["version"] == "https://codecheck.org.uk/spec/config/1.0/"
     assert manifest["paper"]["title"] == CITATION["references"][0]["title"]
 

@@ -12,13 +12,13 @@ from vibroimpact_pipeline.archive.descriptions import Descriptions
 from vibroimpact_pipeline.data_dictionary import read
 
 COMMIT, DATE = "0123456789abcdef" * 2 + "01234567", "2020-02-03T04:05:06+00:00"
-CARDS, DATA = read(ROOT)
+SPECS, DATA = read(ROOT)
 
 
 def root_of(modified=(), unknown=()):
     members = {name: ROOT / name for name in ("README.md", "Snakefile", "config/config.yaml", "profiles")}
     state = State(COMMIT, DATE, [*members], [*modified], [*unknown])
-    said = Descriptions({name: card for name, card in CARDS.items() if not name.startswith("own_")}, DATA)
+    said = Descriptions(SPECS, DATA)
     document = json.loads(crate(members, state, citation(ROOT), [], said))
     return next(entity for entity in document["@graph"] if entity["@id"] == "./")
 
