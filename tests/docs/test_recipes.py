@@ -13,8 +13,7 @@ import pytest
 
 import compiled_code
 from pipeline_trees import ROOT, Tree, copied
-from vibroimpact_pipeline.data_dictionary import compared, read
-from vibroimpact_pipeline.figure_check.compare import check, tolerances
+from vibroimpact_pipeline.data_dictionary import page, read
 
 COMPILED = ".cache/numba"
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
@@ -101,12 +100,8 @@ def test_a_figure_can_be_added(project):
         assert (project / f"results/figures/companion_speed.{kind}").stat().st_size > 1000
     record = json.loads((project / "results/figures/companion_speed.provenance.json").read_text())
     assert set(record["config"]) == {"system.kappa", "stability.companion_10_04.C_max"}
-    assert (
-        "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in (project / "docs/data.md").read_text()
-    )
-    limits = tolerances(compared(read(project.path)[0]))
+    assert "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in page(*read(project.path))
     folder = project / "results/figures"
-    assert check("companion_speed", folder, folder, limits)["reasons"] == []
     for figure in ("strong_planes", "strong_motion"):
         assert (folder / f"{figure}.png").stat().st_size > 1000
 

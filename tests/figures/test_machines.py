@@ -31,7 +31,7 @@ def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_tho
     for hertz, swing in line[["frequency", "swing"]].to_numpy()[::50]:
         moving = velocities(SCENE["plant"], hertz)
         assert swing == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * hertz), rel=1e-9)
-    idle = made["summary"].loc[0.05]
+    idle = made["summary"].set_index("L").loc[0.05]
     moving = velocities(SCENE["plant"], idle["frequency"])
     assert idle["power"] == pytest.approx(
         0.5 * (moving.real @ [SCENE["plant"][name] for name in ("F10", "F20")]), rel=1e-3
@@ -60,7 +60,7 @@ def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
 
 
 def test_the_figure_shows_every_clearance(made):
-    response, motion = machines.draw(made["csv"]).axes
+    response, motion = machines.draw(made).axes
     assert [line.get_label() for line in response.lines][2:] == [
         f"balls, $L = {1000 * L:g}$ mm" for L in SCENE["clearances"]
     ]

@@ -24,11 +24,11 @@ SPEC = {
     "title": "Which balls serve best",
     "caption": r"The highest :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat "
         "f_{i0}`, in a band of frequencies. a: over the clearance; triangles: from rest only one ball ever meets a "
-        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the lowest peak over the "
-        "clearance, for each restitution, measured again from rest and seven other starts at twice as many frequencies; "
-        "upright bars: its spread, if these starts were drawn again. c: the peak over both. Stars: where a sweep has its "
-        "lowest peak, in a and b as high as measured again; level bars: clearances whose peak is at most 1.25 times as "
-        "high.",
+        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the lowest peak over "
+        "the clearance, for each restitution, measured again from rest and seven other starts at twice as many "
+        "frequencies; upright bars: its spread, if these starts were drawn again. c: the peak over both. Stars: where "
+        "a sweep has its lowest peak, in a and b as high as measured again; level bars: clearances whose peak is at "
+        "most 1.25 times as high.",
     "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
         "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
@@ -65,8 +65,8 @@ SPEC = {
                     r"lowest of all. stroke: the largest $\lvert X_i - Y_i\rvert/f$ of linear absorbers in the band, "
                     "the room that they need to each side, as balls have the clearance. Of balls against who, at one "
                     "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
-                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who", "unit": "text", "values": ["peak",
-                    "lowest peak", "plateau", "stroke", "frequencies won", "least", "greatest"]},
+                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who", "unit": "text",
+                    "values": ["peak", "lowest peak", "plateau", "stroke", "frequencies won", "least", "greatest"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
                     "one ball at the kappa of the config while the other meets no wall, or what they are held against",
                     "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",

@@ -1,0 +1,83 @@
+"""All published figures, drawn of their tables: fit for print, told without colour, the same bytes every time."""
+
+from importlib import import_module
+
+import matplotlib
+import matplotlib.colors
+import numpy as np
+import pytest
+import yaml
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from vibroimpact.figures.specs import made, specs
+
+from pipeline_trees import ROOT
+from vibroimpact.figures import fig10_04
+from vibroimpact.figures.kit import style, tables
+from vibroimpact_pipeline.figure_check.check import kept
+
+FIGURES = made(yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8")), specs())
+
+
+@pytest.fixture(scope="module", params=FIGURES)
+def figure(request):
+    name, spec = request.param, FIGURES[request.param]
+    read = {key: tables.read(ROOT / "figures" / file) for key, (file, _) in kept(name, spec).items()}
+    drawn = style.drawn(import_module(f"vibroimpact.figures.{spec['module']}"), read)
+    drawn.draw_without_rendering()
+    return drawn
+
+
+def lightness(colour):
+    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
+    channels = np.array(matplotlib.colors.to_rgb(colour))
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
+
+
+def test_fit_for_print(figure):
+    """Width of a column or page; nothing beyond the paper; lettering that can be read; no line told by hue alone."""
+    width, height = figure.get_size_inches() * 25.4
+    assert round(width, 6) in (84, 174)
+    assert height < 235
+    needed = figure.get_tightbbox()
+    assert min(needed.x0, needed.y0) > -0.02
+    assert needed.x1 < width / 25.4 + 0.02
+    assert needed.y1 < height / 25.4 + 0.02
+    for text in figure.findobj(Text):
+        assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.499, text.get_text()
+    hues = {matplotlib.colors.to_rgb(line.get_color()) for line in figure.findobj(Line2D)}
+    hues = {hue for hue in hues if len(set(hue)) > 1}
+    assert all(np.diff(sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)})) > 15)
+    assert hues <= {matplotlib.colors.to_rgb(text.get_color()) for text in figure.findobj(Text)}
+
+
+def test_same_bytes_again_whatever_the_user_has_set_and_no_date(tmp_path):
+    table = tables.read(ROOT / "figures/fig10_04.csv")
+    written = []
+    for folder, size in (("one", 10), ("two", 20)):
+        (tmp_path / folder).mkdir()
+        outputs = {kind: tmp_path / folder / kind for kind in ("png", "pdf", "svg")}
+        with matplotlib.rc_context({"font.size": size, "savefig.dpi": 50, "svg.hashsalt": None}):
+            before = dict(matplotlib.rcParams)
+            style.save(fig10_04.draw(table), outputs)
+            assert dict(matplotlib.rcParams) == before
+        written.append({kind: path.read_bytes() for kind, path in outputs.items()})
+    assert written[0] == written[1]
+    assert not any(mark in written[0]["pdf"] for mark in (b"CreationDate", b"ModDate"))
+    assert b"dc:date" not in written[0]["svg"]
+
+
+def test_a_picture_is_drawn_of_what_was_written(tmp_path, monkeypatch):
+    given = []
+    monkeypatch.setattr(fig10_04, "draw", lambda table: given.append(table) or style.new_figure(84, 50))
+    table = fig10_04.compute(kappa=0.65, C_max=2.0)
+    style.write_and_draw(fig10_04, table, {"csv": tmp_path / "t.csv", "png": tmp_path / "t.png"})
+    assert given[0] is not table
+    assert given[0].equals(table)
+
+
+def test_a_table_keeps_every_digit(tmp_path):
+    values = np.array([0.1, 1 / 3, 5e-324, 1.7976931348623157e308, -0.0, np.pi])
+    tables.write(tables.join([tables.curve("p", "s", x=values, y=values[::-1])]), tmp_path / "t.csv")
+    assert (tables.read(tmp_path / "t.csv")["x"].to_numpy().view("i8") == values.view("i8")).all()
