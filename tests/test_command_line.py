@@ -128,8 +128,7 @@ def test_a_run_that_fails_is_one_line(capsys):
 
 
 @pytest.mark.parametrize(
-    "words",
-    ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"],
+    "words", ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"]
 )
 def test_pictures_beside_the_table(capsys, tmp_path, words):
     paths = tmp_path / "table.csv", tmp_path / "picture.svg"

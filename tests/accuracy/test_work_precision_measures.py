@@ -9,16 +9,11 @@ from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
-from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-SYSTEM = System(
-    **PARAMETERS,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
+SYSTEM = System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 PROBLEM = Problem("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
 
 
@@ -111,13 +106,6 @@ def test_what_is_compiled_is_compiled_before_anything_is_timed(compiles, setting
     seen = []
     measure(PROBLEM, [Noting()], seconds=0.0)
     assert seen == settings
-
-
-def test_the_short_form_keeps_the_finest_setting():
-    euler = next(method for method in METHODS if method.name == "Moreau-Jean")
-    settings = [row["setting"] for row in measure(PROBLEM, [euler], seconds=0.0, short=True)]
-    assert settings == [str(setting) for setting in euler.ladder[::2]]
-    assert settings[-1] == str(euler.ladder[-1])
 
 
 def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():

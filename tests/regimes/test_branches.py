@@ -102,15 +102,6 @@ def test_neimark_sacker_points_have_a_complex_pair_on_the_unit_circle(path, foun
         assert abs(abs(pair) - 1).min() < 1e-9
 
 
-def test_the_stable_pair_loses_stability_at_its_neimark_sacker_point(path, found):
-    node = min(special(found, AsymmetricOrbits, NEIMARK_SACKER), key=lambda node: abs(node.p - 0.817))
-    largest = [
-        abs(next(o for o in orbits_at(path, node.p + shift, node.amplitudes) if not o.symmetric).multipliers).max()
-        for shift in (-1e-4, 1e-4)
-    ]
-    assert largest[0] > 1 > largest[1]
-
-
 def test_period_doublings_have_a_multiplier_minus_one(path, found):
     for node in special(found, AsymmetricOrbits, PERIOD_DOUBLING):
         assert abs(engine_multipliers(path, AsymmetricOrbits, node) + 1).min() < 1e-7
@@ -185,15 +176,6 @@ def test_of_two_mirror_images_one_is_followed(path, found):
     assert crossings == len(pairs) / 2
 
 
-def test_uncoupled_modules_do_not_feel_the_other_force(chapter):
-    """C_1 is the same all along a path in f20."""
-    path = Path(chapter(alpha12_hat=0.0, gamma12_hat=0.0), ("f20_hat",))
-    for family in (SymmetricOrbits, FixedPoints):
-        for branch in branches(family, path, (1.0, 1.1), [1.05], longest=0.1):
-            C1 = np.array([node.amplitudes[0] for node in branch.nodes])
-            np.testing.assert_allclose(C1, C1[0], rtol=1e-9)
-
-
 def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
     """A step towards negative epsilon is shortened; what is reached is a root, and the theory's is 10 epsilon away."""
     system = chapter()
@@ -205,12 +187,3 @@ def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
         assert node.p > 0
         assert abs(SymmetricOrbits.equations(path(node.p), node.x)[0]).max() < 1e-10
         assert min(np.linalg.norm(point.C - node.amplitudes) for point in vi.fixed_points(system)) < 10 * node.p
-
-
-def test_fixed_points_do_not_depend_on_epsilon(chapter):
-    """Straight branches, each found once from several seeds."""
-    system = chapter()
-    found = branches(FixedPoints, Path(system, ("epsilon",)), (0.01, 0.1), [0.02, 0.05, 0.09], longest=0.1)
-    amplitudes = sorted(branch.nodes[0].amplitudes.tolist() for branch in found)
-    np.testing.assert_allclose(amplitudes, [point.C for point in vi.fixed_points(system)], atol=1e-9)
-    assert not any(branch.special for branch in found)

@@ -94,10 +94,6 @@ def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(c
     assert observe(system, settled, 24, 0.02).name == UNSETTLED
 
 
-def simulate_steady(system):
-    return vi.simulate(system, np.zeros(8), 300).final
-
-
 def test_other_periodic_motions_repeat(chapter, observation):
     system = chapter(0.3, 1.4)
     regimes = settle(system, starts(6, seed=1)[1:], observation)
@@ -117,11 +113,3 @@ def test_mirrored_starts_under_mirrored_forces_end_in_mirrored_regimes(chapter, 
         assert [a.name for a in ours] == [b.name for b in mirrored]
         for a, b in zip(ours, mirrored, strict=True):
             np.testing.assert_allclose(a.run.final, -b.run.final, atol=1e-8)
-
-
-def test_starts_are_admissible_and_begin_with_rest():
-    states = starts(200, seed=1, reach=0.7)
-    assert not states[0].any()
-    assert np.all(np.abs(states[:, [0, 2]] - states[:, [1, 3]]) < 1)
-    assert np.abs(states[:, [0, 2, 4, 5, 6, 7]]).max() <= 0.7
-    assert np.array_equal(states, starts(200, seed=1, reach=0.7))

@@ -71,12 +71,6 @@ def test_one_harmonic_is_the_describing_function(chapter_system):
     assert min(abs(solution[0] - C) for solution in found) < 1e-8
 
 
-@pytest.mark.parametrize("highest", [0, 2, -1])
-def test_only_odd_harmonics(chapter_system, highest):
-    with pytest.raises(ValueError, match="odd"):
-        HarmonicResponse(chapter_system, highest)
-
-
 def test_two_terms_are_right_to_second_order(chapter_system):
     point = vi.fixed_points(chapter_system)[-1]
     C = first_order(chapter_system, point, two_terms.STEP)

@@ -65,9 +65,3 @@ def test_the_pair_is_lost_where_its_module_passes_the_fold(pair):
     assert above.C[0] > C_min(R) > below.C[0]
     assert (above.slow_verdict(), above.fast_verdict(EQUAL.kappa)) == ("stable", "stable")
     assert (below.slow_verdict(), below.fast_verdict(EQUAL.kappa)) == ("unstable", "unstable")
-
-
-def test_what_is_never_lost_or_never_held_has_no_factor(pair):
-    others = [point for point in fixed_points(EQUAL) if point is not pair and point.C.min() < C_min(R)]
-    assert others
-    assert all(np.isnan(lost_at(EQUAL, point)) for point in others)

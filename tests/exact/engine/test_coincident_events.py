@@ -222,14 +222,3 @@ def test_events_at_the_start(first, second, expected, swap):
     instant = vi.simulate(system, start, 0, sample_times=[0.0])  # the start is also the end, and a sample
     assert_same_motion(vi.simulate(system, instant.final, 1), run.events[run.events["tau"] > 0.0], run.final)
     np.testing.assert_array_equal(instant.samples[0], instant.final)
-
-
-def test_a_ball_that_sticks_has_no_impact(chapter):
-    """The combinations that the tables above leave out cannot happen."""
-    events = vi.simulate(chapter(0.5, 0.5), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3000).events
-    after_sticks = []
-    for module in (1, 2):
-        kinds = events["kind"][events["module"] == module]
-        after_sticks += [*kinds[1:][kinds[:-1] == STICK]]
-    assert len(after_sticks) > 10
-    assert set(after_sticks) == {RELEASE}

@@ -40,13 +40,6 @@ def test_a_thousand_runs_of_mixed_systems_end_as_simulate_says_bit_by_bit(chapte
         np.testing.assert_array_equal(vi.simulate(system, state, 12, 0.4).final, outcome["final"])
 
 
-def test_observed_runs_end_the_same_whatever_is_settled(case):
-    states = starts(20)
-    ends = [vi.ensemble(case, states, 9, settle=settle)["final"] for settle in (0, 4, 9)]
-    np.testing.assert_array_equal(ends[0], ends[1])
-    np.testing.assert_array_equal(ends[0], ends[2])
-
-
 def flights(run, opening):
     """Ends of the flights of a run, cut where observation begins."""
     times = run.events["tau"]
@@ -210,29 +203,3 @@ def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, se
     anew = vi.ensemble(quiet, there, 40 - settle)
     for name in ("largest", "mean_square", "ball_speed"):
         np.testing.assert_allclose(late[name], anew[name], rtol=1e-10)
-
-
-def test_progress_is_reported(case, capsys):
-    vi.ensemble(case, starts(5), 3, progress=True)
-    assert capsys.readouterr().err.endswith("5/5 runs\n")
-
-
-@pytest.mark.parametrize(
-    ("name", "arguments"),
-    {
-        "systems": dict(systems="equal"),
-        "systems of another kind": dict(systems=[None]),
-        "states": dict(states=np.zeros(7)),
-        "states do not": dict(systems=2, states=np.zeros((3, 8))),
-        "cycles": dict(cycles=-1),
-        "settle": dict(settle=4),
-        "settle below": dict(settle=-1),
-        "tau0": dict(tau0=np.nan),
-    }.items(),
-)
-def test_malformed_arguments_are_refused(case, name, arguments):
-    given = dict(systems=case, states=np.zeros(8), cycles=3) | arguments
-    if given["systems"] == 2:
-        given["systems"] = [case, case.with_(kappa=0.5)]
-    with pytest.raises(ValueError, match=f"^{name.split()[0]}: "):
-        vi.ensemble(**given)

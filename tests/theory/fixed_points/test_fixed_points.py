@@ -14,11 +14,7 @@ from vibroimpact.theory.fixed_points import real_zeros
 from vibroimpact.theory.fixed_points.search import search
 from vibroimpact.theory.slow_flow import rates
 
-CHAPTER = {
-    **PARAMETERS,
-    "f10_hat": 1.0,
-    "f20_hat": 1.0,
-}
+CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 IDENTICAL = {"sigma20_hat": 0.0}
 UNCOUPLED = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 UNDAMPED = {"gamma1_hat": 0.0, "gamma2_hat": 0.0, "gamma12_hat": 0.0}
@@ -176,14 +172,6 @@ def test_swapping_the_modules_swaps_the_points(values):
         assert min(np.abs(point.C - other.C[::-1]).max() for other in theirs) < 1e-5
 
 
-def test_reversing_the_forces_turns_the_phases_by_half_a_cycle():
-    system = build()
-    turned = system.with_(f10_hat=-1.0, f20_hat=-1.0)
-    for ours, theirs in zip(vi.fixed_points(system), vi.fixed_points(turned), strict=True):
-        assert np.abs(ours.C - theirs.C).max() < 1e-12
-        assert np.exp(1j * ours.psi) == pytest.approx(-np.exp(1j * theirs.psi), rel=1e-12)
-
-
 def test_epsilon_does_not_enter():
     """(10.23) is the order-epsilon balance: all its parameters are hatted."""
     for epsilon in (1e-6, 5.0):
@@ -240,21 +228,6 @@ def test_uncoupled_modules_stand_alone(changes):
     assert np.array(found).reshape(-1, 2) == pytest.approx(np.array(expected).reshape(-1, 2), abs=1e-11)
 
 
-@pytest.mark.parametrize("force", [0.2, 0.5, 1.2, 1.3, 2.0])
-@pytest.mark.parametrize("sense", [1, -1])
-def test_identical_modules_have_mirrored_pairs(force, sense):
-    found = everything(build(IDENTICAL | {"f10_hat": force, "f20_hat": sense * force}))
-    C = np.array([point.C for point in found]).reshape(-1, 2)
-    for mirrored in C[:, ::-1]:
-        assert np.count_nonzero(np.abs(C - mirrored).max(axis=1) < 1e-9) == 1
-
-
-def test_identical_modules_can_have_five_points():
-    points = vi.fixed_points(build(IDENTICAL | {"f10_hat": 1.25, "f20_hat": 1.25}))
-    assert len(points) == 5
-    assert sum(abs(point.C[0] - point.C[1]) < 1e-9 for point in points) == 1
-
-
 @pytest.mark.parametrize("loss", [1e-3, 1e-5, 3e-6, 1e-7, 1e-10])
 def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     """Undamped and almost elastic: two of the points differ in C by some 4 loss, in phase by much more."""
@@ -268,11 +241,6 @@ def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     assert np.abs(close).max() < 5 * loss
     assert points[2].psi == pytest.approx(-points[3].psi, abs=10 * loss)
     assert np.abs(points[2].psi).min() > 0.1
-
-
-def test_without_forces_there_is_no_response():
-    found = search(build({"f10_hat": 0.0, "f20_hat": 0.0}))
-    assert (found.points, found.outside, found.radius) == ([], [], 0.0)
 
 
 RESONANT = UNDAMPED | IDENTICAL

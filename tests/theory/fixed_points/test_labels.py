@@ -10,11 +10,7 @@ from vibroimpact.theory.masri_printed import printed_limit
 
 
 def labelled(f20_hat):
-    system = vi.System(
-        **PARAMETERS,
-        f10_hat=1.0,
-        f20_hat=f20_hat,
-    )
+    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=f20_hat)
     points = vi.fixed_points(system)
     return dict(zip(labels(system, points), points, strict=True)), manifold.rho(system.kappa)
 
