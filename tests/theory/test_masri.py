@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -120,6 +120,42 @@ def test_no_slip_in_one_or_two_terms_gives_the_printed_limit(reading):
 # A ball between walls that oscillate as prescribed
 
 
+def mirrored_impact(phase, speed, B, kappa):
+    """Phase of U and slope of W - U after the next impact, mirrored so that a symmetric motion is a fixed point.
+
+    The ball leaves W = 1 at the phase and flies straight in W - U until W = -1; then Newton's rule.
+    """
+
+    def miss(later):
+        return 2 - B * (mpmath.sin(later) + mpmath.sin(phase)) + speed * (mpmath.pi + later - phase)
+
+    later = mpmath.findroot(miss, phase)
+    before = -B * mpmath.cos(later) + speed
+    return later, -(-kappa * before + B * mpmath.cos(later))
+
+
+@settings(max_examples=20)
+@given(st.floats(0.05, 0.95), st.floats(0.1, 4))
+def test_multipliers_are_those_of_the_impact_map(kappa, C):
+    with mpmath.workdps(40):
+        k, c = mpmath.mpf(kappa), mpmath.mpf(C)
+        r = 2 * (1 - k) / (mpmath.pi * (1 + k))
+        B = mpmath.sqrt((1 - c) ** 2 + (r * c) ** 2)
+        phase, speed = mpmath.atan2(1 - c, r * c), -2 * c / mpmath.pi
+        at = mirrored_impact(phase, speed, B, k)
+        assert max(abs(at[0] - phase), abs(at[1] - speed)) < mpmath.mpf(10) ** -30
+        h = mpmath.mpf(10) ** -15
+        columns = []
+        for change in ((h, 0), (0, h)):
+            ahead = mirrored_impact(phase + change[0], speed + change[1], B, k)
+            behind = mirrored_impact(phase - change[0], speed - change[1], B, k)
+            columns.append([(a - b) / (2 * h) for a, b in zip(ahead, behind, strict=True)])
+        step = np.array(columns, dtype=float).T
+    found = masri.impact_multipliers(C, kappa)
+    assert found.prod().real == pytest.approx(np.linalg.det(step), rel=1e-9)
+    assert found.sum().real == pytest.approx(np.trace(step), rel=1e-9, abs=1e-9)
+
+
 class Ball:
     """A free ball in a box that moves as B sin t: exact flights, the first wall found by scanning and root finding."""
 
@@ -179,28 +215,13 @@ def test_outside_the_limits_the_ball_departs(kappa, C):
     assert found[-1] > 3 * found[0]
 
 
-def test_above_the_upper_limit_an_asymmetric_motion_attracts():
-    """Period one, unequal flights; its mirror image attracts the mirrored start."""
-    ball = Ball(1.75, 0.65)
-    flights = {}
-    for side in (1, -1):
-        t, slope, wall = ball.start[0] + 1e-3 * side, ball.start[1], 1.0
-        times = []
-        for _ in range(400):
-            t, slope, wall = ball.next_impact(t, slope, wall)
-            times.append(t)
-        flights[side] = np.diff(times)[-4:]
-        assert flights[side][0] == pytest.approx(flights[side][2], abs=1e-8)
-        assert flights[side].sum() == pytest.approx(4 * np.pi, abs=1e-8)
-        assert abs(flights[side][0] - np.pi) > 0.1
-    np.testing.assert_allclose(flights[1][:2], flights[-1][1:3], atol=1e-7)
-
-
 # Limits and verdict
 
 
 @given(kappas)
 def test_both_readings_of_10_26_lie_below_the_fold(kappa):
+    """4 / (4 + pi rho) is 2 (1 + kappa) / (3 + kappa)."""
+    assert printed_limit(rho_of(kappa)) == pytest.approx(2 * (1 + kappa) / (3 + kappa), rel=1e-14)
     assert printed_limit(rho_of(kappa)) == pytest.approx(LIMITS["printed"](kappa), rel=1e-14)
     assert limit_with_squares(rho_of(kappa)) == pytest.approx(LIMITS["with squares"](kappa), rel=1e-13)
     for limit in LIMITS.values():
@@ -223,6 +244,8 @@ def test_three_states(kappa, C, error):
 
 @pytest.mark.parametrize("limit", [FOLD, BREAKING])
 def test_at_a_limit_rounding_leaves_it_undecided(limit):
+    with pytest.raises(ValueError, match=r"^C: 0\.0 is a grazing motion"):
+        masri.impact_multipliers(0.0, 0.65)
     assert masri.stable(limit, 0.65) == "undecided"
     assert masri.stable(limit + 1e-12, 0.65) != masri.stable(limit - 1e-12, 0.65)
 

@@ -59,11 +59,13 @@ def test_limit_of_elastic_impacts_by_trigonometry():
     assert penetration.largest_C(1 - 1e-9) == pytest.approx(best.fun, rel=1e-8)
 
 
-@pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6])
+@pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6, 3e-5])
 def test_limit_of_plastic_impacts(kappa):
-    """The series for small kappa: p^2 = 3 kappa and C = 1 + (4 / pi) p / 3 * ... tend to 0 and 1."""
-    assert penetration.grazing_time(kappa) == pytest.approx(2 * np.sqrt(3 * kappa), rel=1e-6)
-    assert penetration.largest_C(kappa) == pytest.approx(1 + 8 * np.sqrt(kappa / 3) / np.pi, abs=1e-5)
+    """tan(p) / p = 1 + kappa in 400 digits, p half the grazing time; C = 1 + (8 / pi) sqrt(kappa / 3) + ..."""
+    with mpmath.workdps(400):
+        p = mpmath.findroot(lambda p: mpmath.tan(p) - p * (1 + mpmath.mpf(kappa)), mpmath.sqrt(3 * mpmath.mpf(kappa)))
+    assert penetration.grazing_time(kappa) == pytest.approx(float(2 * p), rel=1e-12)
+    assert penetration.largest_C(kappa) == pytest.approx(1 + 8 * np.sqrt(kappa / 3) / np.pi, abs=3 * kappa + 1e-15)
 
 
 @given(kappas, st.floats(-5, 5))

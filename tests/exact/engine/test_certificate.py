@@ -4,8 +4,33 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from attacks import fast_attack, truth
+from attacks import Observer, fast_attack, truth
 from vibroimpact.exact.engine.certificate import KNOWN
+
+MISSES = [
+    # forces, changes, start, cycles and the nearest miss that dense samples show
+    ((0.3664, 0.3071), dict(kappa=0.4582, sigma_e_hat=-0.2001),
+     [0.1712, -0.3204, -0.6147, -1.1425, -0.7531, -0.2159, -0.7851, 0.2308], 10, 3.0e-4),  # turns twice in one proof
+    ((0.634, 0.614), {}, [0, -0.528, 0, 0.327, 0, 0.477, 0, -0.261], 20, 1.87e-4),
+    ((1.097, 0.85), {}, [0, 0.761, 0, 0.021, 0, -0.574, 0, -0.735], 20, 6.2e-4),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("forces", "changes", "start", "cycles", "miss"), MISSES)
+def test_the_nearest_miss_is_seen(chapter, forces, changes, start, cycles, miss):
+    system = chapter(*forces, **changes)
+    run = vi.simulate(system, start, cycles)
+    assert run.certificate.nearest_miss == pytest.approx(Observer(system).nearest_miss(run), abs=1e-12)
+    assert run.certificate.nearest_miss == pytest.approx(miss, rel=0.01)
+
+
+def test_the_error_includes_the_rounding_of_the_final_state():
+    system = vi.System(
+        epsilon=0.5, kappa=0.65, alpha12_hat=60, gamma1_hat=0, gamma2_hat=10, gamma12_hat=0, sigma20_hat=0.6,
+        sigma_e_hat=-1.8, f10_hat=200, f20_hat=20,
+    )  # fmt: skip
+    run = vi.simulate(system, [0.084525, 1.084524, 1.149032, 0.949032, 0, 0, 0, 0.5], 1)
+    assert run.certificate.error >= np.finfo(float).eps * np.abs(run.final).max()
 
 
 @pytest.mark.parametrize("units", range(20, 40))
@@ -36,6 +61,7 @@ def test_the_horizon_is_tested_at_the_end_too(chapter):
     for cycles in range(33, 45):
         certificate = vi.simulate(system, start, cycles).certificate
         assert certificate.error <= KNOWN or (np.isinf(certificate.error) and certificate.horizon < np.inf)
+        assert np.isfinite(certificate.error) or not certificate.decided
 
 
 def test_the_error_under_fast_strong_forcing():

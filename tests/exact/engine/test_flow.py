@@ -49,19 +49,6 @@ def zeros_of(c):
     return sorted(r.real for r in np.roots(np.trim_zeros(c[::-1], "f")) if abs(r.imag) < 1e-9 and r.real > 0)
 
 
-def test_jet_against_50_digits(chapter):
-    system = chapter(1.0, 0.6)
-    z = [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]
-    with mp.workdps(50):
-        for mode, stuck in enumerate(CONTACT_STATES):
-            term = mp.matrix(z)
-            rate = mp.matrix(rate_matrix(system, stuck).tolist())
-            jets = jet(flow_of(system).coefficients, mode, tuple(z[:4]), z[4], z[5])
-            for k in range(8):
-                assert [jets[0][k], jets[1][k]] == pytest.approx([float(term[0]), float(term[1])], abs=1e-15)
-                term = rate * term / (k + 1)
-
-
 @pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
 def test_the_table_is_rounded_once(chapter, changes):
     """Positions, velocities and phases are the floats next to the exact ones, on any machine; at some of the times."""
@@ -76,15 +63,18 @@ def test_the_table_is_rounded_once(chapter, changes):
                 np.testing.assert_array_equal(flow.rotations[j], exact[4, 4:])
 
 
-def test_series_of_the_table_against_50_digits(chapter):
+def test_series_along_a_flight_and_in_the_table_against_50_digits(chapter):
     system = chapter(1.0, 0.6)
     flow, z = flow_of(system), [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]
     with mp.workdps(50):
         for mode, stuck in enumerate(CONTACT_STATES):
             rate = mp.matrix(rate_matrix(system, stuck).tolist())
-            for j in (0, 1, len(flow.rotations) - 1):
-                term = mp.expm(rate * (j * flow.spacing)) * mp.matrix(z)
-                jets = series_at(flow, mode, j, tuple(z))
+            for j in (None, 0, 1, len(flow.rotations) - 1):
+                term = mp.expm(rate * ((j or 0) * flow.spacing)) * mp.matrix(z)
+                plain = j is None
+                jets = (
+                    jet(flow.coefficients, mode, tuple(z[:4]), *z[4:]) if plain else series_at(flow, mode, j, tuple(z))
+                )
                 for k in range(8):
                     assert [jets[0][k], jets[1][k]] == pytest.approx([float(term[0]), float(term[1])], abs=2e-15)
                     term = rate * term / (k + 1)

@@ -99,6 +99,7 @@ def test_samples_agree_with_flow_and_events(case, auditor):
 
 
 SPECTRA = {
+    "chapter": {},
     "uncoupled and identical": dict(alpha12_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0),
     "uncoupled": dict(alpha12_hat=0.0, gamma12_hat=0.0),
     "undamped": dict(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0),

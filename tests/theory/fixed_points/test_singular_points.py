@@ -39,17 +39,8 @@ DETERMINANT = eliminated()
 
 def derived(system, C):
     r = manifold.rho(system.kappa)
-    return DETERMINANT(
-        *manifold.B_of_C(np.asarray(C), r),
-        *C,
-        r,
-        system.alpha12_hat,
-        system.gamma12_hat,
-        system.gamma1_hat,
-        system.gamma2_hat,
-        system.sigma20_hat,
-        system.sigma_e_hat,
-    )
+    names = "alpha12_hat", "gamma12_hat", "gamma1_hat", "gamma2_hat", "sigma20_hat", "sigma_e_hat"
+    return DETERMINANT(*manifold.B_of_C(np.asarray(C), r), *C, r, *(getattr(system, name) for name in names))
 
 
 @pytest.mark.parametrize("C", [(0.2, 2.2), (1.1, 1.7), (0.9, 0.95), (3.0, 0.05)])
