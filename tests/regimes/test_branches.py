@@ -14,7 +14,6 @@ from vibroimpact.regimes.families import (
     FOLD,
     GRAZING,
     HOPF,
-    MANIFOLD_FOLD,
     NEIMARK_SACKER,
     PERIOD_DOUBLING,
     SPEED_ZERO,
@@ -24,7 +23,6 @@ from vibroimpact.regimes.families import (
     SymmetricOrbits,
 )
 from vibroimpact.system.matrices import rate_matrix
-from vibroimpact.theory.manifold import C_min, rho
 
 INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
 
@@ -156,13 +154,6 @@ def test_hopf_points_have_a_pair_on_the_imaginary_axis(chapter):
         point = min(vi.fixed_points(path(node.p)), key=lambda p: np.linalg.norm(p.C - node.amplitudes))
         values = point.slow_eigenvalues
         assert abs(values[values.imag > 0.1].real).min() < 1e-9
-
-
-def test_the_manifold_folds_at_C_min(path, found):
-    for node in special(found, FixedPoints, MANIFOLD_FOLD):
-        module = int(node.kind[-1])
-        point = min(vi.fixed_points(path(node.p)), key=lambda p: np.linalg.norm(p.C - node.amplitudes))
-        assert point.C[module - 1] == pytest.approx(C_min(rho(0.65)), abs=1e-9)
 
 
 def test_of_two_mirror_images_one_is_followed(path, found):

@@ -92,7 +92,9 @@ def test_how_symmetry_breaking_moves_with_epsilon(chapter_system, kappa):
         f20 = brentq(lambda f: np.prod(1 + half_period_multipliers(orbit(f))).real, 1.5, 1.9, xtol=1e-12)
         return (orbit(f20).C[1] - SYMMETRY_BREAKING_C) / epsilon
 
-    assert 2 * place(2e-3) - place(4e-3) == pytest.approx(SYMMETRY_BREAKING_SLOPE, abs=1e-4)
+    near = place(2e-3)
+    assert 2 * near - place(4e-3) == pytest.approx(SYMMETRY_BREAKING_SLOPE, abs=1e-4)
+    assert two_terms.symmetry_breaking(2e-3) == pytest.approx(SYMMETRY_BREAKING_C + 2e-3 * near, abs=2e-5)
 
 
 def test_point_c_gets_its_right_verdict(chapter_system, ladder):

@@ -34,11 +34,6 @@ def test_points_are_measured_and_runs_counted():
     assert min(found.seconds) >= 0
 
 
-def test_no_point_is_begun_once_enough_was_spent(monkeypatch):
-    monkeypatch.setattr(probing, "ENOUGH", -1.0)
-    assert len(probe(Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)]), Asked(("fixed_points",))).seconds) == 1
-
-
 def test_a_point_without_a_system_is_found_before_anything_is_measured(monkeypatch):
     monkeypatch.setattr(probing, "rows", None)
     with pytest.raises(ValueError, match=r"at kappa = 1: kappa: 1\.0 is not between 0 and 1"):

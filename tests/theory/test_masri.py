@@ -12,8 +12,7 @@ from scipy.optimize import brentq
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
-from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import masri
 from vibroimpact.theory.masri_printed import limit_with_squares, printed_limit
 
@@ -270,22 +269,3 @@ def test_fast_multipliers_of_exact_orbits_tend_to_masri_s(forcing):
             gaps.append(np.abs(fast / expected - 1))
         assert np.all(gaps[1] < 5e-3)
         np.testing.assert_allclose(gaps[0] / gaps[1], 2, rtol=0.05)
-
-
-def test_symmetry_breaks_at_the_upper_limit_as_epsilon_tends_to_0():
-    """One module alone, the forcing raised until the half-period multiplier is -1."""
-    alone = PARAMETERS | dict(alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
-
-    def upper(epsilon, f):
-        system = vi.System(**alone | dict(epsilon=epsilon), f10_hat=f, f20_hat=f)
-        return symmetric_orbit(system, max(symmetric_solutions(system), key=lambda root: root[2:].min()))
-
-    def above(f, epsilon):
-        found = half_period_multipliers(upper(epsilon, f))
-        return np.abs(found + 1).min() * np.sign(np.abs(found).max() - 1)
-
-    breaking = [upper(epsilon, brentq(above, 1.67, 1.69, args=(epsilon,), xtol=1e-9)).C[0] for epsilon in (2e-3, 1e-3)]
-    shift = BREAKING - np.array(breaking)
-    assert np.all(shift > 0)
-    assert shift[0] / shift[1] == pytest.approx(2, rel=0.01)
-    assert 2 * breaking[1] - breaking[0] == pytest.approx(BREAKING, abs=2e-5)

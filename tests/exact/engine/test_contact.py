@@ -58,6 +58,9 @@ def test_chatter_against_high_precision(chapter, kappa):
     # hops down to speeds of 6e-4 are timed from positions of 1.5 (box) and 2.5 (ball); each error goes on to later hops
     rounding = 4.0 * np.finfo(float).eps / (6e-4 * (1 - float(kappa)))
     np.testing.assert_allclose(impacts["tau"], times, rtol=0, atol=rounding)
+    truth = reference_run(system, start, 1, 40).events  # the reference is held to the same
+    np.testing.assert_allclose(truth["tau"][: len(times)], times, rtol=1e-15)
+    assert truth["tau"][truth["kind"] == STICK][0] == pytest.approx(float(end), rel=1e-15)
     assert stick["tau"] == pytest.approx(float(end), abs=1e-11)
     expected = [float(x), float(x) - 1, 0, 0, float(common), float(common), 0, 0]
     # the stick is reported at its own, slightly approximated instant: compare the states at the same instant

@@ -77,15 +77,6 @@ def test_mirror_symmetry(case):
     np.testing.assert_array_equal(mirrored.events["wall"], -run.events["wall"])
 
 
-def test_swap_of_identical_modules(chapter):
-    system = chapter(0.8, 0.6, sigma20_hat=0.0, gamma1_hat=0.3, gamma2_hat=0.3)
-    swapped = system.with_(f10_hat=0.6, f20_hat=0.8)
-    order = [2, 3, 0, 1, 6, 7, 4, 5]
-    run, other = vi.simulate(system, START, 12), vi.simulate(swapped, START[order], 12)
-    np.testing.assert_allclose(other.final[order], run.final, atol=1e-11)
-    np.testing.assert_array_equal(3 - other.events["module"], run.events["module"])
-
-
 def test_samples_agree_with_flow_and_events(case, auditor):
     times = np.sort(np.random.default_rng(1).uniform(0, 5 * case.period, 300))
     run = vi.simulate(case, START, 5, sample_times=times)

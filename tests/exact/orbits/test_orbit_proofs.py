@@ -13,9 +13,7 @@ from attacks import random_system  # noqa: E402
 from chapter import FORCES, PARAMETERS  # noqa: E402
 from stroboscope import ORDER, Stroboscope  # noqa: E402
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
-from vibroimpact.exact.orbits.floquet import contraction  # noqa: E402
 from vibroimpact.exact.orbits.floquet_verdict import floquet  # noqa: E402
-from vibroimpact.exact.orbits.newton import newton  # noqa: E402
 from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions  # noqa: E402
 from vibroimpact.exact.orbits.proof.krawczyk import krawczyk  # noqa: E402
 from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
@@ -101,12 +99,6 @@ def test_a_ball_that_just_misses_the_wall_or_does_not(chapter, beyond, motion):
     assert prove(orbit).motion == motion
 
 
-def test_the_multipliers_multiply_to_the_contraction(orbits, proofs):
-    for label, proof in proofs.items():
-        product = np.prod([complex(value) for value in proof.multipliers])
-        assert product == pytest.approx(contraction(orbits[label].system, 4), rel=1e-11)
-
-
 def test_intervals_and_floats_have_the_same_conditions(orbits):
     """Away from any root; the floats list the conditions in another order."""
     point = unknowns(orbits["A5"]) + np.linspace(-0.1, 0.2, 6)
@@ -115,16 +107,6 @@ def test_intervals_and_floats_have_the_same_conditions(orbits):
     for mine, theirs in zip(enclosed, AsymmetricConditions(orbits["A5"].system)(point[None]), strict=True):
         mine = np.array([[float(entry) for entry in row] for row in mine.tolist()])
         np.testing.assert_allclose(mine, theirs[0][by_module].reshape(mine.shape), atol=1e-11)
-
-
-def test_newtons_method_from_all_over_the_box_finds_one_root(orbits, proofs):
-    for label in ("S3", "A3", "A7"):
-        centre, radius = unknowns(orbits[label]), proofs[label].radius
-        starts = centre + radius * np.random.default_rng(1).uniform(-1, 1, (200, 6))
-        roots = newton(AsymmetricConditions(orbits[label].system), starts)
-        inside = roots[(abs(roots - centre) < radius).all(axis=1)]
-        assert len(inside) > 100
-        assert np.ptp(inside, axis=0).max() < 1e-11
 
 
 def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):
