@@ -19,6 +19,7 @@ from vibroimpact.regimes.classification import (
     QUASI_PERIODIC,
     STRONGLY_MODULATED,
     UNSETTLED,
+    observe,
     starts,
 )
 from vibroimpact.regimes.confusion import confusion
@@ -107,3 +108,16 @@ def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, obs
     long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
     assert set(short) & set(CHAOS)
     assert set(long) <= {ASYMMETRIC, UNSETTLED}
+
+
+def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, observation):
+    """Ball 2 stays at rest throughout; from some of the starts at least, the first module repeats every cycle then."""
+    system = chapter(0.5, 0.5)
+    states = np.zeros((10, 8))
+    states[:, 4] = 1e-6 * np.arange(10)
+    ended = 0
+    for state in states:
+        run = vi.simulate(system, state, 60000)
+        assert not (run.events["module"] == 2).any()
+        ended += observe(system, run.final, observation.window, observation.nearness).repeats == 1
+    assert ended >= 2

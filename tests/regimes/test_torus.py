@@ -53,3 +53,11 @@ def test_a_sweep_without_an_orbit_begins_at_rest(chapter):
     pushed = np.zeros(8)
     pushed[[4, 6]] = 1e-3
     assert (name, value, found) == ("down", 0.5, size(path(0.5), pushed, 10, 10)[0])
+
+
+def test_the_torus_is_gone_a_little_further_on(chapter):
+    """From the orbit's own surroundings a motion leaves for the strongly modulated response, many times as large."""
+    orbit = next(o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1)
+    near = orbit.state + 1e-3 * np.eye(8)[4]
+    assert size(chapter(1.0, 0.8165), near, 1000, 6000)[0] < 0.04
+    assert size(chapter(1.0, 0.8130), near, 1000, 6000)[0] > 0.3

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from vibroimpact.accuracy import hazards
+from vibroimpact.rivals import moreau_jean
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
 from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.rivals.right_hand_side import coefficients
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 
@@ -60,3 +62,11 @@ def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
     problem = next(one for one in hazards.hazards() if one.name == hazard)
     found = hazards.judge(problem, [method(name) for name in verdicts])
     assert {row["method"]: row["verdict"] for row in found} == verdicts
+
+
+def test_impacts_of_both_modules_in_one_step_obey_newton_together(motion):
+    """However long the step and strong the damper between the boxes, in Moreau and Jean's scheme."""
+    system = motion("periodic")[0].with_(gamma12_hat=50.0)
+    before = np.array([0.95, 0.0, -0.95, 0.0, 1.0, -1.0, -0.5, 1.5])
+    after = moreau_jean._march(coefficients(system), before, 0.0, 0.2, 1)[0]
+    np.testing.assert_allclose(after[[4, 6]] - after[[5, 7]], -system.kappa * np.array([2.0, -2.0]), rtol=1e-12)

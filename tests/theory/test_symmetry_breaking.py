@@ -1,8 +1,14 @@
 """Where asymmetric motions leave the symmetric ones: closed form at finite epsilon, its slope by computer algebra."""
 
+import numpy as np
 import pytest
 import sympy
+from scipy.optimize import brentq
 
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
 
@@ -45,3 +51,29 @@ def test_the_slope_by_computer_algebra():
     assert not slope.free_symbols
     assert float(slope) == pytest.approx(SYMMETRY_BREAKING_SLOPE, rel=1e-14)
     assert float(C.subs(epsilon, 0).simplify()) == pytest.approx(SYMMETRY_BREAKING_C, rel=1e-14)
+
+
+@pytest.mark.parametrize("kappa", [0.4, 0.65])
+def test_exact_orbits_break_their_symmetry_there(kappa):
+    """At epsilon = 0.1, where the half-period multiplier of a module alone, the second one, is -1."""
+    uncoupled = PARAMETERS | dict(alpha12_hat=0, gamma12_hat=0, sigma20_hat=0, kappa=kappa)
+
+    def orbit(force):
+        system = vi.System(**uncoupled, f10_hat=1.0, f20_hat=force)
+        return symmetric_orbit(system, max(symmetric_solutions(system), key=lambda root: root[2:].min()))
+
+    found = orbit(brentq(lambda force: np.prod(1 + half_period_multipliers(orbit(force))).real, 1.4, 1.7, xtol=1e-13))
+    system = found.system
+    rates = np.roots([1, system.gamma2, 1])
+
+    def start(rate):
+        return system.epsilon / (1 - np.exp(rate * system.period))
+
+    def half(rate):
+        return start(rate) * np.exp(rate * system.period / 2)
+
+    expected = C_at_breaking(system.epsilon, system.Omega, rates, start, half, np.pi)
+    assert found.C[1] == pytest.approx(expected.real, rel=1e-9)
+    assert abs(expected.imag) < 1e-12
+    two_terms = SYMMETRY_BREAKING_C + system.epsilon * SYMMETRY_BREAKING_SLOPE
+    assert abs(expected - two_terms) > 1e-3  # so this is more than the slope
