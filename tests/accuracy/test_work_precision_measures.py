@@ -9,16 +9,11 @@ from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
-from vibroimpact.rivals import METHODS
 from vibroimpact.rivals.protocol import IMPACT, REFUSED, Method, RivalRun, failed
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-SYSTEM = System(
-    **PARAMETERS,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
+SYSTEM = System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 PROBLEM = Problem("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
 
 
@@ -40,7 +35,7 @@ def impacts(*times, speed=1.0):
     ("found", "times", "missed", "spurious"),
     [
         ((1.0, 2.0, 3.0), 0.0, 0, 0),
-        ((1.01, 2.0, 2.98), 0.02, 0, 0),
+        ((1.02, 2.0, 2.99), 0.02, 0, 0),
         ((1.0, 3.0), 0.0, 1, 0),
         ((1.0, 1.5, 2.0, 3.0), 0.0, 0, 1),
         ((), 0.0, 3, 0),
@@ -113,39 +108,11 @@ def test_what_is_compiled_is_compiled_before_anything_is_timed(compiles, setting
     assert seen == settings
 
 
-def test_the_short_form_keeps_the_finest_setting():
-    euler = next(method for method in METHODS if method.name == "Moreau-Jean")
-    settings = [row["setting"] for row in measure(PROBLEM, [euler], seconds=0.0, short=True)]
-    assert settings == [str(setting) for setting in euler.ladder[::2]]
-    assert settings[-1] == str(euler.ladder[-1])
-
-
 def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
     once = Problem("once", SYSTEM, PROBLEM.state, 1)
     mp.dps = 40
     end = [mpf(text) for text in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_text]
     assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)
-
-
-def test_unavoidable_error_grows_with_the_sensitivity_of_the_motion():
-    weak = SYSTEM.with_(f10_hat=0.5, f20_hat=0.5)
-    steady = benchmark.unavoidable_error(Problem("settled", SYSTEM, PROBLEM.state, 10))
-    modulated = benchmark.unavoidable_error(Problem("modulated", weak, (0.0,) * 8, 10))
-    assert 2.0**-54 < steady < 1e-14
-    assert modulated > steady
-
-
-def test_the_comparison_takes_the_most_accurate_heyoka_and_the_fastest_sufficient_dop853():
-    rows = [
-        row("this engine", 0.5, 1e-15, 1.0),
-        row("heyoka", 2.0, 1e-5, 4.0),
-        row("heyoka", 5.0, 1e-14, 10.0),
-        row("DOP853", 400.0, 1e-7, 800.0),
-        row("DOP853", 600.0, 1e-9, 1200.0),
-        row("DOP853", 900.0, 1e-12, 1800.0),
-    ]
-    compared = benchmark.comparison(rows, unavoidable=1e-16)
-    assert [*compared.values()] == pytest.approx([0.5, 10.0, 1200.0, 10.0])
 
 
 def points(problem, method, *entries, outcome="finished", reason=""):
@@ -172,5 +139,11 @@ def test_in_every_panel_heyoka_is_met_where_it_is_accurate_and_where_it_is_faste
     assert [row["says"] for row in table.values()] == ["", "heyoka: no build"] * 2
 
 
-def row(method, time, error, ratio):
-    return {"method": method, "us_per_impact": time, "error_state": error, "ratio": ratio, "reason": ""}
+def test_the_comparison_takes_the_most_accurate_heyoka_and_the_fastest_sufficient_dop853():
+    names, rows = ("method", "us_per_impact", "error_state", "ratio"), []
+    for values in (
+        ("this engine", 0.5, 1e-15, 1.0), ("heyoka", 2.0, 1e-5, 4.0), ("heyoka", 5.0, 1e-14, 10.0),
+        ("DOP853", 400.0, 1e-7, 800.0), ("DOP853", 600.0, 1e-9, 1200.0), ("DOP853", 900.0, 1e-12, 1800.0),
+    ):  # fmt: skip
+        rows.append(dict(zip(names, values, strict=True)) | {"reason": ""})
+    assert [*benchmark.comparison(rows, unavoidable=1e-16).values()] == pytest.approx([0.5, 10.0, 1200.0, 10.0])

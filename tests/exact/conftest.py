@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 
 import vibroimpact as vi
-from by_hand import BoxesByHand
+from by_hand import FlightsByHand
 from chapter import FORCES, PARAMETERS
 
 
@@ -26,27 +25,8 @@ def case(request):
     return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
-class Auditor(BoxesByHand):
-    """Flows states with scipy's matrix exponential, in the full coordinates of (10.2) written out by hand."""
-
-    def lifted(self, state, tau):
-        x = state[[0, 2, 4, 6]]
-        return np.concatenate([x, [np.sin(self.omega * tau), np.cos(self.omega * tau)]])
-
-    def flow(self, state, walls, tau, t):
-        """State a time t later without events; walls: wall each ball sticks to, or 0."""
-        z = expm(self.rate([w != 0 for w in walls]) * t) @ self.lifted(state, tau)
-        later = np.empty(8)
-        later[[0, 2, 4, 6]] = z[:4]
-        for i, wall in enumerate(walls):
-            ball, speed = state[2 * i + 1], state[2 * i + 5]
-            later[2 * i + 1] = z[i] - wall if wall else ball + t * speed
-            later[2 * i + 5] = z[2 + i] if wall else speed
-        return later
-
-    def acceleration(self, state, walls, tau):
-        """Box accelerations, shape (2,)."""
-        return (self.rate([w != 0 for w in walls]) @ self.lifted(state, tau))[2:4]
+class Auditor(FlightsByHand):
+    """Checks a run flight by flight, in the full coordinates of (10.2) written out by hand."""
 
     def audit(self, run, state, tau0, cycles, tolerance=2e-12, grid=24):
         """Check a whole run flight by flight; returns the largest errors met.

@@ -14,7 +14,6 @@ from vibroimpact.regimes.families import (
     FOLD,
     GRAZING,
     HOPF,
-    MANIFOLD_FOLD,
     NEIMARK_SACKER,
     PERIOD_DOUBLING,
     SPEED_ZERO,
@@ -24,7 +23,6 @@ from vibroimpact.regimes.families import (
     SymmetricOrbits,
 )
 from vibroimpact.system.matrices import rate_matrix
-from vibroimpact.theory.manifold import C_min, rho
 
 INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
 
@@ -102,15 +100,6 @@ def test_neimark_sacker_points_have_a_complex_pair_on_the_unit_circle(path, foun
         assert abs(abs(pair) - 1).min() < 1e-9
 
 
-def test_the_stable_pair_loses_stability_at_its_neimark_sacker_point(path, found):
-    node = min(special(found, AsymmetricOrbits, NEIMARK_SACKER), key=lambda node: abs(node.p - 0.817))
-    largest = [
-        abs(next(o for o in orbits_at(path, node.p + shift, node.amplitudes) if not o.symmetric).multipliers).max()
-        for shift in (-1e-4, 1e-4)
-    ]
-    assert largest[0] > 1 > largest[1]
-
-
 def test_period_doublings_have_a_multiplier_minus_one(path, found):
     for node in special(found, AsymmetricOrbits, PERIOD_DOUBLING):
         assert abs(engine_multipliers(path, AsymmetricOrbits, node) + 1).min() < 1e-7
@@ -167,13 +156,6 @@ def test_hopf_points_have_a_pair_on_the_imaginary_axis(chapter):
         assert abs(values[values.imag > 0.1].real).min() < 1e-9
 
 
-def test_the_manifold_folds_at_C_min(path, found):
-    for node in special(found, FixedPoints, MANIFOLD_FOLD):
-        module = int(node.kind[-1])
-        point = min(vi.fixed_points(path(node.p)), key=lambda p: np.linalg.norm(p.C - node.amplitudes))
-        assert point.C[module - 1] == pytest.approx(C_min(rho(0.65)), abs=1e-9)
-
-
 def test_of_two_mirror_images_one_is_followed(path, found):
     for node in found[AsymmetricOrbits][0].nodes[::10]:
         images = AsymmetricOrbits.images(path(node.p), node.x)
@@ -183,15 +165,6 @@ def test_of_two_mirror_images_one_is_followed(path, found):
     crossings = sum((a.p - p) * (b.p - p) < 0 for branch in found[AsymmetricOrbits] for a, b in pairwise(branch.nodes))
     pairs = [o for o in vi.orbits(path(p)) if not o.symmetric and (o.ball_speeds > 0).all()]
     assert crossings == len(pairs) / 2
-
-
-def test_uncoupled_modules_do_not_feel_the_other_force(chapter):
-    """C_1 is the same all along a path in f20."""
-    path = Path(chapter(alpha12_hat=0.0, gamma12_hat=0.0), ("f20_hat",))
-    for family in (SymmetricOrbits, FixedPoints):
-        for branch in branches(family, path, (1.0, 1.1), [1.05], longest=0.1):
-            C1 = np.array([node.amplitudes[0] for node in branch.nodes])
-            np.testing.assert_allclose(C1, C1[0], rtol=1e-9)
 
 
 def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
@@ -205,12 +178,3 @@ def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
         assert node.p > 0
         assert abs(SymmetricOrbits.equations(path(node.p), node.x)[0]).max() < 1e-10
         assert min(np.linalg.norm(point.C - node.amplitudes) for point in vi.fixed_points(system)) < 10 * node.p
-
-
-def test_fixed_points_do_not_depend_on_epsilon(chapter):
-    """Straight branches, each found once from several seeds."""
-    system = chapter()
-    found = branches(FixedPoints, Path(system, ("epsilon",)), (0.01, 0.1), [0.02, 0.05, 0.09], longest=0.1)
-    amplitudes = sorted(branch.nodes[0].amplitudes.tolist() for branch in found)
-    np.testing.assert_allclose(amplitudes, [point.C for point in vi.fixed_points(system)], atol=1e-9)
-    assert not any(branch.special for branch in found)

@@ -84,7 +84,7 @@ def test_without_impacts_the_boxes_follow_the_linear_response(chapter, observati
 def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(chapter):
     """It will, however slow: at 1e-5 it takes more than 10 000 cycles."""
     system = chapter(0.05, 0.05)
-    settled = simulate_steady(system)
+    settled = vi.simulate(system, np.zeros(8), 300).final
     assert observe(system, settled, 24, 0.02).name == NO_IMPACTS
     settled[5] = 1e-5
     drifting = observe(system, settled, 24, 0.02)
@@ -92,10 +92,6 @@ def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(c
     assert drifting.name == IDLE  # the other ball is at rest
     settled[7] = 1e-5
     assert observe(system, settled, 24, 0.02).name == UNSETTLED
-
-
-def simulate_steady(system):
-    return vi.simulate(system, np.zeros(8), 300).final
 
 
 def test_other_periodic_motions_repeat(chapter, observation):
@@ -117,11 +113,3 @@ def test_mirrored_starts_under_mirrored_forces_end_in_mirrored_regimes(chapter, 
         assert [a.name for a in ours] == [b.name for b in mirrored]
         for a, b in zip(ours, mirrored, strict=True):
             np.testing.assert_allclose(a.run.final, -b.run.final, atol=1e-8)
-
-
-def test_starts_are_admissible_and_begin_with_rest():
-    states = starts(200, seed=1, reach=0.7)
-    assert not states[0].any()
-    assert np.all(np.abs(states[:, [0, 2]] - states[:, [1, 3]]) < 1)
-    assert np.abs(states[:, [0, 2, 4, 5, 6, 7]]).max() <= 0.7
-    assert np.array_equal(states, starts(200, seed=1, reach=0.7))

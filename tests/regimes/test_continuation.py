@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vibroimpact.regimes.continuation import Curve, Lost
+from vibroimpact.regimes.continuation import Curve
 
 
 def circle(x, p):
@@ -49,9 +49,3 @@ def test_zeros_are_as_sharp_as_the_function_also_at_a_fold():
     before, after = next((a, b) for a, b in pairwise(places) if a.z[0] > 0 > b.z[0])
     zero = curve.zero(lambda z: z[0], before, after.z)
     np.testing.assert_allclose(zero, [0.0, 1.0], atol=1e-14)
-
-
-def test_a_guess_far_from_any_root_is_refused():
-    curve = Curve(lambda x, p: (np.array([x[0] ** 2 + 1 + p**2]), np.array([[2 * x[0]]])))
-    with pytest.raises(Lost):
-        curve.step(Curve(circle).place(np.array([1.0, 0.0]), np.eye(2)[1]), 0.1)

@@ -18,11 +18,6 @@ def test_the_order_of_a_power_law():
     assert abs(slope - 1) < 3 * error
 
 
-def test_an_order_needs_points():
-    with pytest.raises(ValueError, match="epsilon"):
-        order(np.array([0.1]), np.array([0.1]))
-
-
 def upper_amplitude(epsilon, kappa, gamma_hat, sigma_e_hat, f_hat):
     """C of the upper orbit of a single module, from the steady response of one oscillator, by hand, in mpmath."""
     Omega, gamma = 1 + epsilon * sigma_e_hat, epsilon * gamma_hat
@@ -61,11 +56,3 @@ def test_errors_shrink_tenfold_with_epsilon(chapter, f10, f20):
         fast = [abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found]
         for errors in (distances, slow, fast):
             assert errors[0] / errors[1] == pytest.approx(10, rel=0.1)
-
-
-def test_every_multiplier_is_paired_once(chapter):
-    system = chapter(epsilon=0.01)
-    for point in vi.fixed_points(system):
-        found = compare(system, point)
-        orbit = min((o for o in vi.orbits(system) if o.symmetric), key=lambda o: abs(o.C - point.C).max())
-        np.testing.assert_allclose(np.sort_complex(found.multipliers), np.sort_complex(orbit.multipliers), rtol=1e-9)

@@ -26,11 +26,6 @@ def test_made_up_lives_are_estimated_within_their_error(mean):
     assert 0.7 < scores.std() < 1.6
 
 
-def test_for_long_lives_it_is_total_time_over_escapes():
-    assert Lifetime(10, 10000, 250).mean == pytest.approx(250 * 10000 / 10, rel=1e-3)
-    assert Lifetime(10, 10000, 250).error == pytest.approx(250000 / np.sqrt(10), rel=1e-2)
-
-
 def test_without_escapes_there_is_a_lower_bound():
     """With a mean life at the bound, nothing would be seen to escape in one case of twenty."""
     found = Lifetime(0, 400, 250)

@@ -40,8 +40,3 @@ def test_no_sample_of_a_response_exceeds_its_largest():
     for one, point in zip(by_theory(system), vi.fixed_points(system), strict=True):
         X = leading_order(system, point, np.linspace(0.0, system.period, 100_001)).X
         np.testing.assert_allclose(one.largest, np.abs(X).max(axis=0), rtol=1e-5)
-
-
-def test_without_a_response_there_is_none():
-    system = UNEQUAL.with_(f10_hat=0.05, f20_hat=0.0)
-    assert by_theory(system) == exact(system) == []

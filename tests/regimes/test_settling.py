@@ -10,7 +10,6 @@ import vibroimpact as vi
 from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.character import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
 from vibroimpact.regimes.classification import (
-    APERIODIC,
     ASYMMETRIC,
     CHAOS,
     HOPPING,
@@ -18,7 +17,6 @@ from vibroimpact.regimes.classification import (
     NO_IMPACTS,
     PERIODIC,
     QUASI_PERIODIC,
-    REGIMES,
     STRONGLY_MODULATED,
     UNSETTLED,
     observe,
@@ -61,11 +59,6 @@ def test_a_module_that_comes_and_goes_makes_bursts(shares, expected):
     assert resonance(shares) == expected
 
 
-def test_every_name_is_a_regime_once():
-    assert len(set(REGIMES)) == len(REGIMES)
-    assert set(APERIODIC) | {UNSETTLED} | ENDS == set(REGIMES)
-
-
 def ends(chapter, f10, f20, observation, count=5):
     return [regime.name for regime in settle(chapter(f10, f20), starts(count, seed=1), observation)]
 
@@ -83,13 +76,6 @@ def test_weak_forces_make_balls_hop(chapter, observation):
     assert {regime.name for regime in regimes} == {HOPPING}
     run = vi.simulate(system, regimes[0].run.final, 2000)
     assert len(run.events) / run.cycles < 1.5
-
-
-@pytest.mark.parametrize(("f10", "f20"), [(0.773, 1.093), (0.720, 1.093), (1.200, 1.147)])
-def test_transients_next_to_periodic_cells_are_periodic_or_unsettled(chapter, observation, f10, f20):
-    names = set(ends(chapter, f10, f20, observation))
-    assert names <= {*PERIODIC, UNSETTLED}
-    assert names & {*PERIODIC}
 
 
 def test_a_torus_is_quasi_periodic(chapter, observation):
@@ -135,15 +121,3 @@ def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, ob
         assert not (run.events["module"] == 2).any()
         ended += observe(system, run.final, observation.window, observation.nearness).repeats == 1
     assert ended >= 2
-
-
-def test_uncoupled_modules_are_classified_apart(chapter, observation):
-    """Module 1 does the same whatever drives module 2."""
-    states = starts(4, seed=3)[1:]
-    amplitudes = [
-        settle(chapter(1.2, f20, alpha12_hat=0.0, gamma12_hat=0.0), states, observation) for f20 in (0.9, 1.5)
-    ]
-    for one, other in zip(*amplitudes, strict=True):
-        assert one.repeats == other.repeats == 1
-        assert one.name != other.name
-        assert one.mean_amplitudes[0] == pytest.approx(other.mean_amplitudes[0], rel=1e-6)

@@ -9,11 +9,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.regimes.slow_variables import amplitude_and_lag, mean_phase, measure, phase_in_cycle
 
-SYSTEM = vi.System(
-    **PARAMETERS,
-    f10_hat=1.0,
-    f20_hat=1.0,
-)
+SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 B, PSI, C = np.array([0.3, 0.7]), np.array([2.5, -1.2]), np.array([1.2, 1.6])
 AT_PLUS = np.array([0.3, 0.97])  # phase of the impact with the wall +1
 

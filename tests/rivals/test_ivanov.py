@@ -56,14 +56,6 @@ def test_a_small_kappa_alone_costs_nothing(method, motion):
     assert errors == pytest.approx([errors[0]] * 2, rel=0.5)
 
 
-def test_a_step_that_is_too_long_for_its_box_is_cut(method, motion):
-    """Between walls that stop nearly all, a long step would run to where R vanishes."""
-    inelastic = motion("periodic")[0].with_(kappa=3e-3)
-    state = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)
-    run = method("Ivanov, events").run(inelastic, state, 1, 0.0, 10)
-    assert run.failure.kind == UNFINISHED
-
-
 @pytest.mark.parametrize("steps", [10, 1_000])
 def test_located_impacts_of_a_chatter_have_no_end(steps, method, motion):
     system, state, cycles, reference = motion("chatter")

@@ -1,16 +1,14 @@
 """Methods that cannot go on say so, with a counted limit of work and never without a reason."""
 
-from types import SimpleNamespace
-from unittest.mock import Mock
-
 import numpy as np
 import pytest
 
 from vibroimpact.accuracy import hazards
-from vibroimpact.rivals import METHODS, heyoka_taylor, solve_ivp
+from vibroimpact.rivals import moreau_jean
 from vibroimpact.rivals.contact import Contacts
 from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, RivalRun
+from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.rivals.right_hand_side import coefficients
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 
@@ -30,14 +28,6 @@ def test_the_leading_order_refuses_where_no_response_is_stable(motion):
     run = LeadingOrder().run(system, state, cycles, 0.0, 0)
     assert run.failure.kind == REFUSED
     assert "fixed point" in run.failure.reason
-
-
-def test_without_heyoka_its_method_is_unavailable_and_says_why(monkeypatch):
-    monkeypatch.setattr(heyoka_taylor, "heyoka", None)
-    monkeypatch.setattr(heyoka_taylor, "_missing", "No module named 'heyoka'", raising=False)
-    reasons = {method.name: method.available() for method in METHODS}
-    assert reasons.pop("heyoka") == "No module named 'heyoka'"
-    assert set(reasons.values()) == {None}
 
 
 def test_leading_order_velocities_are_those_of_its_displacements(motion):
@@ -61,22 +51,6 @@ def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
 
 
 @pytest.mark.parametrize(
-    ("fault", "words"),
-    [
-        (ValueError("f(a) and f(b) must have different signs"), "its interpolant misses the impact"),
-        (
-            SimpleNamespace(status=-1, message="Required step size", t=np.zeros(1), nfev=0),
-            "the step falls below rounding",
-        ),
-    ],
-)
-def test_a_failure_of_scipy_is_said_in_the_words_of_the_method(fault, words, method, motion, monkeypatch):
-    monkeypatch.setattr(solve_ivp, "solve_ivp", Mock(side_effect=[fault]))
-    system, state, cycles, _ = motion("periodic")
-    assert method("LSODA").run(system, state, cycles, 0.0, 1e-3).failure.reason.startswith(words)
-
-
-@pytest.mark.parametrize(
     ("hazard", "verdicts"),
     [
         ("hits by 1e-6", {"penalty": hazards.WRONG, "Hunt-Crossley": hazards.WRONG, "Ivanov, events": hazards.RIGHT}),
@@ -90,22 +64,9 @@ def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
     assert {row["method"]: row["verdict"] for row in found} == verdicts
 
 
-@pytest.mark.parametrize(
-    "noted",
-    [
-        [(0.5, 1, -1, 0.3)],
-        np.array([[0.5, 1.0, -1.0, 0.3]]),
-        np.array([(0.5, 1, -1, 0.3)], IMPACT),
-        (),
-        np.empty((0, 4)),
-    ],
-    ids=["list", "array", "table", "none", "empty array"],
-)
-def test_impacts_become_one_table_when_they_are_asked_for(noted):
-    asked = []
-    run = RivalRun(None, lambda: asked.append(1) or noted, 1)
-    assert not asked
-    assert run.impacts.dtype == IMPACT
-    assert run.impacts.tolist() == [(0.5, 1, -1, 0.3)] * len(noted)
-    assert asked == [1]
-    assert RivalRun(None, noted, 1).impacts.tolist() == run.impacts.tolist()
+def test_impacts_of_both_modules_in_one_step_obey_newton_together(motion):
+    """However long the step and strong the damper between the boxes, in Moreau and Jean's scheme."""
+    system = motion("periodic")[0].with_(gamma12_hat=50.0)
+    before = np.array([0.95, 0.0, -0.95, 0.0, 1.0, -1.0, -0.5, 1.5])
+    after = moreau_jean._march(coefficients(system), before, 0.0, 0.2, 1)[0]
+    np.testing.assert_allclose(after[[4, 6]] - after[[5, 7]], -system.kappa * np.array([2.0, -2.0]), rtol=1e-12)

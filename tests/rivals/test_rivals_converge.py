@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.work_precision import fitted_order
-from vibroimpact.rivals.solve_ivp import LeanRadau
 
 # name, settings from coarse to fine, error of the final state at the finest in the periodic motion
 LADDERS = [
@@ -23,19 +21,6 @@ LADDERS = [
     ("Ivanov", (100, 1_000, 30_000), 5e-4),
     ("Ivanov, events", (10, 100, 3_000), 1e-11),
 ]
-
-
-def test_the_lean_radau_takes_the_steps_of_scipy():
-    """On Van der Pol's oscillator, stiff, whose Jacobian changes along the way."""
-
-    def rates(t, y):
-        return [y[1], 50 * (1 - y[0] ** 2) * y[1] - y[0]]
-
-    own, theirs = (solve_ivp(rates, (0, 60), [2, 0], method=m, rtol=1e-6, atol=1e-8) for m in (LeanRadau, "Radau"))
-    assert len(own.t) > 50
-    assert own.nfev == theirs.nfev
-    np.testing.assert_allclose(own.t, theirs.t, rtol=1e-9)
-    np.testing.assert_allclose(own.y, theirs.y, rtol=1e-7, atol=1e-7)
 
 
 def errors(method, motion, setting):

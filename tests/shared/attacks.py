@@ -8,7 +8,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 import vibroimpact as vi
-from by_hand import BoxesByHand
+from by_hand import FlightsByHand
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.system.state import IMPACT, STICK
 
@@ -40,7 +40,7 @@ def random_start(rng):
 # -- turns ------------------------------------------------------------------------------------------------------------
 
 
-class Observer(BoxesByHand):
+class Observer(FlightsByHand):
     """Sees the gaps of a system's motions on a grid, denser where a flight starts, by matrix exponentials of the
     equations written out.
     """
@@ -77,7 +77,7 @@ class Observer(BoxesByHand):
                 found = self._turns(state, tau, length, stuck)
                 turns += [(*turn, length, state, tau, stuck) for turn in found if not chattering[turn[1]]]
                 if tau + length < stop:
-                    state = self._at(state, tau, stuck, length, walls)
+                    state = self.flow(state, walls, tau, length)
                 tau += length
             if event is not None:
                 state = event["state"]
@@ -95,7 +95,7 @@ class Observer(BoxesByHand):
     def _turns(self, state, tau, length, stuck):
         """(gap, module, times around), by cubic interpolation on the grid, of the turns of one flight."""
         count = int(np.searchsorted(self.times, length)) + 1
-        boxes = (self._flow(stuck, count).reshape(-1, 6) @ self._lifted(state, tau)).reshape(-1, 4)
+        boxes = (self._flow(stuck, count).reshape(-1, 6) @ self.lifted(state, tau)).reshape(-1, 4)
         times = self.times[:count]
         for i in (i for i in range(2) if not stuck[i]):
             W, V = boxes[:, i] - state[2 * i + 1] - times * state[2 * i + 5], boxes[:, 2 + i] - state[2 * i + 5]
@@ -108,23 +108,11 @@ class Observer(BoxesByHand):
 
     def _gap(self, i, around, length, state, tau, stuck):
         """The gap of the turn of module i between two times of a flight; None if it would be after its end."""
-        rate, z = self.rate(stuck), self._lifted(state, tau)
+        rate, z = self.rate(stuck), self.lifted(state, tau)
         t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
         if t >= length:
             return None
         return 1 - abs((expm(rate * t) @ z)[i] - state[2 * i + 1] - t * state[2 * i + 5])
-
-    def _at(self, state, tau, stuck, t, walls):
-        """The state a time t later."""
-        boxes, later = expm(self.rate(stuck) * t)[:4] @ self._lifted(state, tau), state.copy()
-        later[[0, 2, 4, 6]] = boxes
-        for i in range(2):
-            later[2 * i + 1] = boxes[i] - walls[i] if walls[i] else state[2 * i + 1] + t * state[2 * i + 5]
-            later[2 * i + 5] = boxes[2 + i] if walls[i] else state[2 * i + 5]
-        return later
-
-    def _lifted(self, state, tau):
-        return np.array([*state[[0, 2, 4, 6]], np.sin(self.omega * tau), np.cos(self.omega * tau)])
 
 
 # -- events -----------------------------------------------------------------------------------------------------------

@@ -10,14 +10,13 @@ import argparse
 from collections import Counter
 
 import numpy as np
-from scipy.linalg import expm
 
 import vibroimpact as vi
+from by_hand import FlightsByHand
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.state import IMPACT, STICK
 
 TINY = [0.0, 1e-300, 1e-60, 1e-50, 1e-40, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3]
-BOXES, BALLS = [0, 2, 4, 6], [1, 3, 5, 7]
 KNOWN = 1e-9  # how well the state of a row must be the one that the row before flows into, per unit of its size
 PER_RATE = 1e-5  # and how much worse per unit of the norm of the rate matrix, whose exponential loses digits by it
 
@@ -68,11 +67,11 @@ def departures(run):
     Left out is what changes by itself: at an impact the velocities of its module; from the last impact of a chatter to
     its end, where rows show the ball at rest on its wall, those and the ball.
     """
-    walls, state, tau = [0, 0], run.start, run.tau0
+    walls, state, tau, flights = [0, 0], run.start, run.tau0, FlightsByHand(run.system)
     size = 1.0 + np.abs(run.start).max() + np.abs(run.system.forcing).max()
     for k, event in enumerate(run.events):
         i = int(event["module"]) - 1
-        later = flowed(run.system, walls, state, tau, event["tau"])
+        later = flights.flow(state, walls, tau, event["tau"] - tau)
         kept = np.ones(8, bool)
         kept[[4 + 2 * i, 5 + 2 * i]] = event["kind"] != IMPACT
         for j in range(2):
@@ -83,23 +82,8 @@ def departures(run):
         yield np.abs(later - event["state"])[kept].max() / size
         walls[i] = {IMPACT: 0, STICK: int(event["wall"])}.get(event["kind"], 0)
         state, tau = event["state"], event["tau"]
-    yield (
-        np.abs(flowed(run.system, walls, state, tau, run.tau0 + run.cycles * run.system.period) - run.final).max()
-        / size
-    )
-
-
-def flowed(system, walls, state, tau, until):
-    """A state at another time, without events; walls: the wall each ball sticks to, or 0."""
-    phase, t = system.Omega * tau, until - tau
-    lifted = [*state[BOXES], np.sin(phase), np.cos(phase)]
-    later, boxes = state.copy(), (expm(rate_matrix(system, [wall != 0 for wall in walls]) * t) @ lifted)[:4]
-    later[BOXES] = boxes
-    later[BALLS[:2]] += t * state[BALLS[2:]]
-    for i, wall in enumerate(walls):
-        if wall:
-            later[2 * i + 1], later[2 * i + 5] = boxes[i] - wall, boxes[2 + i]
-    return later
+    left = run.tau0 + run.cycles * run.system.period - tau
+    yield np.abs(flights.flow(state, walls, tau, left) - run.final).max() / size
 
 
 if __name__ == "__main__":

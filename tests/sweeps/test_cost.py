@@ -26,22 +26,12 @@ def test_there_are_never_more_tiles_than_a_disk_likes():
     assert tiles(Cost(points=1_000_000, runs=0, seconds=[1.0]), 0) == MOST_TILES
 
 
-def test_a_target_below_0_is_refused():
-    with pytest.raises(ValueError, match="tile_seconds: -1 is below 0"):
-        tiles(Cost(points=1, runs=0, seconds=[1.0]), -1)
-
-
 def test_points_are_measured_and_runs_counted():
     grid = Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)])
     found = probe(grid, Asked(("amplitudes", "fixed_points"), starts=3, seed=1, cycles=4, settle=2))
     assert (found.points, found.runs) == (20, 60)
     assert len(found.seconds) == probing.PROBED
     assert min(found.seconds) >= 0
-
-
-def test_no_point_is_begun_once_enough_was_spent(monkeypatch):
-    monkeypatch.setattr(probing, "ENOUGH", -1.0)
-    assert len(probe(Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)]), Asked(("fixed_points",))).seconds) == 1
 
 
 def test_a_point_without_a_system_is_found_before_anything_is_measured(monkeypatch):

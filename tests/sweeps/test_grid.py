@@ -15,10 +15,6 @@ def test_values_over_a_range_have_both_ends():
     assert axis(["epsilon"], [0.001, 1], 4, "logarithmic").values == pytest.approx((0.001, 0.01, 0.1, 1))
 
 
-def test_cells_have_their_middles():
-    assert axis(["kappa"], [0.2, 0.7], cells=5).values == pytest.approx((0.25, 0.35, 0.45, 0.55, 0.65))
-
-
 def test_parameters_move_together_and_the_others_stay():
     grid = Grid(BASE, [axis(["kappa"], [0.2, 0.8], 3), TOGETHER])
     assert len(grid) == 6
@@ -57,7 +53,3 @@ def test_a_few_points_are_spread_over_all_axes(axes):
     assert max(b - a for a, b in zip([0.2, *kappas], [*kappas, 0.8], strict=True)) < 0.25
     if len(axes) == 2:
         assert {place["f10_hat"] for place in places} == {0.5, 0.8}
-
-
-def test_a_small_grid_has_no_point_twice_in_its_spread():
-    assert Grid(BASE, [TOGETHER]).spread(6) == [0, 1]

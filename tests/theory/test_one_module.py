@@ -151,16 +151,3 @@ def test_orbits_of_an_uncoupled_module_are_those_of_a_quadratic_equation(epsilon
     assert expected.shape == (2,)
     np.testing.assert_allclose(np.abs(found[:, None] - expected).min(axis=1), 0, atol=1e-10)
     np.testing.assert_allclose(np.abs(found[:, None] - expected).min(axis=0), 0, atol=1e-10)
-
-
-def test_an_uncoupled_module_does_not_feel_the_other():
-    start = [0.3, 0.0, 0.1, 0.2, 0.0, 0.8, 0.3, -0.4]
-    runs = [
-        vi.simulate(uncoupled(gamma2_hat=gamma, sigma20_hat=sigma, other=force), [*start[:2], *x, *start[4:6], *v], 12)
-        for gamma, sigma, force, x, v in (
-            (0.5, 0.7, 0.3, (0.1, 0.2), (0.3, -0.4)),
-            (0.1, -0.4, 2.0, (0.0, 0.0), (1.0, 0.9)),
-        )
-    ]
-    np.testing.assert_allclose(*(run.final[[0, 1, 4, 5]] for run in runs), rtol=0, atol=1e-10)
-    assert (runs[0].events["module"] == 1).sum() > 20

@@ -53,38 +53,19 @@ def test_at_the_largest_C_the_ball_grazes_the_wall_it_left(kappa):
     assert float(rate) == pytest.approx(0, abs=1e-13)
 
 
-def test_W_is_linear_in_C():
-    """Why the admissible C form one interval."""
-    t = np.linspace(0, np.pi, 101)
-    np.testing.assert_allclose(W(t, 3.0, 0.4) - W(t, 1.0, 0.4), 2 * (W(t, 2.0, 0.4) - W(t, 1.0, 0.4)), atol=1e-14)
-
-
 def test_limit_of_elastic_impacts_by_trigonometry():
     """rho = 0: W = 1 again where (1 + sin s) = C (sin s - 2 s / pi), s = t - pi/2; its least C by minimisation."""
     best = minimize_scalar(lambda s: (1 + np.sin(s)) / (np.sin(s) - 2 * s / np.pi), bounds=(0.1, 1.4), method="bounded")
     assert penetration.largest_C(1 - 1e-9) == pytest.approx(best.fun, rel=1e-8)
 
 
-@pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6])
+@pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6, 3e-5])
 def test_limit_of_plastic_impacts(kappa):
-    """The series for small kappa: p^2 = 3 kappa and C = 1 + (4 / pi) p / 3 * ... tend to 0 and 1."""
-    assert penetration.grazing_time(kappa) == pytest.approx(2 * np.sqrt(3 * kappa), rel=1e-6)
-    assert penetration.largest_C(kappa) == pytest.approx(1 + 8 * np.sqrt(kappa / 3) / np.pi, abs=1e-5)
-
-
-@given(kappas, kappas)
-def test_grows_with_kappa(first, second):
-    assume(abs(first - second) > 1e-6)
-    low, high = sorted((first, second))
-    assert penetration.largest_C(low) < penetration.largest_C(high)
-
-
-def test_chapter_s_kappa_and_where_it_ends_before_symmetry_breaks():
-    """5.2888 at kappa = 0.65; below kappa = 0.0867 the wall is grazed before C = pi^2 / (pi^2 - 4)."""
-    assert excursion(5.2887, 0.65) < 1e-12 < excursion(5.289, 0.65)
-    assert penetration.largest_C(0.65) == pytest.approx(5.28879, abs=1e-5)
-    breaking = np.pi**2 / (np.pi**2 - 4)
-    assert penetration.largest_C(0.0867) < breaking < penetration.largest_C(0.0868)
+    """tan(p) / p = 1 + kappa in 400 digits, p half the grazing time; C = 1 + (8 / pi) sqrt(kappa / 3) + ..."""
+    with mpmath.workdps(400):
+        p = mpmath.findroot(lambda p: mpmath.tan(p) - p * (1 + mpmath.mpf(kappa)), mpmath.sqrt(3 * mpmath.mpf(kappa)))
+    assert penetration.grazing_time(kappa) == pytest.approx(float(2 * p), rel=1e-12)
+    assert penetration.largest_C(kappa) == pytest.approx(1 + 8 * np.sqrt(kappa / 3) / np.pi, abs=3 * kappa + 1e-15)
 
 
 @given(kappas, st.floats(-5, 5))
@@ -98,9 +79,3 @@ def test_impact_velocities_are_those_of_W(kappa, C):
     assert before == pytest.approx(float(before_slope), rel=1e-12, abs=1e-300)
     assert after == pytest.approx(float(after_slope), rel=1e-12, abs=1e-300)
     assert after == pytest.approx(-kappa * before, rel=1e-12, abs=1e-300)
-
-
-@pytest.mark.parametrize("kappa", [0, 1, -0.1, float("nan")])
-def test_kappa_out_of_range(kappa):
-    with pytest.raises(ValueError, match=r"^kappa: .* is not between 0 and 1"):
-        penetration.largest_C(kappa)

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory.asymmetric.search import fixed_points
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, rho
 from vibroimpact.theory.relaxation import describing_function, lost_at, relax
-from vibroimpact.theory.slow_flow import FIRST_HARMONIC
+from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
 EQUAL = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 R = rho(EQUAL.kappa)
@@ -30,6 +31,20 @@ def test_describing_function_is_that_of_the_manifold():
             skewed = point.asymmetric
             from_power = FIRST_HARMONIC * R * (point.C / (1 - point.squared)) ** 2 / point.B**2
             np.testing.assert_allclose(ball(point.B).imag[skewed], from_power[skewed], rtol=1e-4)
+
+
+def test_a_ball_at_rest_leaves_a_linear_motion_to_second_order_in_the_step():
+    """From next to rest under forces too weak to bring the box to the walls: the exponential of the linear flow."""
+    system = EQUAL.with_(f10_hat=0.15, f20_hat=0.1)
+    e, K = impedances(system)
+    force, rate = np.array([0.15, 0.1]), (np.diag(e + K) - K * np.eye(2)[::-1]) / -2j
+    steady = -np.linalg.solve(rate, force / 2j)
+    tau = np.arange(1, 40 * 24 + 1) * system.epsilon * system.period / 24
+    b = steady + np.array([expm(rate * t) @ (1e-4 - steady) for t in tau])
+    found = relax(system, 40, 0, start=(1e-4, 1e-4))
+    assert B_min(R) < np.abs(b).max() < 1
+    np.testing.assert_allclose(found.largest, np.abs(b).max(axis=0), rtol=2e-3)
+    assert found.share.max() < 0.01
 
 
 def test_a_stable_point_holds_both_balls_for_good():
@@ -65,9 +80,3 @@ def test_the_pair_is_lost_where_its_module_passes_the_fold(pair):
     assert above.C[0] > C_min(R) > below.C[0]
     assert (above.slow_verdict(), above.fast_verdict(EQUAL.kappa)) == ("stable", "stable")
     assert (below.slow_verdict(), below.fast_verdict(EQUAL.kappa)) == ("unstable", "unstable")
-
-
-def test_what_is_never_lost_or_never_held_has_no_factor(pair):
-    others = [point for point in fixed_points(EQUAL) if point is not pair and point.C.min() < C_min(R)]
-    assert others
-    assert all(np.isnan(lost_at(EQUAL, point)) for point in others)

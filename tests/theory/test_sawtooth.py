@@ -19,19 +19,6 @@ def test_is_the_arcsine_of_the_cosine(tau0, C, theta):
     assert sawtooth(tau0, C, theta) == pytest.approx(float(exact), abs=5e-14)
 
 
-@given(amplitude, angle, st.integers(-5, 5))
-def test_peaks_alternate_at_the_impacts(C, theta, j):
-    assert sawtooth(j * np.pi + theta, C, theta) == pytest.approx((-1) ** j * C, abs=1e-13)
-
-
-@given(amplitude, angle, st.floats(0.01, 3.13), st.booleans())
-def test_is_straight_between_impacts(C, theta, since, upward):
-    start = theta + (np.pi if upward else 0)
-    slope = (2 if upward else -2) * C / np.pi
-    expected = (-C if upward else C) + slope * since
-    assert sawtooth(start + since, C, theta) == pytest.approx(expected, abs=1e-12)
-
-
 def test_fourier_coefficients_are_those_of_10_19():
     samples = 2**14
     tau0 = 2 * np.pi * np.arange(samples) / samples

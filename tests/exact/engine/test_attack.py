@@ -19,7 +19,7 @@ def seeds(request):
 def test_no_told_miss_exceeds_the_true_one(seeds):
     """Nor is one told that was none: where it is less than the observer's, its grid skipped a turn."""
     finer = 0
-    for seed in seeds:
+    for seed in seeds[::2]:
         rng = np.random.default_rng([seed, 1])
         system = random_system(rng)
         observer = Observer(system)

@@ -7,29 +7,30 @@ import vibroimpact as vi
 from attacks import Observer, fast_attack, truth
 from vibroimpact.exact.engine.certificate import KNOWN
 
+MISSES = [
+    # forces, changes, start, cycles and the nearest miss that dense samples show
+    ((0.3664, 0.3071), dict(kappa=0.4582, sigma_e_hat=-0.2001),
+     [0.1712, -0.3204, -0.6147, -1.1425, -0.7531, -0.2159, -0.7851, 0.2308], 10, 3.0e-4),  # turns twice in one proof
+    ((0.634, 0.614), {}, [0, -0.528, 0, 0.327, 0, 0.477, 0, -0.261], 20, 1.87e-4),
+    ((1.097, 0.85), {}, [0, 0.761, 0, 0.021, 0, -0.574, 0, -0.735], 20, 6.2e-4),
+]  # fmt: skip
 
-def test_a_ball_that_turns_twice_between_two_proofs_is_seen(chapter):
-    system = chapter(0.3664, 0.3071, kappa=0.4582, sigma_e_hat=-0.2001)
-    start = [0.1712, -0.3204, -0.6147, -1.1425, -0.7531, -0.2159, -0.7851, 0.2308]
-    run = vi.simulate(system, start, 10)
+
+@pytest.mark.parametrize(("forces", "changes", "start", "cycles", "miss"), MISSES)
+def test_the_nearest_miss_is_seen(chapter, forces, changes, start, cycles, miss):
+    system = chapter(*forces, **changes)
+    run = vi.simulate(system, start, cycles)
     assert run.certificate.nearest_miss == pytest.approx(Observer(system).nearest_miss(run), abs=1e-12)
-    assert run.certificate.nearest_miss == pytest.approx(3.0e-4, rel=0.01)
+    assert run.certificate.nearest_miss == pytest.approx(miss, rel=0.01)
 
 
-@pytest.mark.parametrize("units", range(20, 40))
-def test_an_impact_in_the_last_instant_is_not_decided(chapter, units):
-    """An unforced ball, due at the wall at the end of the run but for so many units of rounding."""
-    system = chapter(0.0, 0.0)
-    run = vi.simulate(system, [0, 0.5, 0, 0, 0, 0.5 / system.period * (1 - units * 1.1e-16), 0, 0], 1)
-    assert not run.certificate.decided
-
-
-@pytest.mark.parametrize("ratio", [1 - 1e-9, 1 + 1e-9])
-def test_an_impact_clear_of_the_end_is_decided(chapter, ratio):
-    system = chapter(0.0, 0.0)
-    run = vi.simulate(system, [0, 0.5, 0, 0, 0, 0.5 / system.period * ratio, 0, 0], 1)
-    assert run.certificate.decided
-    assert len(run.events) == (ratio > 1)
+def test_the_error_includes_the_rounding_of_the_final_state():
+    system = vi.System(
+        epsilon=0.5, kappa=0.65, alpha12_hat=60, gamma1_hat=0, gamma2_hat=10, gamma12_hat=0, sigma20_hat=0.6,
+        sigma_e_hat=-1.8, f10_hat=200, f20_hat=20,
+    )  # fmt: skip
+    run = vi.simulate(system, [0.084525, 1.084524, 1.149032, 0.949032, 0, 0, 0, 0.5], 1)
+    assert run.certificate.error >= np.finfo(float).eps * np.abs(run.final).max()
 
 
 @pytest.mark.parametrize(("slip", "decided"), [(0.0, True), (1e-16, False), (-1e-16, False), (1e-9, True)])
@@ -44,6 +45,7 @@ def test_the_horizon_is_tested_at_the_end_too(chapter):
     for cycles in range(33, 45):
         certificate = vi.simulate(system, start, cycles).certificate
         assert certificate.error <= KNOWN or (np.isinf(certificate.error) and certificate.horizon < np.inf)
+        assert np.isfinite(certificate.error) or not certificate.decided
 
 
 def test_the_error_under_fast_strong_forcing():
@@ -76,32 +78,6 @@ def test_the_contact_force_of_a_sticking_ball_counts(chapter):
     assert clearances[1] > 100 * clearances[2]
 
 
-WRONG = {
-    "tau0 is nothing": ({"tau0": None}, "tau0"),
-    "tau0 is a word": ({"tau0": "now"}, "tau0"),
-    "tau0 is complex": ({"tau0": 1j}, "tau0"),
-    "tau0 is nan": ({"tau0": float("nan")}, "tau0"),
-    "cycles beyond whole floats": ({"cycles": 1e17}, "cycles"),
-    "cycles beyond all floats": ({"cycles": 10**400}, "cycles"),
-    "cycles that end too late": ({"cycles": 10**13}, "cycles"),
-    "a complex state": ({"state": [1j, 0, 0, 0, 0, 0, 0, 0]}, "state"),
-    "a complex array": ({"state": np.zeros(8, complex)}, "state"),
-    "a ragged state": ({"state": [[0, 0], 0, 0, 0, 0, 0, 0]}, "state"),
-    "words": ({"state": ["a"] * 8}, "state"),
-    "a ball 9 beyond the wall": ({"state": [1e13, 1e13 - 10, 0, 0, 0, 0, 0, 0]}, "state"),
-    "a ball just beyond": ({"state": [100.0, 99.0 - 1e-11, 0, 0, 0, 0, 0, 0]}, "state"),
-    "samples 900 outside": ({"tau0": 1e12, "sample_times": [1e12 - 900]}, "sample_times"),
-    "samples that are none": ({"sample_times": ["x"]}, "sample_times"),
-}
-
-
-@pytest.mark.parametrize(("change", "name"), WRONG.values(), ids=WRONG)
-def test_bad_input_is_refused_by_name(chapter, change, name):
-    arguments = {"state": np.zeros(8), "cycles": 1, **change}
-    with pytest.raises(ValueError, match=f"^{name}: "):
-        vi.simulate(chapter(), **arguments)
-
-
 def test_samples_far_from_time_zero(chapter):
     system, tau0 = chapter(), 1e12
     run = vi.simulate(system, np.zeros(8), 2, tau0, [tau0, tau0 + system.period, tau0 + 2 * system.period])
@@ -116,9 +92,3 @@ def test_the_errors_along_a_run_are_those_of_shorter_runs(chapter):
     shorter = [vi.simulate(system, start, n, tau0=0.4).certificate.error for n in range(1, cycles + 1)]
     assert 20 < np.isfinite(shorter).sum() < cycles
     np.testing.assert_allclose(run.errors(times), shorter, rtol=1e-6)
-
-
-def test_errors_are_asked_for_within_the_run(chapter):
-    run = vi.simulate(chapter(), [0.0] * 8, 1)
-    with pytest.raises(ValueError, match=r"^times: "):
-        run.errors([2 * run.system.period])

@@ -58,6 +58,9 @@ def test_chatter_against_high_precision(chapter, kappa):
     # hops down to speeds of 6e-4 are timed from positions of 1.5 (box) and 2.5 (ball); each error goes on to later hops
     rounding = 4.0 * np.finfo(float).eps / (6e-4 * (1 - float(kappa)))
     np.testing.assert_allclose(impacts["tau"], times, rtol=0, atol=rounding)
+    truth = reference_run(system, start, 1, 40).events  # the reference is held to the same
+    np.testing.assert_allclose(truth["tau"][: len(times)], times, rtol=1e-15)
+    assert truth["tau"][truth["kind"] == STICK][0] == pytest.approx(float(end), rel=1e-15)
     assert stick["tau"] == pytest.approx(float(end), abs=1e-11)
     expected = [float(x), float(x) - 1, 0, 0, float(common), float(common), 0, 0]
     # the stick is reported at its own, slightly approximated instant: compare the states at the same instant
@@ -81,22 +84,6 @@ def rebounds(events):
     for event in events[events["kind"] == IMPACT]:
         box, ball = event["state"][[2 + 2 * event["module"], 3 + 2 * event["module"]]]
         yield abs(box - ball)
-
-
-def test_chatter_follows_its_asymptotic_law(chapter):
-    """Flights shrink by kappa each and the rest of the chatter lasts 2 u / (a (1 - kappa))."""
-    system = chapter(0.0, 0.0, **ALONE)
-    start = np.array([-1.5, -2.5, 0.0, 0.0, 0.0, 0.02, 0.0, 0.0])
-    run = vi.simulate(system, start, 1)
-    stick = run.events[run.events["kind"] == STICK][0]
-    impacts = run.events[(run.events["kind"] == IMPACT) & (run.events["tau"] < stick["tau"])]
-    flights = np.diff(impacts["tau"])
-    errors = np.abs(flights[1:] / flights[:-1] - system.kappa)
-    assert errors[-1] < 1e-4 < errors[0]
-    for impact in impacts[-6:]:
-        inward = impact["state"][5] - impact["state"][4]
-        push = -impact["state"][0]
-        assert stick["tau"] - impact["tau"] == pytest.approx(2 * inward / (push * (1 - system.kappa)), rel=1e-3)
 
 
 def test_sticking_lasts_until_the_contact_force_vanishes(chapter):
@@ -136,62 +123,6 @@ def test_sticks_and_releases_alternate_and_forces_push(chapter, auditor):
             forces.append(wall * audit.acceleration(state, walls, stick["tau"] + s)[own])
         assert min(forces[:-1]) > 0
         assert abs(forces[-1]) < 1e-11
-
-
-def test_an_impact_in_one_module_releases_the_ball_of_the_other(chapter):
-    """Only a coupling damper can do it: the impact makes X2' and with it the force on box 1 jump."""
-    system = chapter(0.0, 0.0, epsilon=0.5, gamma12_hat=4.0, gamma1_hat=0.0, gamma2_hat=0.0, alpha12_hat=0.0)
-    # ball 1 rests on wall +1 of an almost unloaded box; ball 2 flies into wall +1 of box 2 from behind: box 2 slows
-    start = np.array([-0.02, -1.02, 0.0, -0.9, 0.0, 0.0, 0.0, -3.0])
-    run = vi.simulate(system, start, 1)
-    kinds = [(int(e["module"]), int(e["kind"])) for e in run.events[:3]]
-    assert kinds == [(1, STICK), (2, IMPACT), (1, RELEASE)]
-    assert run.events["tau"][1] == run.events["tau"][2]
-    before, after = run.events["state"][1], run.events["state"][2]
-    np.testing.assert_array_equal(before, after)
-    force = -after[0] + 2.0 * (after[6] - after[4])
-    assert force < 0
-
-
-REST = dict(
-    pushed=(np.array([-1.5, -2.5, 0.4, 0.0, 0.0, 0.0, 0.1, 0.3]), (STICK, 1)),
-    pulled=(np.array([1.5, 0.5, 0.4, 0.0, 0.0, 0.0, 0.1, 0.3]), None),
-    outward=(np.array([-1.5, -2.5, 0.4, 0.0, 0.2, 0.0, 0.1, 0.3]), (IMPACT, 1)),
-    inward=(np.array([-1.5, -2.5, 0.4, 0.0, -0.2, 0.0, 0.1, 0.3]), None),
-)
-
-
-@pytest.mark.parametrize(("start", "first"), REST.values(), ids=REST)
-@pytest.mark.parametrize("mirror", [1.0, -1.0])
-def test_contact_at_the_start(chapter, auditor, start, first, mirror):
-    system = chapter(0.7, 0.3)
-    run = vi.simulate(system, mirror * start, 10)
-    auditor(system).audit(run, mirror * start, 0.0, 10)
-    at_start = [(e["kind"], e["wall"] * mirror) for e in run.events if e["tau"] == 0.0]
-    assert at_start == ([first] if first else [])
-
-
-@pytest.mark.parametrize("first", ["free", "stuck"])
-@pytest.mark.parametrize("second", ["free", "stuck"])
-def test_the_four_contact_states(chapter, auditor, first, second):
-    system = chapter(0.7, 0.3)
-    ball = {"free": 0.3, "stuck": 1.0}
-    start = np.array([-1.5, -1.5 - ball[first], 1.2, 1.2 + ball[second], 0.0, 0.0, 0.0, 0.0])
-    run = vi.simulate(system, start, 10)
-    stuck = {int(e["module"]) for e in run.events if e["tau"] == 0.0 and e["kind"] == STICK}
-    assert stuck == {m for m, s in ((1, first), (2, second)) if s == "stuck"}
-    auditor(system).audit(run, start, 0.0, 10)
-
-
-def test_both_modules_meet_in_the_same_instant(chapter, auditor):
-    """Identical modules in mirrored motion: every event comes twice at one time."""
-    system = chapter(1.0, -1.0, sigma20_hat=0.0)
-    start = np.array([0.1, 0.0, -0.1, 0.0, 0.0, 0.3, 0.0, -0.3])
-    run = vi.simulate(system, start, 12)
-    first, second = run.events[run.events["module"] == 1], run.events[run.events["module"] == 2]
-    assert len(first) == len(second) > 10
-    np.testing.assert_allclose(first["tau"], second["tau"], atol=1e-10)
-    auditor(system).audit(run, start, 0.0, 12)
 
 
 def test_impact_law_conserves_momentum_and_never_gains_energy():

@@ -94,18 +94,6 @@ def test_an_ensemble_tells_the_same_of_the_cycles_it_observes(case):
         np.testing.assert_array_equal(outcomes[name][0], plain[name])
 
 
-def test_cycles_stay_where_they_are_in_long_runs(chapter):
-    """The last one is that of a run of its own from there."""
-    system, cycles = chapter(1.0, 1.0), 30_000
-    rest = vi.simulate(system, START, cycles)
-    last, own = (
-        vi.simulate(system, START, cycles + 1).energy.per_cycle[-1],
-        vi.simulate(system, rest.final, 1, rest.end),
-    )
-    for name in vi.ENERGY.names:
-        np.testing.assert_allclose(last[name], getattr(own.energy, name), rtol=0, atol=1e-12)
-
-
 def test_what_happens_at_once_counts_without_any_cycle(case):
     """An impact at the start: what it loses is what the motion then lacks."""
     energy = vi.simulate(case, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0], 0).energy

@@ -91,20 +91,3 @@ def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
     assert clearance(first=1e-9, last=1e-8) == clearance(last=1e-8)
     assert 1e-8 / clearance(last=1e-8) == pytest.approx(error, rel=0.5)
     assert error == run.certificate.error
-
-
-def test_the_shallowest_hit_is_that_of_all_parabolas(chapter, auditor):
-    """The depth u^2 / (2 b) of every impact, from matrix exponentials alone."""
-    system, start = chapter(0.5, 0.5), np.array([0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2])
-    run, audit = vi.simulate(system, start, 12), auditor(system)
-    assert (run.events["kind"] == IMPACT).all()
-    state, tau, depths = start, 0.0, []
-    for event in run.events:
-        before = audit.flow(state, [0, 0], tau, event["tau"] - tau)
-        i = event["module"] - 1
-        brake = -event["wall"] * audit.acceleration(before, [0, 0], event["tau"])[i]
-        if brake > 0.0:
-            depths.append((before[4 + 2 * i] - before[5 + 2 * i]) ** 2 / (2.0 * brake))
-        state, tau = event["state"].copy(), event["tau"]
-    assert len(depths) > 10
-    assert run.certificate.shallowest_hit == pytest.approx(min(depths), rel=1e-9)

@@ -1,128 +1,66 @@
-"""Multipliers against an event-driven map in 40 digits, Liouville's formula and known limits."""
+"""Multipliers against an event-driven map in 40 digits, Liouville's formula, the engine; their verdict."""
 
 import mpmath as mp
 import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits.floquet import contraction, follow, multipliers
-from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, search
+from stroboscope import ORDER, Stroboscope
+from vibroimpact.exact.orbits.floquet import contraction, multipliers
+from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.saltation import impact_matrix, impact_saltation, vector_field
+from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.system.restitution import after_impact
 
-DIGITS = 40
-STEP = "1e-14"
-
-
-class PreciseMap:
-    """Free flights by eigenvectors and impacts by Newton's method, in DIGITS digits, written from (10.2)."""
-
-    def __init__(self, system):
-        e = mp.mpf(system.epsilon)
-        k, c = e * mp.mpf(system.alpha12_hat), e * mp.mpf(system.gamma12_hat)
-        c1, c2 = e * mp.mpf(system.gamma1_hat), e * mp.mpf(system.gamma2_hat)
-        f1, f2 = e * mp.mpf(system.f10_hat), e * mp.mpf(system.f20_hat)
-        w = 1 + e * mp.mpf(system.sigma_e_hat)
-        rate = mp.matrix(
-            [
-                [0, 0, 1, 0, 0, 0],
-                [0, 0, 0, 1, 0, 0],
-                [-1 - k, k, -c1 - c, c, f1, 0],
-                [k, -1 - e * mp.mpf(system.sigma20_hat) - k, c, -c2 - c, f2, 0],
-                [0, 0, 0, 0, 0, w],
-                [0, 0, 0, 0, -w, 0],
-            ]
-        )
-        self.values, self.vectors = mp.eig(rate)
-        self.inverse = mp.inverse(self.vectors)
-        self.epsilon, self.kappa, self.omega, self.period = e, mp.mpf(system.kappa), w, 2 * mp.pi / w
-
-    def flight(self, state, tau, t):
-        phase = self.omega * tau
-        lifted = mp.matrix([*state[0::2], mp.sin(phase), mp.cos(phase)])
-        modes = self.inverse * lifted
-        moved = self.vectors * mp.matrix([z * mp.exp(v * t) for z, v in zip(modes, self.values, strict=True)])
-        boxes = [mp.re(moved[k]) for k in range(4)]
-        balls = [state[1] + t * state[5], state[3] + t * state[7], state[5], state[7]]
-        return [z for pair in zip(boxes, balls, strict=True) for z in pair]
-
-    def impact(self, state, tau, module, wall, guess):
-        """State and time just after the impact next to the time `guess`."""
-        x, y, dx, dy = 2 * module - 2, 2 * module - 1, 2 * module + 2, 2 * module + 3
-        t = mp.mpf(guess) - tau
-        for _ in range(6):
-            met = self.flight(state, tau, t)
-            t -= (met[x] - met[y] - wall) / (met[dx] - met[dy])
-        met = self.flight(state, tau, t)
-        assert abs(met[x] - met[y] - wall) < mp.mpf(10) ** (5 - DIGITS)
-        change = (1 + self.kappa) / (1 + self.epsilon) * (met[dx] - met[dy])
-        met[dx], met[dy] = met[dx] - self.epsilon * change, met[dy] + change
-        return met, tau + t
-
-    def __call__(self, state, impacts, end):
-        tau = mp.mpf(0)
-        for time, module, wall in impacts:
-            state, tau = self.impact(state, tau, module, wall, time)
-        return self.flight(state, tau, end - tau)
-
-    def jacobian(self, state, impacts, end):
-        step = mp.mpf(STEP)
-        columns = []
-        for k in range(8):
-            ends = []
-            for side in (1, -1):
-                moved = [mp.mpf(float(z)) for z in state]
-                moved[k] += side * step
-                ends.append(self(moved, impacts, end))
-            columns.append([(a - b) / (2 * step) for a, b in zip(*ends, strict=True)])
-        return mp.matrix(columns).T
+BEFORE = np.array([0.3, -0.7, 0.2, 0.1, 0.9, -0.4, -0.3, 0.6])
+TAU = 1.7
+MODULES = pytest.mark.parametrize("module", [1, 2])
 
 
-def impacts_of(orbit):
-    times = orbit.impact_phases * orbit.system.period
-    return sorted((float(times[i, k]), i + 1, (1, -1)[k]) for i in range(2) for k in range(2))
-
-
-def distinct_kinds(case):
-    """One symmetric orbit and, if there is one, one asymmetric orbit: the least unstable of each."""
+def least_unstable(case):
+    """One symmetric orbit and, if there is one, one asymmetric orbit."""
     listed = [o for o in orbits(case) if o.admissible]
-    chosen = []
     for kind in (True, False):
         same = [o for o in listed if o.symmetric is kind]
-        chosen += [min(same, key=lambda o: abs(o.multipliers[0]))] if same else []
-    return chosen
+        yield from [min(same, key=lambda o: abs(o.multipliers[0]))] if same else []
 
 
 def test_monodromy_matrix_and_multipliers_in_extended_precision(case):
-    with mp.workdps(DIGITS):
-        reference = PreciseMap(case)
-        for orbit in distinct_kinds(case):
-            impacts = impacts_of(orbit)
-            expected = reference.jacobian(orbit.state, impacts, reference.period)
-            times, modules, _ = zip(*impacts, strict=True)
-            jacobian = follow(case, orbit.state, np.array(times), np.array(modules), case.period).jacobian
-            error = max(abs(expected[i, k] - jacobian[i, k]) for i in range(8) for k in range(8))
-            assert error < 1e-9
-            values = mp.eig(expected, left=False, right=False)
-            for value in values:
-                assert min(abs(value - mu) for mu in orbit.multipliers) < 1e-9
-            for mu in orbit.multipliers:
-                assert min(abs(value - mu) for value in values) < 1e-9
+    with mp.workdps(40):
+        for orbit in least_unstable(case):
+            expected = Stroboscope(orbit).jacobian(mp.matrix(orbit.state[ORDER].tolist()))
+            exact = np.array(expected.tolist(), dtype=float)
+            np.testing.assert_allclose(orbit.passage.jacobian[np.ix_(ORDER, ORDER)], exact, rtol=0, atol=1e-9)
+            values = np.array(mp.eig(expected, left=False, right=False), dtype=complex)
+            apart = abs(values[:, None] - orbit.multipliers)
+            assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-9
 
 
-@pytest.mark.parametrize("module", [1, 2])
-@pytest.mark.parametrize("wall", [1, -1])
-def test_one_impact_in_extended_precision(chapter, module, wall):
-    """A flight, one impact (with damped coupling, in the middle of the forcing cycle), a flight."""
-    system = chapter(gamma12_hat=0.7)
-    state = np.array([0.2, 0.1, -0.3, -0.2, 0.5, 0.1, -0.4, 0.2])
-    state[2 * module + 3] = -wall * 1.9
-    with mp.workdps(DIGITS):
-        reference = PreciseMap(system)
-        exact = [mp.mpf(float(z)) for z in state]
-        _, tau = reference.impact(exact, mp.mpf(0), module, wall, 0.5)
-        expected = reference.jacobian(state, [(tau, module, wall)], reference.period)
-        jacobian = follow(system, state, np.array([float(tau)]), np.array([module]), system.period).jacobian
-        assert max(abs(expected[i, k] - jacobian[i, k]) for i in range(8) for k in range(8)) < 1e-12
+@MODULES
+def test_impact_matrix_is_the_impact_law(chapter, module):
+    system, box, ball, expected = chapter(), 2 * module + 2, 2 * module + 3, BEFORE.copy()
+    expected[[box, ball]] = after_impact(system.epsilon, system.kappa, BEFORE[box], BEFORE[ball])
+    np.testing.assert_allclose(impact_matrix(system, module) @ BEFORE, expected, rtol=1e-15)
+
+
+@MODULES
+@pytest.mark.parametrize("gamma12_hat", [0.0, 0.2])
+@pytest.mark.parametrize("kappa", [0.1, 0.65, 0.99])
+def test_what_defines_the_saltation_matrix(chapter, module, gamma12_hat, kappa):
+    """The motion itself passes unchanged, S f- = f+; along the wall the impact law holds; the determinant."""
+    system = chapter(gamma12_hat=gamma12_hat, kappa=kappa)
+    law, saltation = impact_matrix(system, module), impact_saltation(system, BEFORE, TAU, module)
+    carried = saltation @ vector_field(system, BEFORE, TAU)
+    np.testing.assert_allclose(carried, vector_field(system, law @ BEFORE, TAU), rtol=0, atol=1e-14)
+    along = np.random.default_rng(3).normal(size=8)
+    along[2 * module - 1] = along[2 * module - 2]
+    np.testing.assert_allclose(saltation @ along, law @ along, rtol=0, atol=1e-14)
+    assert np.linalg.det(saltation) == pytest.approx(kappa**2, rel=1e-12)
+    grazing = BEFORE.copy()
+    grazing[2 * module + 3] = grazing[2 * module + 2]
+    with pytest.raises(ValueError, match="grazing"):
+        impact_saltation(system, grazing, TAU, module)
 
 
 @pytest.mark.parametrize("changes", [{}, {"kappa": 0.3}, {"gamma12_hat": 2.0}, {"epsilon": 0.7, "gamma1_hat": 0.0}])
@@ -139,69 +77,11 @@ def test_liouville(chapter, changes):
     assert contraction(system, 4) == pytest.approx(expected, rel=1e-14)
 
 
-def test_uncoupled_modules_have_multipliers_of_their_own(chapter):
-    """Without coupling the multipliers of one module do not notice the other: exchange partners and compare."""
-    alone = {"alpha12_hat": 0, "gamma12_hat": 0}
-    first, second, crossed = (
-        max(orbits(chapter(*f, **alone)), key=lambda o: o.ball_speeds.min()).multipliers
-        for f in [(1, 1), (0.8, 0.9), (1, 0.9)]
-    )
-    pool = np.concatenate([first, second])
-    for mu in crossed:
-        assert abs(pool - mu).min() < 1e-10
-    twins = max(orbits(chapter(1, 1, **alone, sigma20_hat=0)), key=lambda o: o.ball_speeds.min()).multipliers
-    for mu in twins:
-        assert np.sort(abs(twins - mu))[1] < 1e-7  # every multiplier twice, up to the root of rounding
-
-
-def test_a_multiplier_is_one_at_a_fold(chapter):
-    """Four symmetric solutions become two as the forcing falls: those that meet share a multiplier +1."""
-
-    def solutions(f):
-        return symmetric_solutions(chapter(f, f))
-
-    low, high = 0.5, 1.0
-    assert (len(solutions(low)), len(solutions(high))) == (2, 4)
-    while high - low > 1e-12:
-        middle = (low + high) / 2
-        low, high = (low, middle) if len(solutions(middle)) == 4 else (middle, high)
-    found = [orbit for orbit in orbits(chapter(high, high)) if orbit.symmetric]
-    gaps = {(a, b): abs(found[a].state - found[b].state).max() for a in range(4) for b in range(a)}
-    meeting = min(gaps, key=gaps.get)
-    assert gaps[meeting] < 1e-4
-    for k in meeting:
-        assert abs(half_period_multipliers(found[k]) - 1).min() < 1e-3
-
-
-def test_symmetry_breaks_where_a_half_period_multiplier_is_minus_one(chapter):
-    """A pair of asymmetric orbits leaves the symmetric one there, as the root of the distance in the parameter."""
-
-    def lowest(f):
-        symmetric = [o for o in search(chapter(f, f), starts=1).orbits if o.symmetric and o.admissible]
-        return half_period_multipliers(max(symmetric, key=lambda o: o.C[0])).real.min()
-
-    def inequality(f):
-        """Distance of the flight fractions from one half, for the most nearly symmetric asymmetric pair."""
-        found = [o for o in orbits(chapter(f, f)) if not o.symmetric and o.admissible]
-        fractions = [np.mod(o.impact_phases[:, 1] - o.impact_phases[:, 0], 1) for o in found]
-        return min(abs(u - 0.5).max() for u in fractions)
-
-    low, high = 1.2, 1.25
-    assert lowest(low) > -1 > lowest(high)
-    for _ in range(25):
-        middle = (low + high) / 2
-        low, high = (middle, high) if lowest(middle) > -1 else (low, middle)
-    near, far = inequality(low - 1e-5), inequality(low - 4e-5)
-    assert near < 0.01
-    assert far / near == pytest.approx(2, rel=0.01)
-
-
 def test_half_period_multipliers_square_to_the_multipliers(case):
     for orbit in orbits(case):
         if orbit.symmetric:
-            squares = half_period_multipliers(orbit) ** 2
-            for mu in orbit.multipliers:
-                assert abs(squares - mu).min() < 1e-9 * max(1.0, abs(mu))
+            apart = abs(half_period_multipliers(orbit)[:, None] ** 2 - orbit.multipliers)
+            assert (apart.min(axis=0) < 1e-9 * np.maximum(1.0, abs(orbit.multipliers))).all()
         else:
             with pytest.raises(ValueError, match="not symmetric"):
                 half_period_multipliers(orbit)
@@ -213,11 +93,36 @@ def test_order_of_multipliers():
     np.testing.assert_allclose(multipliers(matrix), [-3, 2j, -2j, 1, 0.5, 0.3, 0.2, 0.1], atol=1e-15)
 
 
-def test_perturbed_motion_is_carried_by_the_monodromy_matrix(case):
-    """The event-driven engine moves a small perturbation as the matrix says."""
-    orbit = distinct_kinds(case)[0]
-    times, modules, _ = zip(*impacts_of(orbit), strict=True)
-    jacobian = follow(case, orbit.state, np.array(times), np.array(modules), case.period).jacobian
-    push = 1e-6 * np.random.default_rng(1).normal(size=8)
-    ends = [vi.simulate(case, orbit.state + side * push, 1).final for side in (1, -1)]
-    np.testing.assert_allclose((ends[0] - ends[1]) / 2, jacobian @ push, rtol=0, atol=1e-11 * abs(jacobian).max())
+def test_a_perturbed_start_moves_as_matrix_and_verdict_say(case):
+    """After a cycle as the matrix says; after many it is drawn back to a stable orbit and leaves an unstable one."""
+    direction = np.random.default_rng(3).normal(size=8)
+    for orbit in (o for o in orbits(case) if o.admissible):
+        jacobian, verdict = orbit.passage.jacobian, floquet(orbit)
+        ends = [vi.simulate(case, orbit.state + side * 1e-6 * direction, 1).final for side in (1, -1)]
+        expected = 1e-6 * jacobian @ direction
+        np.testing.assert_allclose((ends[0] - ends[1]) / 2, expected, rtol=0, atol=1e-9 * abs(jacobian).max() ** 2)
+        cycles = 400 if verdict == "stable" else 120
+        gap = np.abs(vi.simulate(case, orbit.state + 1e-7 * direction, cycles).final - orbit.state).max()
+        assert (verdict, gap < 1e-7) in {("stable", True), ("unstable", False)}
+
+
+def test_the_verdict_is_undecided_where_symmetry_breaks_and_only_there(chapter):
+    """One module twice, without coupling: the forcing rises until the symmetric motion is unstable."""
+
+    def symmetric(f):
+        system = chapter(f, f, epsilon=0.01, alpha12_hat=0, gamma12_hat=0, sigma20_hat=0)
+        return symmetric_orbit(system, max(symmetric_solutions(system), key=lambda root: root[2:].min()))
+
+    low, high = 1.6, 1.7
+    while low < (middle := (low + high) / 2) < high:
+        low, high = (middle, high) if np.abs(symmetric(middle).multipliers).max() < 1 else (low, middle)
+    verdicts = [floquet(symmetric(f)) for f in (low - 1e-4, low, high, high + 1e-4)]
+    assert verdicts == ["stable", "undecided", "undecided", "unstable"]
+
+
+def test_moduli_decide_unless_the_residual_is_large(case):
+    for orbit in orbits(case):
+        largest = np.abs(orbit.multipliers).max()
+        assert floquet(orbit) == ("stable" if largest < 1 else "unstable")
+        doubtful = (type(orbit)(**{**vars(orbit), "residual": residual}) for residual in (1e-13, 1.0))
+        assert [floquet(one) == "undecided" for one in doubtful] == [False, True] or not orbit.admissible

@@ -11,16 +11,14 @@ flint = pytest.importorskip("flint", reason="python-flint belongs to the optiona
 import vibroimpact as vi  # noqa: E402
 from attacks import random_system  # noqa: E402
 from chapter import FORCES, PARAMETERS  # noqa: E402
+from stroboscope import ORDER, Stroboscope  # noqa: E402
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
-from vibroimpact.exact.orbits.floquet import contraction  # noqa: E402
 from vibroimpact.exact.orbits.floquet_verdict import floquet  # noqa: E402
-from vibroimpact.exact.orbits.newton import newton  # noqa: E402
 from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions  # noqa: E402
 from vibroimpact.exact.orbits.proof.krawczyk import krawczyk  # noqa: E402
 from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
 from vibroimpact.exact.orbits.search import symmetric_orbit  # noqa: E402
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
-from vibroimpact.system.matrices import rate_matrix  # noqa: E402
 
 DIGITS = 80
 REFUSED = (0.0, np.inf, "not proved", "not proved", np.inf)
@@ -47,70 +45,12 @@ def proofs(orbits):
     return {label: prove(orbit) for label, orbit in orbits.items()}
 
 
-class Stroboscope:
-    """The state [X1, X2, X1', X2', Y1, Y2, Y1', Y2'] a period later, in mpmath: modes, impacts by Newton's method.
-
-    Its derivative is taken by central differences, so that no saltation matrix is needed. phases, speeds: of the
-    impacts met last and of the flights they start, in the order of time.
-    """
-
-    def __init__(self, orbit):
-        self.system, self.period = orbit.system, 2 * mpmath.pi / mpmath.mpf(orbit.system.Omega)
-        self.rates, self.modes = mpmath.eig(mpmath.matrix(rate_matrix(orbit.system).tolist()))
-        self.inverse = self.modes**-1
-        in_order = np.argsort(orbit.impact_phases.ravel())
-        self.impacts = [
-            (self.period * mpmath.mpf(orbit.impact_phases.flat[k]), k // 2, 1 - 2 * (k % 2)) for k in in_order
-        ]
-
-    def __call__(self, state):
-        tau, boxes, balls = mpmath.mpf(0), [*state[:4], mpmath.mpf(0), mpmath.mpf(1)], list(state[4:])
-        self.phases, self.speeds = [], []
-        for expected, i, wall in self.impacts:
-            duration = expected - tau
-            for _ in range(4):
-                x, y = self._flown(boxes, balls, duration)
-                duration -= (x[i] - y[i] - wall) / (x[2 + i] - y[2 + i])
-            boxes, balls = self._flown(boxes, balls, duration)
-            impulse = (1 + mpmath.mpf(self.system.kappa)) * (boxes[2 + i] - balls[2 + i]) / (1 + self.epsilon)
-            boxes[2 + i], balls[2 + i] = boxes[2 + i] - self.epsilon * impulse, balls[2 + i] + impulse
-            tau += duration
-            self.phases.append(tau / self.period)
-            self.speeds.append(wall * balls[2 + i])
-        boxes, balls = self._flown(boxes, balls, self.period - tau)
-        return mpmath.matrix(boxes[:4] + balls)
-
-    @property
-    def epsilon(self):
-        return mpmath.mpf(self.system.epsilon)
-
-    def _flown(self, boxes, balls, duration):
-        amplitudes = self.inverse * mpmath.matrix(boxes)
-        grown = [a * mpmath.exp(rate * duration) for a, rate in zip(amplitudes, self.rates, strict=True)]
-        moved = [entry.real for entry in self.modes * mpmath.matrix(grown)]
-        return moved, [balls[0] + duration * balls[2], balls[1] + duration * balls[3], *balls[2:]]
-
-    def jacobian(self, state):
-        step, columns = mpmath.mpf(10) ** (-DIGITS // 3), []
-        for k in range(8):
-            push = mpmath.matrix([step * (j == k) for j in range(8)])
-            columns.append((self(state + push) - self(state - push)) / (2 * step))
-        return mpmath.matrix([[column[row] for column in columns] for row in range(8)])
-
-    def closed(self, state):
-        """The periodic state near this one, by Newton's method with one derivative, and the derivative there."""
-        inverse = (mpmath.eye(8) - self.jacobian(state)) ** -1
-        for _ in range(6):
-            state = state + inverse * (self(state) - state)
-        return state, self.jacobian(state)
-
-
 @pytest.mark.parametrize("label", ["S4", "A3", "A7"])
 def test_an_orbit_followed_with_80_digits_has_its_multipliers_in_the_enclosures(orbits, proofs, label):
     orbit, proof = orbits[label], proofs[label]
     with mpmath.workdps(DIGITS), flint.ctx.workprec(4 * DIGITS):
         strobe = Stroboscope(orbit)
-        state, jacobian = strobe.closed(mpmath.matrix(orbit.state[[0, 2, 4, 6, 1, 3, 5, 7]].tolist()))
+        state, jacobian = strobe.closed(mpmath.matrix(orbit.state[ORDER].tolist()))
         assert mpmath.norm(strobe(state) - state) < mpmath.mpf(10) ** -45
         phases, speeds = strobe.phases, strobe.speeds
         true = mpmath.eig(jacobian, right=False)
@@ -159,12 +99,6 @@ def test_a_ball_that_just_misses_the_wall_or_does_not(chapter, beyond, motion):
     assert prove(orbit).motion == motion
 
 
-def test_the_multipliers_multiply_to_the_contraction(orbits, proofs):
-    for label, proof in proofs.items():
-        product = np.prod([complex(value) for value in proof.multipliers])
-        assert product == pytest.approx(contraction(orbits[label].system, 4), rel=1e-11)
-
-
 def test_intervals_and_floats_have_the_same_conditions(orbits):
     """Away from any root; the floats list the conditions in another order."""
     point = unknowns(orbits["A5"]) + np.linspace(-0.1, 0.2, 6)
@@ -173,16 +107,6 @@ def test_intervals_and_floats_have_the_same_conditions(orbits):
     for mine, theirs in zip(enclosed, AsymmetricConditions(orbits["A5"].system)(point[None]), strict=True):
         mine = np.array([[float(entry) for entry in row] for row in mine.tolist()])
         np.testing.assert_allclose(mine, theirs[0][by_module].reshape(mine.shape), atol=1e-11)
-
-
-def test_newtons_method_from_all_over_the_box_finds_one_root(orbits, proofs):
-    for label in ("S3", "A3", "A7"):
-        centre, radius = unknowns(orbits[label]), proofs[label].radius
-        starts = centre + radius * np.random.default_rng(1).uniform(-1, 1, (200, 6))
-        roots = newton(AsymmetricConditions(orbits[label].system), starts)
-        inside = roots[(abs(roots - centre) < radius).all(axis=1)]
-        assert len(inside) > 100
-        assert np.ptp(inside, axis=0).max() < 1e-11
 
 
 def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):

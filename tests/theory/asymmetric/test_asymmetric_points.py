@@ -97,26 +97,11 @@ def test_none_is_missed(case):
     assert len(proof(case).isolated) == len(points(case))
 
 
-def test_the_cases_have_modules_of_every_kind():
-    kinds = {point.charts for case in SYSTEMS for point in points(case) if point.real}
-    assert (ASYMMETRIC, ASYMMETRIC) in kinds
-    assert any(pair[0] == ASYMMETRIC != pair[1] for pair in kinds)
-    assert any(pair[1] == ASYMMETRIC != pair[0] for pair in kinds)
-
-
 def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
     listed = points("equal")
     for spoilt in (listed[1:], [*listed, listed[0]]):
         monkeypatch.setattr(certify, "search", lambda system, spoilt=spoilt: spoilt)
         assert not certify.certify(SYSTEMS["equal"]).complete
-
-
-def test_boxes_hold_the_points():
-    for (pair, box), point in zip(
-        sorted(proof("equal").isolated), sorted(points("equal"), key=lambda p: (p.charts, *p.x)), strict=True
-    ):
-        assert pair == point.charts
-        assert all(low <= x <= high for (low, high), x in zip(box, point.x, strict=True))
 
 
 def test_without_coupling_each_module_is_on_its_own():

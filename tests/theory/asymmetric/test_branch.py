@@ -2,44 +2,12 @@
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from vibroimpact.theory import masri
 from vibroimpact.theory.asymmetric import branch
 
 PLACES = [(0.02, 0.65), (0.3, 0.65), (0.45, 0.3), (0.6, 0.9)]
 """v and kappa; the ball stays inside at all but the last."""
-
-
-def flown(start, slope, wall, B, kappa):
-    """Phase of the impact with the other wall and slope of Z after it; the first root after the start."""
-
-    def to_wall(phase):
-        return 2 * wall + B * (np.sin(phase) - np.sin(start)) + slope * (phase - start)
-
-    grid = start + np.linspace(1e-3, 2 * np.pi, 2000)
-    values = to_wall(grid)
-    first = np.flatnonzero(values[:-1] * values[1:] < 0)[0]
-    end = brentq(to_wall, grid[first], grid[first + 1], xtol=1e-15, rtol=1e-15)
-    return end, -kappa * slope - (1 + kappa) * B * np.cos(end)
-
-
-def cycle(state, B, kappa):
-    return np.array(flown(*flown(*state, 1, B, kappa), -1, B, kappa)) - [2 * np.pi, 0]
-
-
-@pytest.mark.parametrize(("v", "kappa"), PLACES[:3])
-def test_the_ball_comes_back_and_the_map_has_the_multipliers(v, kappa):
-    B = branch.amplitudes(v**2, kappa)[1]
-    a, b = branch.impact_phases(v, kappa)
-    state = np.array([a, -branch.slope_change(v, kappa) * (1 + v) / 2])
-    assert flown(*state, 1, B, kappa)[0] == pytest.approx(b, abs=1e-12)
-    assert cycle(state, B, kappa) == pytest.approx(state, abs=1e-11)
-    step = 1e-6
-    columns = [(cycle(state + step * e, B, kappa) - cycle(state - step * e, B, kappa)) / (2 * step) for e in np.eye(2)]
-    found = np.linalg.eigvals(np.transpose(columns))
-    expected = branch.multipliers(v**2, kappa)
-    assert sorted(found, key=abs) == pytest.approx(sorted(expected, key=abs), abs=1e-6)
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])

@@ -76,32 +76,9 @@ def test_a_near_miss_has_no_zero(gap):
     assert len(zeros) == 0
 
 
-def test_a_further_polynomial_only_excludes():
-    zeros, _ = solve(CIRCLE, line(1.0, 0.5), CIRCLE + 3 * line(1.0, 0.5))
-    assert len(zeros) == 2
-
-
-def test_eight_zeros():
-    """As many as two polynomials of degree (2, 2) can have: x^2 = y^2 = a with (a - 1)(a - 4) = delta."""
-    delta = 0.01
-    near, far = np.array([-1.0, 0, 1.0]), np.array([-4.0, 0, 1.0])
-    constant = delta * product(ONE, ONE)
-    zeros, multiple = solve(product(near, far) - constant, product(far, near) - constant)
-    root = np.sqrt(9 + 4 * delta)
-    moduli = np.sqrt([(5 + root) / 2, (5 - root) / 2])
-    expected = sorted((sx * m, sy * m) for m in moduli for sx in (-1, 1) for sy in (-1, 1))
-    assert np.array(sorted(np.round(zeros, 9).tolist())) == pytest.approx(np.array(expected), abs=1e-8)
-    assert not multiple.any()
-
-
 def test_no_isolated_zeros():
     with pytest.raises(ArithmeticError):
         solve(CIRCLE, CIRCLE)
-
-
-def test_a_square_without_width():
-    zeros, _ = solve(CIRCLE, line(1.0, 0.5), radius=0.0)
-    assert zeros.shape == (0, 2)
 
 
 def test_many_boxes_that_nothing_settles_are_gathered_in_little_memory():
