@@ -111,7 +111,7 @@ def _errors_of_jumps(system):
 
 
 def leading_order_solution(evidence):
-    """(10.9)-(10.11) in (10.8), by its own conditions, with B and phase by (10.16) and (10.17); (10.19) by quadrature."""
+    """(10.9)-(10.11) in (10.8), by its own conditions, with B and phase by (10.16), (10.17); (10.19) by quadrature."""
     residuals = {"flight": 0.0, "walls": 0.0, "impacts": 0.0, "harmonics": _error_of_the_harmonics()}
     t = np.linspace(0.1, np.pi - 0.1, 50)
     for kappa in KAPPAS:

@@ -52,4 +52,5 @@ def _plain(value):
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
     """Return the finding on a statement as printed, with whether the corrected one holds beside it."""
-    return Finding({"as printed": holds}, {**numbers, "as corrected": corrected}, corrected=bool(corrected))
+    numbers["as corrected"] = HOLDS if corrected else REFUTED
+    return Finding({"as printed": holds}, numbers, corrected=bool(corrected))
