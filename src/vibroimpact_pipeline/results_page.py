@@ -53,7 +53,8 @@ def _overview(results):
     said = ["<p>Every figure leads to its page, which says how it is made and what the exact system says of it.</p>"]
     if (claims := results / "claims.json").is_file():
         counts = Counter(claim["verdict"] for claim in json.loads(claims.read_text(encoding="utf-8")))
-        verdicts = ", ".join(f"{escape(verdict)} {number}" for verdict, number in counts.most_common())
+        ordered = sorted(counts.most_common(), key=lambda one: one[0] == "misprint")  # these come last
+        verdicts = ", ".join(f"{escape(verdict)} {number}" for verdict, number in ordered)
         page = _link("claims.md", f"{counts.total()} claims of the chapter")
         said.append(f"<p>The {page}, each judged by computed numbers: {verdicts}.</p>")
     return "\n".join(said)

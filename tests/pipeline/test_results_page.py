@@ -73,3 +73,10 @@ def test_the_page_of_results_links_what_is_there_with_its_exact_line(results):
     assert "2 claims of the chapter" in html
     assert "&lt;refuted&gt; 1" in html
     assert "<script" not in html
+
+
+def test_misprints_are_counted_last_however_many_they_are(results):
+    add("claims.json", '[{"verdict": "misprint"}, {"verdict": "misprint"}, {"verdict": "refuted"}]')
+    results_page.write({})
+    html = (results / "index.html").read_text(encoding="utf-8")
+    assert "refuted 1, misprint 2." in html

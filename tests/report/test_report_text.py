@@ -12,7 +12,7 @@ from math_core import LatexError
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
-from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, section_of, setting
+from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, section_of, setting, verdicts
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import convert
 
@@ -181,6 +181,11 @@ def test_the_section_of_a_statement_is_the_one_it_is_listed_under():
             assert section_of(place) == section, place
             places += 1
     assert places > 40
+
+
+def test_verdicts_are_counted_in_their_order_with_misprints_last():
+    given = ["misprint"] * 3 + ["refuted", "holds", "refuted"]
+    assert verdicts([{"verdict": verdict} for verdict in given]) == [("holds", 1), ("refuted", 2), ("misprint", 3)]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Checks of what the chapter says of balls as absorbers: efficiency, shocks, the best design, what can be harvested."""
+"""Checks of what the chapter says of balls as absorbers: efficiency, shocks, the best design."""
 
 import math
 
@@ -10,10 +10,8 @@ from vibroimpact.absorbers.tuning import den_hartog
 from vibroimpact.claims.finding import Finding
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.regimes.classification import starts
 
-CHECKS = ("efficient", "absorbs_rapidly", "suppresses_shocks", "can_be_optimised", "modulation_favours_harvesting")
+CHECKS = ("efficient", "absorbs_rapidly", "suppresses_shocks", "can_be_optimised")
 IMPULSES = np.geomspace(0.5, 20.0, 13)
 """Velocities that a shock gives to box 1, in units of L omega_10; the first bring no ball to a wall."""
 FAINT = 1e-3
@@ -24,8 +22,6 @@ NOTICED = 0.99
 """What is called shorter, or lower, is so by a hundredth at least."""
 SURE = 2
 """Spreads by which a peak has to be lower than another."""
-STARTS, SEED, CYCLES, SETTLE = 17, 2, 700, 200
-"""Of the modulated response; rest, the first start, is left out: from there one ball may stay idle."""
 
 
 def efficient(evidence):
@@ -122,24 +118,3 @@ def _per_force(system, table):
 def _inside(table, name):
     """Whether the lowest peak is at neither end of what was tried."""
     return table[name].min() < table.loc[table["ratio"].idxmin(), name] < table[name].max()
-
-
-def modulation_favours_harvesting(evidence, case):
-    """What the impacts take in the modulated response, against the 1:1 responses at the same forces."""
-    system = evidence.systems[case]
-    runs = ensemble(system, starts(STARTS, SEED)[1:], CYCLES, settle=SETTLE, energy=True)["energy"]
-    taken, given = (runs[name].sum(axis=1) / (CYCLES - SETTLE) for name in ("impacts", "work"))
-    periodic = [simulate(system, orbit.state, 1).energy for orbit in orbits(system) if orbit.admissible]
-    power = max(energy.impacts.sum() for energy in periodic)
-    share = max(energy.impact_share for energy in periodic)
-    parts = {
-        "impacts take more in a cycle": _least(taken) > power,
-        "and a larger share of the input": _least(taken / given) > share,
-    }
-    numbers = {"energy a cycle, modulated": taken.mean(), "in the 1:1 response": power}
-    return Finding(parts, numbers | {"share of the input, modulated": (taken / given).mean(), "share, 1:1": share})
-
-
-def _least(values):
-    """Their mean less three times its standard error."""
-    return values.mean() - 3 * values.std(ddof=1) / math.sqrt(len(values))

@@ -4,8 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-HOLDS, IN_PART, REFUTED, OPEN = "holds", "holds in part", "refuted", "cannot be decided from the text"
-VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN)
+HOLDS, IN_PART, REFUTED, MISPRINT = "holds", "holds in part", "refuted", "misprint"
+OPEN = "cannot be decided from the text"
+VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN, MISPRINT)
+"""In the order in which they are presented."""
 
 
 @dataclass(frozen=True)
@@ -14,10 +16,12 @@ class Finding:
 
     parts: what the claim asserts, piece by piece: true, false, or None where the text leaves open what it asserts.
     numbers: what was measured, by name.
+    corrected: whether the statement holds with its misprint corrected; None where no correction is at hand.
     """
 
     parts: dict[str, bool | None]
     numbers: dict = field(default_factory=dict)
+    corrected: bool | None = None
 
     def __post_init__(self):
         if not self.parts:
@@ -28,12 +32,17 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS: holds if all parts do, refuted if none does, in part between; open if some part is."""
+        """One of VERDICTS: holds if all parts do, refuted if none does, in part between; open if some part is.
+
+        A misprint is a statement that does not hold as printed, and holds corrected.
+        """
         found = list(self.parts.values())
         if None in found:
             return OPEN
         if all(found):
             return HOLDS
+        if self.corrected:
+            return MISPRINT
         return IN_PART if any(found) else REFUTED
 
 
@@ -41,6 +50,7 @@ def _plain(value):
     return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
 
 
-def misprint(printed: bool, corrected: bool, **numbers) -> Finding:
-    """Of a claim whose printed form is not meant: judged as printed, with what holds of the corrected form beside."""
-    return Finding({"as printed": printed}, {**numbers, "as corrected": HOLDS if corrected else REFUTED})
+def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
+    """Return the finding on a statement as printed, with whether the corrected one holds beside it."""
+    numbers["as corrected"] = HOLDS if corrected else REFUTED
+    return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

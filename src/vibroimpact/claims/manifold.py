@@ -1,5 +1,7 @@
 """Checks of section 10.3 on the manifold: its fold, where the ball stays inside, and which part of it is stable."""
 
+from itertools import product
+
 import numpy as np
 from scipy.optimize import minimize_scalar
 
@@ -17,10 +19,11 @@ CHECKS = (
     "two_branches",
     "right_arm_is_stable",
     "left_arm_has_a_stable_piece",
-    "printed_limit_left_of_the_fold",
     "stability_regions",
 )
 KAPPAS = np.linspace(0.01, 0.99, 99)
+EXPONENTS = range(4)
+"""Of pi and of rho, as a misprint in (10.26) might have changed them."""
 _SURPLUS = 1e-9
 
 
@@ -58,10 +61,13 @@ def _furthest(C, kappa):
 
 
 def printed_condition(evidence):
-    """(10.26) against the multipliers of the impact map: at the limit, and all the way above it."""
+    """(10.26) against the multipliers of the impact map: at the limit, and all the way above it.
+
+    It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q).
+    """
     kappa = evidence.system.kappa
     limit, squared, end = printed_limit(rho(kappa)), limit_with_squares(rho(kappa)), largest_C(kappa)
-    at_limit, at_squared = (np.abs(impact_multipliers(C, kappa)).max() for C in (limit, squared))
+    at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
     above = np.linspace(limit, end, 500)[1:]
     stable = np.array([_is_stable(C, kappa) for C in above])
     below = np.array([_is_stable(C, kappa) for C in np.linspace(0.0, limit, 200)[1:]])
@@ -69,6 +75,9 @@ def printed_condition(evidence):
         "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
         "all motions above it are stable": stable.all(),
     }
+    readings = [4 / (4 + np.pi**p * rho(kappa) ** q) for p, q in product(EXPONENTS, repeat=2)]
+    at_readings = np.array([_largest_multiplier(C, kappa) for C in readings])
+    right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa) for C in readings]
     numbers = {
         "(10.26)": limit,
         "largest multiplier there": at_limit,
@@ -78,12 +87,24 @@ def printed_condition(evidence):
         "derived upper limit": upper_limit(kappa),
         "stable share above": stable.mean(),
         "stable share below": below.mean(),
+        "other exponents tried": len(readings),
+        "right with these": int(right.sum()),
+        "multiplier nearest to 1 with these": at_readings[np.abs(at_readings - 1).argmin()],
     }
-    return Finding(parts, numbers)
+    return Finding(parts, numbers, corrected=bool(right.any()))
+
+
+def _largest_multiplier(C, kappa):
+    return np.abs(impact_multipliers(C, kappa)).max()
 
 
 def _is_stable(C, kappa):
-    return np.abs(impact_multipliers(C, kappa)).max() < 1
+    return _largest_multiplier(C, kappa) < 1
+
+
+def _stable_above(limit, kappa):
+    """Whether all motions above a limit are stable that stay between the walls."""
+    return all(_is_stable(C, kappa) for C in np.linspace(limit, largest_C(kappa), 500)[1:])
 
 
 def two_branches(evidence):
@@ -115,18 +136,16 @@ def left_arm_has_a_stable_piece(evidence):
     return Finding({"a piece of the left arm is stable": any(piece) or any(arm)}, numbers)
 
 
-def printed_limit_left_of_the_fold(evidence):
-    """As Fig. 10.5 shows (10.26): below the curve C_min(kappa) throughout."""
-    gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
-    numbers = {"narrowest gap": gap.min(), "widest": gap.max()}
-    return Finding({"for all kappa": (gap > 0).all()}, numbers)
-
-
 def stability_regions(evidence):
-    """The shaded region of Fig. 10.5, C above (10.26): share of its part with C <= 1.1 that is stable in truth."""
+    """The regions of Fig. 10.5 that (10.26) divides: the share of each with C from 0.5 to 1.1 that is as drawn.
+
+    The border itself is drawn below the curve C_min(kappa) throughout.
+    """
     inside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) < C]
     outside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) > C]
     shaded = np.mean([_is_stable(C, k) for k, C in inside])
     white = np.mean([not _is_stable(C, k) for k, C in outside])
-    parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1}
-    return Finding(parts, {"stable share of the shaded": shaded, "unstable share of the white": white})
+    gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
+    parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1, "border below C_min": (gap > 0).all()}
+    numbers = {"stable share of the shaded": shaded, "unstable share of the white": white}
+    return Finding(parts, numbers | {"narrowest gap to C_min": gap.min(), "widest": gap.max()})

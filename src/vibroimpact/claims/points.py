@@ -27,6 +27,14 @@ CHECKS = (
     "places_of_singular_points",
 )
 NAMES = ("C1", "C2")
+CAPTIONS = {
+    "equal": {"a": UNSTABLE, "b": STABLE, "c": STABLE},
+    "unequal": {"a": UNSTABLE, "b": UNSTABLE, "c": STABLE},
+    "weak": {"a": UNSTABLE},
+}
+"""What the captions of Figs. 10.6, 10.9 and 10.10 call each fixed point."""
+STEPS = 111
+"""Of the second amplitude, along which a fixed point is followed from one case to another."""
 
 
 def number_of_fixed_points(evidence, case, number):
@@ -61,14 +69,28 @@ def label_of_a_point(evidence, case, label, says):
 
 
 def stable_points(evidence, case, number):
-    """How many fixed points of a case are stable: by (10.26), by the theory carried through, in truth."""
+    """How many fixed points of a case are stable: by each criterion of the theory, and in truth.
+
+    The fast criterion, derived, is what the chapter means: stability of the impacts with B and phase held. It is held
+    against the captions too.
+    """
     points = evidence.points(case)
     counts = {
+        "by the fast criterion, derived": int((points["masri_derived"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
         "by theory, fast and slow": sum(fast_and_slow(row) == STABLE for _, row in points.iterrows()),
         "in truth": int((points["floquet"] == STABLE).sum()),
     }
-    return Finding({f"{number} {name}": count == number for name, count in counts.items()}, counts)
+    right = {name: _captions_right(evidence.points(name)["masri_derived"], name) for name in CAPTIONS}
+    parts = {f"{number} {name}": count == number for name, count in counts.items()}
+    parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
+    numbers = {"captions right by the fast criterion, all cases": sum(right.values())}
+    return Finding(parts, counts | numbers | {"captions": sum(map(len, CAPTIONS.values()))})
+
+
+def _captions_right(verdicts, case):
+    """How many captions of a case say of a point what its verdict, by label, says."""
+    return sum(verdicts.get(label) == said for label, said in CAPTIONS[case].items())
 
 
 def on_the_left_arm(evidence, case, label, modules):
@@ -88,11 +110,28 @@ def points_move_left(evidence, before, after):
 
 
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
-    """Both projections of the point that the captions call stable in both cases."""
-    fold = C_min(rho(evidence.system.kappa))
-    first, last = evidence.points(before).loc[label], evidence.points(after).loc[label]
-    parts = {f"P{i}": fold < last[f"C{i}"] < first[f"C{i}"] and last[f"B{i}"] < first[f"B{i}"] for i in (1, 2)}
-    return Finding(parts, {"C before": first[list(NAMES)].tolist(), "C after": last[list(NAMES)].tolist()})
+    """Both projections of the point that the captions call stable in both cases, by its letter and by continuation.
+
+    The point that bears the letter after is another one than that which continues it as the second amplitude falls.
+    """
+    fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
+    first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))
+    ends = {"by its letter": named, "by continuation": _followed(evidence, before, after, first)}
+    parts = {
+        f"P{i + 1}, {way}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
+        for way, C in ends.items()
+        for i in (0, 1)
+    }
+    return Finding(parts, {"C before": first} | {f"C after, {way}": C for way, C in ends.items()} | {"C_min": fold})
+
+
+def _followed(evidence, before, after, C):
+    """C of the fixed point that continues another one, from case to case in small steps of the second amplitude."""
+    start, end = evidence.systems[before], evidence.systems[after]
+    for f20 in np.linspace(start.f20_hat, end.f20_hat, STEPS)[1:]:
+        points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
+        C = points[np.linalg.norm(points - C, axis=1).argmin()]
+    return C
 
 
 def singular_and_bifurcating(evidence, case, f20_range):

@@ -13,6 +13,7 @@ from urllib.parse import quote
 import jinja2
 import pypandoc
 
+from vibroimpact.claims.finding import VERDICTS
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
@@ -71,6 +72,7 @@ class Pages:
             "count": Counter,
             "infinity": math.inf,
             "table": markdown_table,
+            "verdicts": verdicts,
         }
 
     def markdown(self, page: dict, target: str) -> str:
@@ -169,6 +171,12 @@ def markdown_table(heads: list[str], rows) -> str:
     """A pipe table of plain texts."""
     lines = [map(plain, heads), ["---"] * len(heads), *(map(plain, row) for row in rows)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def verdicts(claims: list[dict]) -> list[tuple[str, int]]:
+    """Each verdict that was given with its number of claims, in the order in which verdicts are presented."""
+    given = Counter(claim["verdict"] for claim in claims)
+    return [(verdict, given[verdict]) for verdict in VERDICTS if verdict in given]
 
 
 def anchor(name) -> str:
