@@ -43,7 +43,7 @@ def test_a_ball_at_rest_leaves_a_linear_motion_to_second_order_in_the_step():
     b = steady + np.array([expm(rate * t) @ (1e-4 - steady) for t in tau])
     found = relax(system, 40, 0, start=(1e-4, 1e-4))
     assert B_min(R) < np.abs(b).max() < 1
-    np.testing.assert_allclose(found.largest, np.abs(b).max(axis=0), rtol=2e-3)
+    np.testing.assert_allclose(found.largest, np.abs(b).max(axis=0), rtol=1e-5)
     assert found.share.max() < 0.01
 
 
