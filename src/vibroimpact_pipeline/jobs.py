@@ -87,13 +87,19 @@ def _beside(path, stack) -> Path:
 
 @contextmanager
 def logging_to(path) -> Iterator[None]:
-    """Send everything that this process and its children print to a log file."""
+    """Send everything that this process and its children print to a log file; of an error, a line to the terminal."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
+    terminal = os.dup(sys.stderr.fileno())
     with open(path, "w", encoding="utf-8") as log:
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
             os.dup2(log.fileno(), stream.fileno())
-        yield
+        try:
+            yield
+        except BaseException as error:
+            said = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
+            os.write(terminal, f"{said}\nThe whole log is {path}\n".encode())
+            raise
 
 
 def build_token() -> str | None:

@@ -18,6 +18,8 @@ RESULTS = "results"
 RECORDS = ".made"
 PARTIAL = ".partial-"
 """How the folders begin in which outputs are written until their job has ended well."""
+OF_SNAKEMAKE = ".snakemake_timestamp"
+"""A file that Snakemake adds to directories."""
 LEFT_ALONE = (RECORDS, "logs", "benchmarks")
 """Folders below the results that hold none."""
 
@@ -30,7 +32,7 @@ def digest_of(path) -> str:
     """SHA-256 of a file; of a directory, that of the names and digests of all files below it."""
     path = Path(path)
     if path.is_dir():
-        below = sorted(file for file in path.rglob("*") if file.is_file())
+        below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
         return digest_of_data({str(file.relative_to(path)): digest_of(file) for file in below})
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

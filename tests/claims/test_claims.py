@@ -10,7 +10,6 @@ import yaml
 from scipy.optimize import fsolve, newton
 
 import vibroimpact as vi
-from claims import evidence as evidence_of
 from pipeline_trees import ROOT
 from vibroimpact.claims import equations as claims_equations
 from vibroimpact.claims import manifold as claims_manifold
@@ -21,6 +20,7 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import rates
+from vibroimpact_pipeline.evidence import evidence as evidence_of
 
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
@@ -41,7 +41,7 @@ def evidence(built):
     for case in ("equal", "weak"):
         files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
         inputs |= {f"{case}_{file.stem}": file for file in files}
-    return evidence_of({case: {**PARAMETERS, **forces} for case, forces in CASES.items()}, inputs)
+    return evidence_of({"system": PARAMETERS, "cases": CASES}, inputs)
 
 
 @pytest.fixture(scope="module")

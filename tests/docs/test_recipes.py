@@ -66,7 +66,6 @@ def follow(recipe: str, project) -> list[str]:
 def run(command: str, project) -> str:
     """Run a command of a recipe as a reader would, with the environment of these tests active."""
     paths = {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": str(project / "src")}
-    paths |= {"NUMBA_CACHE_DIR": str(project / COMPILED)}
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     done = subprocess.run(
         ["bash", "-ec", command],

@@ -7,16 +7,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import fixed_points
-import orbits
-import simulate
-import verdicts
 from chapter import PARAMETERS
+from scripts import run
 from vibroimpact.figures.kit import case_motion, case_points
 from vibroimpact.system import System
 
 EQUAL = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 OTHERS = [EQUAL | change for change in ({"kappa": 0.650001}, {"f20_hat": 0.72}, {"f10_hat": 0.0, "f20_hat": 0.0})]
+NAMES = ("points", "orbits", "search", "verdicts", "samples", "events", "strobe", "summary")
 RUN = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "samples_per_cycle": 16}
 
 
@@ -24,12 +22,15 @@ RUN = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "
 def made(tmp_path_factory):
     """Files of the case `equal`, as a build makes them, by name."""
     folder = tmp_path_factory.mktemp("made")
-    names = ("fixed_points", "orbits", "search", "verdicts", "samples", "events", "strobe", "summary")
-    files = {name: folder / f"{name}{'.json' if name in ('search', 'summary') else '.csv'}" for name in names}
-    fixed_points.main("equal", EQUAL, files["fixed_points"])
-    orbits.main("equal", EQUAL, {"csv": files["orbits"], "search": files["search"]})
-    verdicts.main("equal", EQUAL, files, files["verdicts"])
-    simulate.main("equal", EQUAL, RUN, files)
+    files = {name: f"results/{name}{'.json' if name in ('search', 'summary') else '.csv'}" for name in NAMES}
+    given = {"system": EQUAL}
+    run("fixed_points", folder, given, {"csv": files["points"]}, case="equal")
+    run("orbits", folder, given, {"csv": files["orbits"], "search": files["search"]}, case="equal")
+    read = {"fixed_points": files["points"], "orbits": files["orbits"]}
+    run("verdicts", folder, given, {"csv": files["verdicts"]}, read, case="equal")
+    simulated = {name: files[name] for name in ("samples", "events", "strobe", "summary")}
+    run("simulate", folder, {**given, "settings": RUN}, simulated, case="equal")
+    files = {name: folder / path for name, path in files.items()}
     return files
 
 
@@ -45,7 +46,7 @@ def test_files_and_parameters_say_the_same(made):
 
 @pytest.mark.parametrize("others", OTHERS)
 def test_files_of_other_parameters_are_refused_in_one_line(made, others):
-    with pytest.raises(ValueError, match=r"inputs: .*fixed_points.csv") as points:
+    with pytest.raises(ValueError, match=r"inputs: .*points.csv") as points:
         case_points.fixed_points("equal", System(**others), made)
     with pytest.raises(ValueError, match=r"inputs: .*summary.json was made with (kappa|f[12]0_hat) = ") as motion:
         case_motion.simulated("equal", others, RUN, made)

@@ -9,12 +9,12 @@ import pytest
 import yaml
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
-from vibroimpact.figures.specs import made, specs
 
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_04
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.figure_check.check import kept
+from vibroimpact_pipeline.specs import made, specs
 
 FIGURES = made(yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8")), specs())
 

@@ -7,11 +7,11 @@ from importlib import import_module
 
 import pytest
 import yaml
-from vibroimpact.figures.specs import columns, each, made, request, specs
 
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit.tables import read
 from vibroimpact_pipeline.figure_check.check import kept
+from vibroimpact_pipeline.specs import columns, each, made, request, specs
 
 SPECS = specs()
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
@@ -21,10 +21,7 @@ PUBLISHED = [(name, file) for name, spec in SPECS.items() if name in COMPUTED fo
 
 
 def test_they_are_read_where_no_package_is_installed():
-    read_alone = (
-        "import importlib.util as u; s = u.spec_from_file_location('specs', 'src/vibroimpact/figures/specs.py'); "
-        "m = u.module_from_spec(s); s.loader.exec_module(m); print(*m.specs())"
-    )
+    read_alone = "import sys; sys.path.insert(0, 'src'); from vibroimpact_pipeline import specs; print(*specs.specs())"
     done = subprocess.run([sys.executable, "-I", "-S", "-c", read_alone], cwd=ROOT, capture_output=True, text=True)
     assert done.stdout.split() == list(SPECS), done.stderr
 
@@ -90,7 +87,7 @@ def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own():
     assert (planes["module"], lines["module"]) == ("fig10_10", "fig10_07")
     assert planes["tables"]["csv"]["file"] == "results/figures/mine.csv"
     assert planes["caption"] == SPECS["fig10_07"]["own"]["caption"]
-    assert lines["request"]["inputs"] == {"points": "results/fixed_points/weak.csv"}
+    assert lines["request"]["inputs"]["points"] == "results/fixed_points/weak.csv"
     assert lines["request"]["settings"] == {"fixed_point": "a", "periods": 1}
 
 

@@ -11,9 +11,21 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from compiled_code import share
+
 ROOT = Path(__file__).parents[2]
 NOT_COPIED = shutil.ignore_patterns(
-    ".git", ".venv", ".cache", ".snakemake", "results", "tries", ".*_cache", ".hypothesis", "*.egg-info", "tests"
+    ".git",
+    ".venv",
+    ".cache",
+    ".snakemake",
+    "results",
+    "tries",
+    ".*_cache",
+    ".hypothesis",
+    "*.egg-info",
+    "tests",
+    "__pycache__",
 )
 NOT_BY_DEFAULT = shutil.ignore_patterns("report", "api", "animations", "force_sweep", "figure_check", "archive")
 """Results of targets that a default build leaves alone."""
@@ -86,6 +98,7 @@ class Tree:
 
 def copied(source: Path, path: Path) -> Tree:
     shutil.copytree(source, path, symlinks=True, ignore=NOT_COPIED)
+    share(path / "src/vibroimpact")
     return Tree(path)
 
 

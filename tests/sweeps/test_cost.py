@@ -1,40 +1,35 @@
-"""Measured cost cuts a sweep into tiles; a point where there is no system costs nothing before it is found."""
+"""The predicted cost of a sweep, and the tiles that it is cut into."""
 
 import pytest
-from vibroimpact.sweeps.probe import probe
 
-import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.sweeps import probe as probing
-from vibroimpact.sweeps.asked import Asked
-from vibroimpact.sweeps.cost import MOST_TILES, Cost, tiles
-from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.cost import MOST_TILES, core_seconds, points, tiles
+from vibroimpact.sweeps.request import understood
 
-BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
-
-
-def test_what_a_few_points_took_stands_for_all():
-    assert Cost(points=100, runs=300, seconds=[1.0, 3.0]).core_seconds == 200.0
+SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
+ASKED = {"observe": ["amplitudes"], "starts": 2, "seed": 1, "cycles": 4000, "settle": 10}
 
 
-@pytest.mark.parametrize(("target", "number"), [(60, 4), (200, 1), (1e9, 1), (0.1, 100), (0, 100)])
-def test_tiles_take_about_the_target(target, number):
-    assert tiles(Cost(points=100, runs=300, seconds=[2.0]), target) == number
+def request(values, **asked):
+    axes = [{"along": ["kappa"], "range": [0.5, 0.8], "values": values}, {"along": ["f10_hat"], "listed": [0.5, 1.0]}]
+    return {"system": SYSTEM, "axes": axes, "asked": ASKED | asked}
+
+
+def test_points_are_those_of_the_grid():
+    grid, _ = understood(request(3))
+    assert points(request(3)["axes"]) == len(grid) == 6
+
+
+def test_the_cost_grows_with_points_starts_and_cycles():
+    one = core_seconds(request(10))
+    assert core_seconds(request(20)) == pytest.approx(2 * one)
+    assert core_seconds(request(10, cycles=40_000, starts=4)) > 10 * one
+
+
+@pytest.mark.parametrize(("seconds", "number"), [(1e9, 1), (1e-9, 40)])
+def test_there_is_one_tile_at_least_and_one_per_point_at_most(seconds, number):
+    assert tiles(request(20), seconds) == number
 
 
 def test_there_are_never_more_tiles_than_a_disk_likes():
-    assert tiles(Cost(points=1_000_000, runs=0, seconds=[1.0]), 0) == MOST_TILES
-
-
-def test_points_are_measured_and_runs_counted():
-    grid = Grid(BASE, [axis(["kappa"], [0.5, 0.8], 20)])
-    found = probe(grid, Asked(("amplitudes", "fixed_points"), starts=3, seed=1, cycles=4, settle=2))
-    assert (found.points, found.runs) == (20, 60)
-    assert len(found.seconds) == probing.PROBED
-    assert min(found.seconds) >= 0
-
-
-def test_a_point_without_a_system_is_found_before_anything_is_measured(monkeypatch):
-    monkeypatch.setattr(probing, "rows", None)
-    with pytest.raises(ValueError, match=r"at kappa = 1: kappa: 1\.0 is not between 0 and 1"):
-        probe(Grid(BASE, [axis(["kappa"], [0.5, 1.0], 20)]), Asked(("fixed_points",)))
+    assert tiles(request(100_000), 1e-9) == MOST_TILES

@@ -6,45 +6,12 @@ In a build with other parameters than the chapter's, or other settings behind th
 import json
 from pathlib import Path
 
-import pandas as pd
 import yaml
 
-from vibroimpact.claims.evidence import Evidence, Simulation
 from vibroimpact.claims.judge import judge, leave_open, to_markdown
-from vibroimpact.system import System
-from vibroimpact.system.chapter import CASES
 from vibroimpact_pipeline.chapter import departures, unknown_entries
-from vibroimpact_pipeline.config import case_parameters
+from vibroimpact_pipeline.evidence import evidence
 from vibroimpact_pipeline.jobs import running
-
-TABLES = (
-    *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
-    *("absorber", "clearance"),
-)
-
-
-def evidence(config: dict, inputs: dict) -> Evidence:
-    """What the checks look at, of the chapter's cases alone; simulations are the inputs <case>_samples, and so on."""
-    simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
-    proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
-    return Evidence(
-        systems={case: System(**case_parameters(config, case)) for case in CASES},
-        proofs={case: proofs[case] for case in CASES},
-        simulations={case: simulation(case, inputs) for case in sorted(simulated)},
-        **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES},
-    )
-
-
-def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
-    """The rows of its cases, where rows have one."""
-    return table[table["case"].isin(CASES)].reset_index(drop=True) if "case" in table else table
-
-
-def simulation(case: str, inputs: dict) -> Simulation:
-    samples, events = (pd.read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
-    summary = json.loads(Path(inputs[f"{case}_summary"]).read_text(encoding="utf-8"))
-    return Simulation(samples, events, summary)
-
 
 with running(snakemake) as out:
     config, inputs = snakemake.params.config, dict(snakemake.input.items())

@@ -38,4 +38,4 @@ with running(snakemake) as out:
     found = compute(systems, settings["C_max"])
     tables.write(found["points"], out.csv)
     Path(out.json).write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
-    save(draw(found, r"\hat f_{20}"), vars(out))
+    save(draw(found), vars(out))

@@ -7,12 +7,12 @@ import runpy
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from numba import config
 
 FUNCTION = """
+from pipeline_trees import ROOT
 from vibroimpact.exact.engine.code_cache import kept
 
 @kept()
@@ -85,8 +85,8 @@ def test_sound_code_is_used_and_nothing_is_written(compiled, tmp_path):
 
 def test_the_engine_survives_damage(tmp_path):
     """The code of the loop of events, as the tests use it, with a bit flipped in the middle."""
-    for folder in Path(os.environ["NUMBA_CACHE_DIR"]).glob("engine_*"):
-        shutil.copytree(folder, tmp_path / folder.name)
+    for folder in (ROOT / "src/vibroimpact/__pycache__").glob("compiled-*/engine_*"):
+        shutil.copytree(folder, tmp_path / folder.name, dirs_exist_ok=True)
 
     def simulate():
         command = [sys.executable, "-c", SIMULATE]
