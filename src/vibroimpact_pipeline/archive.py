@@ -15,7 +15,7 @@ from vibroimpact_pipeline.results import record_of
 WORKFLOW = "Snakefile"
 
 
-def write(root: Path, results: list[str], titles: dict[str, str], output) -> None:
+def write(root: Path, results: list[Path], titles: dict[str, str], output) -> None:
     """Write the archive of a clean checkout.
 
     Args:
@@ -37,7 +37,7 @@ def write(root: Path, results: list[str], titles: dict[str, str], output) -> Non
         staged.mkdir()
         sources = subprocess.run(["git", "archive", commit], cwd=root, stdout=subprocess.PIPE, check=True).stdout
         subprocess.run(["tar", "--extract", "--directory", staged], input=sources, check=True)
-        for path in (Path(name) for result in results for name in (result, record_of(result))):
+        for path in (name for result in results for name in (result, record_of(result))):
             (staged / path).parent.mkdir(parents=True, exist_ok=True)
             (staged / path).hardlink_to(root / path)
         crate(staged, cited, commit, titles).metadata.write(staged)

@@ -14,7 +14,8 @@ CACHES = {
 
 
 def set_environment(root: Path) -> None:
-    """Set the variables of this process and of its jobs: caches in the checkout, one thread each.
+    """Set the variables of this process and of its jobs: the library of the
+    checkout, caches there, one thread each.
 
     Where the checkout cannot be written to, caches lie in the working directory.
     """
@@ -22,5 +23,10 @@ def set_environment(root: Path) -> None:
     for variable, folder in CACHES.items():
         (cache_folder / folder).mkdir(parents=True, exist_ok=True)
         os.environ[variable] = str(cache_folder / folder)
-    os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
+    paths = [str(root / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
+    os.environ |= {
+        "PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)),
+        "OMP_NUM_THREADS": "1",
+        "JUPYTER_PREFER_ENV_PATH": "1",
+    }
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

@@ -30,10 +30,15 @@ def record(job) -> dict:
         "figure": job.params.figure,
         "config": job.params.config,
         "code": dict(job.params.code),
-        "inputs": {str(path): digest_of(path) for path in job.input},
+        "inputs": {_name(path): digest_of(path) for path in job.input},
         "lock": digest_of(code.ROOT / LOCK),
         "versions": {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}},
     }
+
+
+def _name(path):
+    """The path of an input; of a file of the checkout, from there."""
+    return str(Path(path).relative_to(code.ROOT)) if Path(path).is_relative_to(code.ROOT) else str(path)
 
 
 def write(path, made: dict) -> None:
@@ -91,7 +96,8 @@ def differences(path, made: dict, config: dict) -> Iterator[str]:
         if code.fingerprint(part) != fingerprint:
             yield f"code of the {part}: has changed"
     for name, digest in {**made["inputs"], str(code.ROOT / LOCK): made["lock"]}.items():
-        if not Path(name).is_file() or digest_of(name) != digest:
+        file = Path(name) if Path(name).is_file() else code.ROOT / name
+        if not file.is_file() or digest_of(file) != digest:
             yield f"{name}: has changed"
     written = read_record(path)
     if written and written["sha256"] != digest_of(path):

@@ -155,6 +155,11 @@ def _made_from(distrusted, records, digests):
         found |= more
 
 
+def recorded_files(folder: Path) -> Iterator[Path]:
+    """All files below a folder that have a record; results that are directories are left out."""
+    return (path for path in sorted(_results(folder)) if path.is_file() and record_of(path).is_file())
+
+
 def _results(folder: Path) -> Iterator[Path]:
     """Files, and directories that are a result of their own, below a folder."""
     for path in folder.iterdir() if folder.is_dir() else ():

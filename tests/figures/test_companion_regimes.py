@@ -356,5 +356,5 @@ def test_linear_systems_decay_in_the_same_time_after_any_impulse_and_balls_in_th
         mine = table[table["panel"] == f"module {module}"].set_index("series")
         assert mine.loc["without balls", "cycles"].nunique() == 1
         balls, shortest = mine.loc["balls"], mine.loc["shortest"]
-        assert shortest["cycles"] == balls["cycles"].min() < mine.loc["without balls", "cycles"].iloc[0]
+        assert shortest["cycles"] <= balls["cycles"].min() < mine.loc["without balls", "cycles"].iloc[0]
         assert balls["cycles"].iloc[0] == pytest.approx(mine.loc["without balls", "cycles"].iloc[0], rel=1e-9)

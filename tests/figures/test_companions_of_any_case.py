@@ -47,8 +47,7 @@ def test_forces_too_weak_for_a_response_are_drawn_without_one():
     grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])
     frequency, force = (pd.DataFrame(rows(grid, asked, range(len(grid)))) for grid in grids)
     tables = companion_response.compute(STILL, frequency, force, band)
-    assert set(tables["shares"]["source"]) == {"balls"}
-    assert set(tables["shares"]["greatest"]) == {0.0}
+    assert tables["shares"].empty  # no start meets a wall
     companion_response.draw(tables).draw_without_rendering()
 
 

@@ -120,7 +120,7 @@ def test_a_point_that_is_new_starts_a_track_of_its_own():
 
 
 def test_the_picture_of_the_travel_says_where_letters_change(swept):
-    figure = force_sweep.draw(swept, "x")
+    figure = force_sweep.draw(swept)
     points = swept["points"]
     letters = [row["label"].ne(row["label"].shift()).sum() for _, row in points.groupby("track")]
     shown = [text.get_text() for text in figure.axes[1].texts if text.get_text() in ("a", "b", "c")]

@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import os
+import re
 import shlex
 import sys
 from pathlib import Path
@@ -27,8 +28,7 @@ def own(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# Jobs run the library beside these rules, with this Python, also where its path has a space.
-os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(ROOT / "src"), os.getenv("PYTHONPATH")]))
+# The library beside these rules, for jobs, too, and this Python, also where its path has a space.
 sys.path.insert(0, str(ROOT / "src"))
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
@@ -53,19 +53,34 @@ def config_files():
     return [CONFIG_FILE] if IS_MODULE else [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
 
 
-def checked_config(given):
-    """The config with defaults; where Pydantic is not installed, as the schema made from its model allows."""
-    if not all(map(importlib.util.find_spec, ("pydantic", "numpy"))):
-        validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
-        return given
-    from vibroimpact_pipeline.config import ConfigError, checked, read
+def told_in_lines(work, *arguments):
+    """What reads or checks the config; or its problems, in lines, and no build."""
+    from vibroimpact_pipeline.config import ConfigError
 
     try:
-        whole = read(CONFIG_FILE) if IS_MODULE else {}
-        update_config(whole, given)
-        return checked(whole, f"config of module {__name__}" if IS_MODULE else "--config", config_files())
+        return work(*arguments)
     except ConfigError as error:
         refuse(error)
+
+
+def checked_config(given):
+    """The config with defaults; without its model, as the schema made from it allows."""
+    if not WITH_MODEL:
+        validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
+        return given
+    from vibroimpact_pipeline.config import checked, read
+
+    whole = read(CONFIG_FILE) if IS_MODULE else {}
+    update_config(whole, given)
+    return told_in_lines(checked, whole, f"config of module {__name__}" if IS_MODULE else "--config", config_files())
+
+
+WITH_MODEL = all(map(importlib.util.find_spec, ("pydantic", "numpy")))
+if WITH_MODEL:
+    from vibroimpact_pipeline.config import read as read_config
+
+    for file in config_files():
+        told_in_lines(read_config, file)  # before Snakemake does, whose complaints are longer
 
 
 # Fingerprints of the code behind a job, which it checks again when it ends.

@@ -19,6 +19,18 @@ def figure_params(figure, spec):
 # The SPEC of every figure that the config makes.
 MADE = made(config, specs())
 
+
+def caption(figure, spec):
+    """The caption of a figure, with the numbers that it asks for."""
+    case = spec["request"]["case"]
+    known = CHAPTER.get(figure, {}) | (system_of(case) if case else config["system"])
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
+
+
+# For `snakemake --report`.
+config["captions"] = {name: spec["caption"] for name, spec in SPECS.items()}
+config["captions"] |= {figure: caption(figure, spec) for figure, spec in MADE.items()}
+
 for figure, spec in MADE.items():
 
     if "notebook" in spec:

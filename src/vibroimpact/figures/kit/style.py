@@ -64,7 +64,7 @@ def hatch_gaps(axes) -> None:
 def png(figure: Figure) -> bytes:
     """The picture of a figure, to be shown and not to be kept."""
     buffer = BytesIO()
-    figure.savefig(buffer, format="png", backend=_BACKENDS["png"])
+    figure.savefig(buffer, format="png")
     return buffer.getvalue()
 
 
