@@ -11,8 +11,9 @@ import sys
 import pytest
 from numba import config
 
-FUNCTION = """
 from pipeline_trees import ROOT
+
+FUNCTION = """
 from vibroimpact.exact.engine.code_cache import kept
 
 @kept()
