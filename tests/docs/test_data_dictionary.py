@@ -4,10 +4,10 @@ import csv
 import json
 
 import pytest
-from vibroimpact.figures.specs import each
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, page, read, stands_for
+from vibroimpact_pipeline.specs import each
 
 SPECS, DATA = read(ROOT)
 FILES = files(SPECS, DATA)
