@@ -2,6 +2,7 @@
 
 import ast
 import re
+import tomllib
 
 import pytest
 
@@ -65,6 +66,19 @@ def test_an_equation_is_where_the_map_says(equations, files, names):
 
 def test_the_map_has_all_equations_that_are_looked_for():
     assert {2, 6, 9, 11, 12, 16, 23, 24, 25, 26} <= cited("".join(row[0] for row in EQUATIONS))
+
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+DIRECT = {
+    re.match(r"[\w-]+", one)[0]
+    for listed in (PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
+    for one in listed
+} - {PROJECT["name"]}
+
+
+def test_every_direct_dependency_is_listed_with_what_it_is_for():
+    section = CONTRIBUTING.split("## What each dependency is for")[1].split("\n## ")[0]
+    assert DIRECT <= set(re.findall(r"`([\w-]+)`", section))
 
 
 RUNNING = (ROOT / "docs/running.md").read_text(encoding="utf-8")
