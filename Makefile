@@ -73,7 +73,7 @@ wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up n
 	$(TEMPORARY) .venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
 		-r environment.lock -r cluster.lock
 
-cluster-tools: set-up  ## install what Snakemake needs for Slurm, cluster.lock (docs/scale.md; again after each new set-up)
+cluster-tools: set-up  ## install what Snakemake needs for Slurm, cluster.lock (docs/running.md; again after each new set-up)
 	$(TEMPORARY) .venv/bin/python -m pip install --quiet --no-deps --require-hashes \
 		$(if $(WHEELS),--no-index --find-links "$$WHEELS") --requirement cluster.lock
 

@@ -1,5 +1,6 @@
 """The begin of a build: the libraries are there, no other build goes on, and every result that is there is whole."""
 
+import base64
 import fcntl
 import importlib.util
 import secrets
@@ -39,6 +40,11 @@ def lock() -> TextIO:
     return file
 
 
+def known_to_snakemake(path: str) -> bool:
+    """Return True if Snakemake has its own record of how a result was made."""
+    return Path(".snakemake/metadata", base64.urlsafe_b64encode(path.encode()).decode()).is_file()
+
+
 def begin(results: Path, params_of: Callable[[dict], dict | None], makes: Callable[[str], bool], dry_run: bool) -> None:
     """Remove what killed jobs have left and results that cannot be trusted (see `results.distrusted`), and say which.
 
@@ -50,7 +56,8 @@ def begin(results: Path, params_of: Callable[[dict], dict | None], makes: Callab
             partial.write_text(secrets.token_hex(8), encoding="ascii")
         for folder in results.rglob(f"{PARTIAL}*"):
             shutil.rmtree(folder, ignore_errors=True)
-    found = distrusted(results, params_of, makes)
+    # As long as Snakemake knows with which parameters a result was made, it makes it anew itself where it is asked for.
+    found = distrusted(results, lambda path, made: None if known_to_snakemake(path) else params_of(made), makes)
     for reason in dict.fromkeys(found.values()):
         paths = [path for path, why in found.items() if why == reason]
         shown = ", ".join(paths[:SHOWN]) + f" and {len(paths) - SHOWN} more" * (len(paths) > SHOWN)

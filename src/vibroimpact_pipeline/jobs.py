@@ -52,6 +52,8 @@ def running(job) -> Iterator[SimpleNamespace]:
             yield SimpleNamespace(**{name: str(path) for name, path in partial.items()})
             if code.stamps(parts) != before:
                 raise Refused("the code has changed while this job ran. Build again.")
+            if checked_digests(job.input) != inputs:
+                raise Refused("an input has changed while this job ran. Build again.")
             if build_token() != token:
                 raise Refused("another build has begun meanwhile; this job's outputs are left out.")
             made = made_by(job, inputs)

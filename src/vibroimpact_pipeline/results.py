@@ -112,12 +112,14 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
     return digests
 
 
-def distrusted(results: Path, params_of: Callable[[dict], dict | None], makes: Callable[[str], bool]) -> dict[str, str]:
+def distrusted(
+    results: Path, params_of: Callable[[str, dict], dict | None], makes: Callable[[str], bool]
+) -> dict[str, str]:
     """Results that must be made again, with the reason.
 
     Args:
         results: the directory of the results.
-        params_of: the parameters that the job of a record has today; None if its rule is gone.
+        params_of: of a result and its record the parameters that its job has today; None if they need no look.
         makes: whether a rule makes a path, so that it is not somebody else's file.
     """
     digests = {str(path): digest_of(path) for path in _results(results)}
@@ -128,7 +130,7 @@ def distrusted(results: Path, params_of: Callable[[dict], dict | None], makes: C
             found[path] = "without a record of how it was made"
         elif made and digests[path] != made["sha256"]:
             found[path] = "not what their job wrote"
-        elif made and (params := params_of(made)) is not None and digest_of_data(params) != made["params"]:
+        elif made and (params := params_of(path, made)) is not None and digest_of_data(params) != made["params"]:
             found[path] = "made with other parameters or other code"
     return found | _made_from(found, records, digests)
 

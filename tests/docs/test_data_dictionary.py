@@ -7,6 +7,7 @@ import pytest
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, page, read, stands_for
+from vibroimpact_pipeline.results import RECORDS
 from vibroimpact_pipeline.specs import each
 
 SPECS, DATA = read(ROOT)
@@ -17,9 +18,9 @@ SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 @pytest.fixture(scope="module")
 def made(built):
-    """The data of a build: paths from the checkout."""
+    """The data of a build, without the records of results: paths from the checkout."""
     data = [path for path in (built / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
-    return {str(path.relative_to(built.path)): path for path in sorted(data)}
+    return {str(path.relative_to(built.path)): path for path in sorted(data) if path.parent.name != RECORDS}
 
 
 def table(path) -> tuple[list[str], list[dict]]:

@@ -92,12 +92,12 @@ def test_every_block_of_a_recipe_is_a_step(recipe):
 
 def test_a_figure_can_be_added(project):
     follow("howto_figure", project)
-    table = pd.read_csv(project / "results/figures/companion_speed.csv")
+    table = pd.read_csv(project / "results/figures/companion_mine.csv")
     # Half a period of free flight at W' - U' = -2 C / pi takes the ball from wall to wall: (10.14) at kappa = 1.
     assert table["speed"].iloc[-1] == pytest.approx(4 * table["C"].iloc[-1] / (3.141592653589793 * 1.65))
     for kind in ("png", "pdf", "svg"):
-        assert (project / f"results/figures/companion_speed.{kind}").stat().st_size > 1000
-    record = json.loads((project / "results/figures/companion_speed.provenance.json").read_text())
+        assert (project / f"results/figures/companion_mine.{kind}").stat().st_size > 1000
+    record = json.loads((project / "results/figures/companion_mine.provenance.json").read_text())
     assert set(record["config"]) == {"system.kappa", "stability.companion_10_04.C_max"}
     assert "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in page(*read(project.path))
     folder = project / "results/figures"
@@ -124,8 +124,7 @@ def test_a_claim_can_be_added(project):
 
 @pytest.mark.thorough
 def test_parameters_can_be_swept(project):
-    said, head = follow("howto_sweep", project)
-    assert "Sweep coupling: 12 points, 36 simulated starts, about " in said
+    _, head = follow("howto_sweep", project)
     columns, first, second = (line.split(",") for line in head.splitlines())
     assert columns[:4] == ["point", "alpha12_hat", "f10_hat", "f20_hat"]
     assert [first[:4], second[:4]] == [["0", "0.5", "0.5", "0.5"], ["1", "0.5", "0.8", "0.8"]]
@@ -133,7 +132,6 @@ def test_parameters_can_be_swept(project):
     assert table["point"].tolist() == list(range(12))
     for kind in ("png", "pdf", "svg"):
         assert (project / f"results/sweeps/coupling/figure.{kind}").stat().st_size > 1000
-    assert "Sweep coupling" in (project / "results/sweeps/coupling.html").read_text(encoding="utf-8")
 
 
 def test_machines_can_be_designed(tmp_path):

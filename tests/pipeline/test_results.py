@@ -33,7 +33,7 @@ def chain():
 
 
 def distrusted(params=1, makes=lambda path: True):
-    return {str(Path(path).name) for path in results.distrusted(RESULTS, lambda record: params, makes)}
+    return {str(Path(path).name) for path in results.distrusted(RESULTS, lambda path, record: params, makes)}
 
 
 def test_what_jobs_wrote_is_trusted(chain):

@@ -48,8 +48,7 @@ def test_the_same_bytes_twice(archived, tmp_path):
     for path in tree.path.rglob("*"):
         if not path.is_relative_to(tree / ".git") and not path.is_symlink():
             os.utime(path)
-    said = tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
-    assert f"The archive is results/archive/{archive_of(tree).name}" in said
+    tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
     assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()
 
 
@@ -65,10 +64,10 @@ def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     made = {path for path in before if path.read_bytes() != before[path]}
-    assert made == {elsewhere / f"{FIGURE}.provenance.json"}  # which tells commit and run time
+    assert made == {elsewhere / f"{FIGURE}.provenance.json"}  # which tells the commit
     assert (elsewhere / f"{FIGURE}.png").stat().st_mtime > (elsewhere / "README.md").stat().st_mtime
-    assert "commit: not known, made without git" in done.stdout
-    assert done.stdout.endswith("The file matches the tree.\n")
+    assert "made from commit not known (without git)" in done.stdout
+    assert done.stdout.endswith("It is what this checkout makes.\n")
 
 
 def test_elsewhere_nothing_is_left_to_do(elsewhere):
@@ -91,7 +90,7 @@ def test_elsewhere_a_damaged_result_is_made_again(elsewhere):
 
 
 def test_elsewhere_there_is_no_archive_without_git(elsewhere):
-    said = elsewhere.dry_run("archive")
+    said = elsewhere.snakemake("archive", check=False)
     assert elsewhere.returncode == 1
-    assert f"archive: {elsewhere.path} is no git checkout with a commit" in said
+    assert "archive: commit all changes first" in said
     assert "Traceback" not in said

@@ -134,7 +134,7 @@ def compute(
 
     Returns "csv": columns panel ("clearance", "restitution" or "design"), series, clearance, kappa, ratio (X / f), low
     and high (of a lowest peak, by its spread).
-    "summary": columns quantity, who, value, ... (docs/data.md).
+    "summary": columns quantity, who, value, ... (see SPEC).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}

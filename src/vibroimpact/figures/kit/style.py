@@ -84,9 +84,10 @@ def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
 
 def drawn(figure, read: dict) -> Figure:
     """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
-    if figure.SPEC.get("tables"):
+    spec = getattr(figure, "SPEC", {"columns": {}})  # that of a sweep has none
+    if spec.get("tables"):
         return figure.draw(read)
-    return figure.draw(read["csv"]) if "columns" in figure.SPEC else figure.draw()
+    return figure.draw(read["csv"]) if "columns" in spec else figure.draw()
 
 
 def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = None) -> None:
