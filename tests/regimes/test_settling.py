@@ -87,7 +87,7 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
 
 
 def test_names_last_fifty_times_as_long(chapter, observation):
-    """A coarse map; docs/regimes.md has the whole table."""
+    """The label stability of docs/regimes.md, on a smaller map."""
     counts = Counter()
     for f10, f20 in plane_of_forces((0.0, 1.6), (0.0, 1.6), 4):
         counts += confusion(chapter(f10, f20), starts(4, seed=4), observation, times=50)
