@@ -25,7 +25,7 @@ def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
     (rebuilt / "results/figures/fig10_03.png").unlink()
     said = rebuilt.snakemake("fig10_03")
     assert "1 of 1 steps (100%) done" in said
-    assert "Open first: results/index.html" in said
+    assert "All results are in results/" in said
 
 
 def test_every_result_has_a_record_and_every_record_its_result(built):
