@@ -252,10 +252,11 @@ def test_basins_show_the_mirror_image_and_say_what_all_starts_share(tables, figu
 @pytest.mark.parametrize("forces", [(0.0, 0.0), (0.5, 0.5)])
 def test_the_limit_of_small_epsilon_is_drawn_without_points_and_without_the_mixed_one(forces):
     system = SYSTEMS["weak"].with_(f10_hat=forces[0], f20_hat=forces[1])
-    mixed = {"case": "weak", "label": "c"}
-    found = epsilon_limit.compute({"weak": system}, (0.01, 0.001), 3, fit_below=0.1, mixed=mixed)
+    found = epsilon_limit.compute({"weak": system}, (0.01, 0.001), 3, fit_below=0.1)
     assert len(found["orders"]) == 4 * len(vi.fixed_points(system))
     epsilon_limit.draw(found)
+    with pytest.raises(ValueError, match=r"mixed\.label: .*'c'"):
+        epsilon_limit.compute({"weak": system}, (0.01, 0.001), 3, 0.1, mixed={"case": "weak", "label": "c"})
 
 
 def test_orders_are_one_or_two_with_two_terms_and_the_mixed_point_is_left_out(tables):
