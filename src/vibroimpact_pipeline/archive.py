@@ -31,7 +31,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
     if commit is None or git("status", "--porcelain", root=root):
         raise ValueError("archive: commit all changes first: the archive holds a commit and what it makes")
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
-    time = int(git("log", "-1", "--format=%ct", root=root))
+    time, date = git("log", "-1", "--format=%ct %cI", root=root).split()
     with tempfile.TemporaryDirectory(dir=Path(output).parent) as folder:
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
@@ -40,12 +40,12 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
         for path in (name for result in results for name in (result, record_of(result))):
             (staged / path).parent.mkdir(parents=True, exist_ok=True)
             (staged / path).hardlink_to(root / path)
-        crate(staged, cited, commit, titles).metadata.write(staged)
+        crate(staged, cited, commit, date, titles).metadata.write(staged)
         with tarfile.open(output, "w:gz", compresslevel=6) as archive:
-            archive.add(staged, staged.name, filter=lambda member: _plain(member, time))
+            archive.add(staged, staged.name, filter=lambda member: _plain(member, int(time)))
 
 
-def crate(folder: Path, cited: dict, commit: str, titles: dict[str, str]) -> ROCrate:
+def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
     """The RO-Crate of a folder: who made it, of what, under which licence, and what each file is."""
     made = ROCrate()
     workflow = made.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
@@ -57,6 +57,7 @@ def crate(folder: Path, cited: dict, commit: str, titles: dict[str, str]) -> ROC
     made.name, made.description = cited["title"], f"Sources of commit {commit} and what the default build made of them."
     made.license = f"https://spdx.org/licenses/{cited['license']}"
     made.root_dataset["author"] = workflow["author"] = authors
+    made.datePublished = date
     made.root_dataset["version"], made.root_dataset["identifier"] = cited["version"], commit
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = str(path.relative_to(folder))

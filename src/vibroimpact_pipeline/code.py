@@ -12,7 +12,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 """The checkout."""
 FIGURES = "src/vibroimpact/figures"
-PARTS = {"library": "src/vibroimpact", "figures": FIGURES, "pipeline": "src/vibroimpact_pipeline"}
+PARTS = {
+    "library": "src/vibroimpact",
+    "figures": FIGURES,
+    "pipeline": "src/vibroimpact_pipeline",
+    "scripts": "workflow/scripts",
+}
 """The folder of each part; the library's without the figures."""
 
 

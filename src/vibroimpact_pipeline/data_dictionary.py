@@ -83,7 +83,9 @@ def _section(file):
     """Heading, where the file is and what it holds, the shared columns by name, all others and keys with meaning."""
     places = [f"`{path}`" + _made_by(file, path) for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.own]
-    yield f"### {file.paths[0].removeprefix('results/')}"
+    path = file.paths[0]
+    place = f" {{#{Path(path).stem}}}" if path.endswith(".csv") and "{" not in path else ""
+    yield f"### {path.removeprefix('results/')}{place}"
     yield f"{', '.join(places)}: {file.about}"
     if common:
         yield f"Shared names: {', '.join(common)}."

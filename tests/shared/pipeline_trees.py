@@ -107,6 +107,8 @@ def with_results(source: Path, path: Path) -> Tree:
     tree = copied(source, path)
     if (source / "results").exists():
         shutil.copytree(source / "results", path / "results", symlinks=True, ignore=NOT_BY_DEFAULT)
+    if (source / ".snakemake/metadata").exists():
+        shutil.copytree(source / ".snakemake/metadata", path / ".snakemake/metadata")
     return tree
 
 

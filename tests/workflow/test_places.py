@@ -130,7 +130,7 @@ def test_a_directory_with_a_config_of_its_own_follows_it(tree, tmp_path):
     (own / "config").mkdir(parents=True)
     (own / "config/config.yaml").write_text("system: {kapa: 0.6}\n")
     output = tree.dry_run("--directory", str(own.path))
-    assert "../own/config/config.yaml: system.kapa: unknown key, did you mean 'kappa'?" in output.splitlines()
+    assert "config/config.yaml: system.kapa: unknown key, did you mean 'kappa'?" in output.splitlines()
 
 
 @pytest.mark.parametrize("asked", ["--summary", "--rulegraph", "--unlock"])

@@ -84,7 +84,7 @@ if WITH_MODEL:
 
 
 # Fingerprints of the code behind a job, which it checks again when it ends.
-LIBRARY = {"library": fingerprint("library")}
+LIBRARY = {"library": fingerprint("library"), "scripts": fingerprint("scripts")}
 FIGURES = LIBRARY | {"figures": fingerprint("figures")}
 PIPELINE = FIGURES | {"pipeline": fingerprint("pipeline")}
 

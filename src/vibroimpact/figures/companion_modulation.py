@@ -136,7 +136,7 @@ SPEC = {
                 "mean": {"meaning": "its mean over the starts, -inf where a ball sticks at times: the motion forgets "
                     "two directions", "unit": "of its quantity"},
                 "uncertainty": {"meaning": "its standard error over the starts, blank for one start; of double sticks "
-                    "the square root of their number, at least of one", "unit": "of its quantity"},
+                    "that of a count", "unit": "of its quantity"},
                 "bootstrap": {"meaning": "the standard error of one start by block bootstrap, mean over the starts; "
                     "blank for sums and double sticks", "unit": "of its quantity"},
             },
