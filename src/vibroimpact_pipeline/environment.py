@@ -1,5 +1,6 @@
 """The environment variables of every command of the pipeline and of its jobs."""
 
+import getpass
 import os
 from pathlib import Path
 
@@ -30,3 +31,7 @@ def set_environment(root: Path) -> None:
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    try:
+        getpass.getuser()
+    except (KeyError, OSError):  # in a container, say, where Snakemake would end in a traceback
+        os.environ["LOGNAME"] = str(os.getuid())

@@ -1,5 +1,6 @@
 """The report as a reader's browser shows it."""
 
+import re
 from itertools import pairwise
 
 import numpy as np
