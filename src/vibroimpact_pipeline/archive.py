@@ -1,5 +1,6 @@
 """One file to cite and to run elsewhere: the committed sources, the results with their records, and an RO-Crate."""
 
+import gzip
 import subprocess
 import tarfile
 import tempfile
@@ -41,7 +42,10 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
             (staged / path).parent.mkdir(parents=True, exist_ok=True)
             (staged / path).hardlink_to(root / path)
         crate(staged, cited, commit, date, titles).metadata.write(staged)
-        with tarfile.open(output, "w:gz", compresslevel=6) as archive:
+        with (
+            gzip.GzipFile(output, "wb", compresslevel=6, mtime=int(time)) as packed,
+            tarfile.open(fileobj=packed, mode="w") as archive,
+        ):
             archive.add(staged, staged.name, filter=lambda member: _plain(member, int(time)))
 
 

@@ -1,29 +1,13 @@
 """With Snakemake alone installed, the workflow parses, is linted, listed and planned; a build says what is missing."""
 
-import os
 import subprocess
-import sys
-from importlib.metadata import PackageNotFoundError, packages_distributions, requires
+import venv
+from importlib.metadata import PackageNotFoundError, distribution, files, requires
 
 import pytest
 from packaging.requirements import Requirement
 
 from pipeline_trees import ROOT
-
-HIDE = """
-import sys
-
-class Hidden:
-    def find_spec(self, name, path=None, target=None):
-        if name in {hidden!r}:
-            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
-
-sys.meta_path.insert(0, Hidden())
-import importlib.util
-find_spec = importlib.util.find_spec
-importlib.util.find_spec = lambda name, package=None: None if name in {hidden!r} else find_spec(name, package)
-"""
-
 
 def closure(name, known):
     """The distributions that one needs, with their own needs."""
@@ -42,25 +26,21 @@ def closure(name, known):
 
 @pytest.fixture(scope="module")
 def bare(tmp_path_factory):
-    """Runs Snakemake with every module hidden that it does not need itself."""
-    kept = closure("snakemake", set())
-    hidden = {
-        module
-        for module, owners in packages_distributions().items()
-        if not {owner.lower().replace("_", "-") for owner in owners} & kept
-    }
-    hidden -= {"vibroimpact", "vibroimpact_pipeline"}
-    assert {"numpy", "scipy", "numba", "matplotlib", "pandas", "papermill"} <= hidden
+    """Runs Snakemake in an environment that has what it needs itself, and nothing else."""
     folder = tmp_path_factory.mktemp("bare")
-    (folder / "sitecustomize.py").write_text(HIDE.format(hidden=hidden))
+    venv.create(folder / "venv", with_pip=False)
+    python = folder / "venv/bin/python"
+    (packages,) = (folder / "venv/lib").glob("python*/site-packages")
+    for name in closure("snakemake", set()):
+        for top in {file.parts[0] for file in files(name) if file.parts[0] != ".."}:
+            (packages / top).symlink_to(distribution(name).locate_file(top))
+    assert subprocess.run([python, "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False).returncode
 
     def run(*arguments):
-        command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), *arguments]
-        environment = {**os.environ, "PYTHONPATH": f"{folder}"}
+        command = [python, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), *arguments]
         done = subprocess.run(
             command,
             cwd=folder,
-            env=environment,
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
