@@ -9,6 +9,7 @@ from packaging.requirements import Requirement
 
 from pipeline_trees import ROOT
 
+
 def closure(name, known):
     """The distributions that one needs, with their own needs."""
     if name in known:
