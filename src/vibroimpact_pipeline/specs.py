@@ -11,7 +11,8 @@ A SPEC is a literal with these entries.
 - notebook_settings, notebook_inputs: the same for what the notebook reads besides. needs: further paths in the config
   without which the figure is not made.
 - columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
-  figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere.
+  figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere;
+  on_demand: the command that makes it, if a plain build does not.
 - tables: what else `compute` returns, by name its file, what it is about, and its columns.
 
 Equations, columns or own words may be the name of a figure that has the same. A column may stand for several, "C1, C2".
@@ -43,6 +44,8 @@ def specs(folder=FOLDER) -> dict[str, dict]:
         }
         file = spec.get("file", f"results/figures/{figure}.csv")
         plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}
+        if "on_demand" in spec:
+            plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
         said = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
         made[figure] = said | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}

@@ -266,9 +266,9 @@ def test_the_fast_criterion_gives_two_one_and_none_and_every_label_of_the_chapte
     assert found == said
     for claim, number in {"two-stable-equal": 2, "one-stable-unequal": 1}.items():
         (judged,) = judge([CLAIMS[claim]], evidence)
-        assert judged["parts"][f"{number} by the fast criterion, derived"]
+        assert judged["parts"][f"{number} by the derived fast criterion"]
         assert judged["parts"]["the captions by the fast criterion"]
-        assert judged["numbers"]["captions right by the fast criterion, all cases"] == 7
+        assert judged["numbers"]["captions right in all cases by the fast criterion"] == 7
 
 
 def test_by_continuation_point_c_leaves_the_right_arm(evidence):

@@ -100,7 +100,7 @@ def test_long_runs_are_among_the_sources():
 
 
 def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_findings(built):
-    bounds = re.search(r"Kaplan–Yorke dimension\s+between ([\d.]+) and ([\d.]+)", FINDINGS).groups()
+    bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", FINDINGS).groups()
     place = "regimes/spectra.csv", 'case == "weak" and start == "spread" and quantity == "Kaplan-Yorke dimension"'
     mean, error = (Results(built / "results").value(*place, column) for column in ("mean", "uncertainty"))
     assert float(bounds[0]) < mean - 5 * error < mean + 5 * error < float(bounds[1])

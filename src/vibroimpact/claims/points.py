@@ -76,7 +76,7 @@ def stable_points(evidence, case, number):
     """
     points = evidence.points(case)
     counts = {
-        "by the fast criterion, derived": int((points["masri_derived"] == STABLE).sum()),
+        "by the derived fast criterion": int((points["masri_derived"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
         "by theory, fast and slow": sum(fast_and_slow(row) == STABLE for _, row in points.iterrows()),
         "in truth": int((points["floquet"] == STABLE).sum()),
@@ -84,7 +84,7 @@ def stable_points(evidence, case, number):
     right = {name: _captions_right(evidence.points(name)["masri_derived"], name) for name in CAPTIONS}
     parts = {f"{number} {name}": count == number for name, count in counts.items()}
     parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
-    numbers = {"captions right by the fast criterion, all cases": sum(right.values())}
+    numbers = {"captions right in all cases by the fast criterion": sum(right.values())}
     return Finding(parts, counts | numbers | {"captions": sum(map(len, CAPTIONS.values()))})
 
 

@@ -30,6 +30,7 @@ SPEC = {
     "method": "fixed points and exact orbits at every value of the force",
     "made_by": "force_sweep",
     "file": "results/force_sweep/force_sweep.csv",
+    "on_demand": "make report",
     "columns": {
         "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
         "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value grows",

@@ -1,13 +1,17 @@
 """Tables of where chaos and periodic motions coexist: mean lives of the chaos, and tori where periodic motion ends."""
 
 import numpy as np
-import pandas as pd
 
 from vibroimpact.regimes.branches import Path
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.lifetimes import lifetime
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.regimes.torus import onset, sweep
+from vibroimpact.system.extras import need
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 QUIET = 1e-4
 """A motion that varies less than this on the section is the periodic one."""
