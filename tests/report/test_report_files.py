@@ -113,6 +113,12 @@ def test_data_of_the_report_are_in_the_dictionary(reported):
         assert list(found) == list(file.columns or file.keys)
 
 
+def test_every_figure_is_shown(site, pages):
+    shown = {link.split("/")[-1] for page in pages.values() for link in page.links}
+    assert {path.name for path in (site / "figures").glob("*.svg")} <= shown
+    assert {f"fig10_{number:02d}.svg" for number in range(1, 12)} <= shown
+
+
 def test_every_table_of_a_figure_can_be_downloaded(site, pages):
     offered = {link for page in pages.values() for link in page.links}
     made = [path for folder in ("figures", "accuracy", "force_sweep") for path in (site.parent / folder).glob("*.csv")]

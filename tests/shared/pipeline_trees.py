@@ -47,19 +47,21 @@ class Tree:
 
     def snakemake(self, *arguments, check=True, prefix=(), **environment) -> str:
         """Output of one Snakemake call, started by the command `prefix`; a variable that is None is not set."""
-        settings = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
-        run = subprocess.run(
-            [*prefix, *SNAKEMAKE, *arguments],
-            cwd=self.path,
-            env=settings,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        assert not check or run.returncode == 0, run.stdout
-        self.returncode = run.returncode
-        return run.stdout
+        if prefix or environment:
+            run = subprocess.run(
+                [*prefix, *SNAKEMAKE, *arguments],
+                cwd=self.path,
+                env={name: value for name, value in {**os.environ, **environment}.items() if value is not None},
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                check=False,
+            )
+            self.returncode, output = run.returncode, run.stdout
+        else:
+            self.returncode, output = run_module(self.path, "snakemake", *CORES, *arguments)
+        assert not check or self.returncode == 0, output
+        return output
 
     def start(self, *arguments, **environment) -> subprocess.Popen:
         """A Snakemake call in the background, in a process group of its own; a variable that is None is not set."""
@@ -75,8 +77,7 @@ class Tree:
 
     def dry_run(self, *arguments) -> str:
         """Output of one Snakemake call that builds nothing, with the library of the tree."""
-        self.returncode, output = run_module(self.path, "snakemake", *CORES, "--dry-run", *arguments)
-        return output
+        return self.snakemake("--dry-run", *arguments, check=False)
 
     def planned(self, *arguments) -> set[str]:
         """Rules that a build would run, but for the targets that only gather."""
