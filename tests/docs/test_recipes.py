@@ -11,8 +11,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-import compiled_code
-from pipeline_trees import ROOT, Tree, copied
+from pipeline_trees import ROOT, copied, whole_copy
 from vibroimpact_pipeline.data_dictionary import page, read
 
 RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
@@ -31,10 +30,8 @@ STEPS = re.compile(
 @pytest.fixture
 def project(built, tmp_path):
     """A copy of the project after a build, with its tests, which uses its own library."""
-    tree = Tree(tmp_path / "project")
-    shutil.copytree(built.path, tree.path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    tree = whole_copy(built, tmp_path / "project")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
-    compiled_code.share(tree / "src/vibroimpact")
     return tree
 
 

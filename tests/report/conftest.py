@@ -1,13 +1,12 @@
 """The report, built once for all tests, and a browser to read it in."""
 
-import shutil
 from pathlib import Path
 
 import pytest
 import yaml
 
 from headless_browser import Browser, executable
-from pipeline_trees import ROOT, Tree, made_once
+from pipeline_trees import ROOT, Tree, made_once, whole_copy
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 
@@ -15,12 +14,7 @@ SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-
 @pytest.fixture(scope="session")
 def reported(built, tmp_path_factory) -> Tree:
     """The built project with its report. Read it, do not change it."""
-    return made_once(
-        tmp_path_factory,
-        "reported",
-        lambda path: shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks")),
-        "report",
-    )
+    return made_once(tmp_path_factory, "reported", lambda path: whole_copy(built, path), "report")
 
 
 @pytest.fixture(scope="session")

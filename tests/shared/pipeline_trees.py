@@ -27,8 +27,6 @@ NOT_COPIED = shutil.ignore_patterns(
     "tests",
     "__pycache__",
 )
-NOT_BY_DEFAULT = shutil.ignore_patterns("report", "api", "animations", "force_sweep", "figure_check", "archive")
-"""Results of targets that a default build leaves alone."""
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -107,10 +105,17 @@ def with_results(source: Path, path: Path) -> Tree:
     """A copy that starts from what the source has built, if that is whole: the build of the copy makes the rest."""
     tree = copied(source, path)
     if (source / "results").exists():
-        shutil.copytree(source / "results", path / "results", symlinks=True, ignore=NOT_BY_DEFAULT)
+        shutil.copytree(source / "results", path / "results", symlinks=True)
     if (source / ".snakemake/metadata").exists():
         shutil.copytree(source / ".snakemake/metadata", path / ".snakemake/metadata")
     return tree
+
+
+def whole_copy(source: Tree, path: Path) -> Tree:
+    """A copy of a tree with its results, and with what is compiled of it."""
+    shutil.copytree(source.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    share(path / "src/vibroimpact")
+    return Tree(path)
 
 
 def run_module(tree: Path, module: str, *arguments: str) -> tuple[int, str]:

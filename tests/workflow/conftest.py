@@ -1,13 +1,11 @@
 """Copies of the project that a test may change."""
 
-import shutil
-
 import pytest
 
 from archives import checkout
-from pipeline_trees import ROOT, Tree, copied, made_once
+from pipeline_trees import ROOT, Tree, copied, made_once, whole_copy
 
-FIGURES = "fig10_09", "companion_10_04"
+FIGURES = "companion_10_08", "companion_10_04"
 """One that reads tables of jobs before it, and one that reads none."""
 
 
@@ -21,15 +19,13 @@ def tree(tmp_path) -> Tree:
 def drawn(tmp_path, tmp_path_factory) -> Tree:
     """The project with two figures and what they need."""
     made = made_once(tmp_path_factory, "drawn", lambda path: copied(ROOT, path), *FIGURES)
-    shutil.copytree(made.path, tmp_path / "tree", symlinks=True)
-    return Tree(tmp_path / "tree")
+    return whole_copy(made, tmp_path / "tree")
 
 
 @pytest.fixture
 def rebuilt(built, tmp_path) -> Tree:
     """A built tree that a test may change."""
-    shutil.copytree(built.path, tmp_path / "tree", symlinks=True)
-    return Tree(tmp_path / "tree")
+    return whole_copy(built, tmp_path / "tree")
 
 
 @pytest.fixture(scope="session")

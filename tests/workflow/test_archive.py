@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from archives import archive_of, commit, unpacked
-from pipeline_trees import ROOT, Tree
+from pipeline_trees import ROOT, whole_copy
 
 FIGURE = "results/figures/fig10_04"
 HERE = str(Path(sys.executable).parent)
@@ -40,10 +40,10 @@ def test_the_name_tells_version_and_commit(archived):
     assert archive_of(archived).name == f"vibroimpact-{version}-{commit.stdout[:12]}.tar.gz"
 
 
+@pytest.mark.thorough
 def test_the_same_bytes_twice(archived, tmp_path):
     """In another place, with other settings of the user."""
-    shutil.copytree(archived.path, tmp_path / "tree", symlinks=True, ignore=shutil.ignore_patterns("locks"))
-    tree = Tree(tmp_path / "tree")
+    tree = whole_copy(archived, tmp_path / "tree")
     shutil.rmtree(tree / "results/archive")
     tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
     assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()

@@ -22,8 +22,8 @@ def test_a_second_build_has_nothing_to_do_and_neither_has_one_without_what_snake
 
 
 def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
-    (rebuilt / "results/figures/fig10_03.png").unlink()
-    said = rebuilt.snakemake("fig10_03")
+    (rebuilt / "results/figures/companion_10_04.png").unlink()
+    said = rebuilt.snakemake("companion_10_04")
     assert "1 of 1 steps (100%) done" in said
     assert "All results are in results/" in said
 
@@ -76,27 +76,18 @@ def test_an_override_changes_what_it_names(rebuilt):
     assert not {"fig10_06", "fig10_09"} & planned
 
 
-@pytest.mark.parametrize(
-    ("config", "key"),
-    [
-        ("system: {kappa: 1.2}", "system.kappa: "),
-        ("system: {kapa: 0.6}", "system.kapa: unknown key, did you mean 'kappa'?"),
-        ("system: [", "not valid JSON or YAML"),
-    ],
-)
-def test_a_wrong_config_is_one_line_and_costs_nothing(rebuilt, config, key):
-    (rebuilt / "try.yaml").write_text(config)
-    said = rebuilt.snakemake("--configfile", "try.yaml", check=False)
+def test_a_wrong_config_is_one_line_and_costs_nothing(rebuilt):
+    said = rebuilt.snakemake("--config", "system={kapa: 0.6}", check=False)
     assert rebuilt.returncode != 0
     assert "Traceback" not in said
-    assert key in said
+    assert "system.kapa: unknown key, did you mean 'kappa'?" in said
     assert (rebuilt / "results/fixed_points.csv").exists()
 
 
-def test_a_figure_of_a_fixed_point_that_is_not_there_fails_in_its_job(tree):
-    tree.edit("config/config.yaml", "fixed_point: c", "fixed_point: d")
-    said = tree.snakemake("fig10_07", check=False)
-    assert tree.returncode != 0
+def test_a_figure_of_a_fixed_point_that_is_not_there_fails_in_its_job(rebuilt):
+    rebuilt.edit("config/config.yaml", "fixed_point: c", "fixed_point: d")
+    said = rebuilt.snakemake("fig10_07", check=False)
+    assert rebuilt.returncode != 0
     assert "fixed_point" in said
     assert "'d'" in said
 

@@ -173,6 +173,7 @@ def write_source(folder, name, files):
             archive.addfile(entry, BytesIO(text.encode()))
 
 
+@pytest.mark.thorough
 def test_a_package_without_a_wheel_is_built_without_a_network(tree):
     """By a stand-in for setuptools, to know which one it was; of the project itself nothing is in this lock."""
     wheels = tree / "wheels"
@@ -190,6 +191,7 @@ def test_a_package_without_a_wheel_is_built_without_a_network(tree):
     assert subprocess.run(ask, capture_output=True, text=True, check=True).stdout == "the setuptools of the lock\n"
 
 
+@pytest.mark.thorough
 def test_packages_are_checked_by_hash(tree):
     """A lock with a wrong hash installs nothing and is not taken for done."""
     (tree / "wheels").mkdir()

@@ -12,13 +12,10 @@ import pytest
 
 from pipeline_trees import run_module
 
-FIXED_POINTS = "results/fixed_points/unequal.csv"
-CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 0.89", "f20_hat: 0.85"
-DRAWING = "companion_10_04"
-
-
-def largest_C2(tree):
-    return pd.read_csv(tree / FIXED_POINTS)["C2"].max()
+FIXED_POINTS = "results/fixed_points/equal.csv"
+CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 1.0", "f20_hat: 0.97"
+FIGURE, DRAWING = "companion_10_08", "companion_10_04"
+"""One that reads tables of jobs before it, and one that reads none."""
 
 
 def remove_all_that_snakemake_knows(tree):
@@ -31,15 +28,14 @@ def remove_one_record_of_snakemake(tree):
 
 @pytest.mark.parametrize("remove", [remove_all_that_snakemake_knows, remove_one_record_of_snakemake])
 def test_another_config_is_seen_without_what_snakemake_has_recorded(drawn, remove):
-    before = largest_C2(drawn)
+    before = pd.read_csv(drawn / FIXED_POINTS)["C2"].max()
     remove(drawn)
     drawn.edit(CONFIG, LINE, OTHER)
-    said = drawn.snakemake("fig10_09")
-    assert "made with other parameters or other code" in said
-    assert abs(largest_C2(drawn) - before) > 0.01
-    record = json.loads((drawn / "results/figures/fig10_09.provenance.json").read_text())
-    assert record["config"]["cases.unequal"]["f20_hat"] == 0.85
-    assert "Nothing to be done" in drawn.snakemake("fig10_09")
+    assert "made with other parameters or other code" in drawn.snakemake(FIGURE)
+    assert abs(pd.read_csv(drawn / FIXED_POINTS)["C2"].max() - before) > 0.01
+    record = json.loads((drawn / f"results/figures/{FIGURE}.provenance.json").read_text())
+    assert record["config"]["cases.equal"]["f20_hat"] == 0.97
+    assert "Nothing to be done" in drawn.dry_run(FIGURE)
 
 
 def edited(tree):
@@ -51,27 +47,27 @@ def cut_off(tree):
     os.truncate(tree / FIXED_POINTS, 40)
 
 
-def of_another_case(tree):
-    shutil.copy(tree / "results/fixed_points/equal.csv", tree / FIXED_POINTS)
+def of_another_figure(tree):
+    shutil.copy(tree / f"results/figures/{DRAWING}.csv", tree / FIXED_POINTS)
 
 
 def without_record(tree):
-    (tree / "results/fixed_points/.made/unequal.csv.json").unlink()
+    (tree / "results/fixed_points/.made/equal.csv.json").unlink()
 
 
-@pytest.mark.parametrize("damage", [edited, cut_off, without_record])
+@pytest.mark.parametrize("damage", [edited, cut_off, of_another_figure, without_record])
 def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(drawn, damage):
     right = (drawn / FIXED_POINTS).read_bytes()
     damage(drawn)
-    assert FIXED_POINTS in drawn.dry_run("fig10_09"), "a dry run tells, and removes nothing"
+    assert FIXED_POINTS in drawn.dry_run(FIGURE), "a dry run tells, and removes nothing"
     assert (drawn / FIXED_POINTS).exists()
-    drawn.snakemake("fig10_09")
+    drawn.snakemake(FIXED_POINTS)
     assert (drawn / FIXED_POINTS).read_bytes() == right
 
 
 def test_a_file_of_somebody_else_stays(drawn):
     (drawn / "results/notes.csv").write_text("mine")
-    drawn.snakemake("fig10_09")
+    drawn.snakemake(FIGURE)
     assert (drawn / "results/notes.csv").read_text() == "mine"
 
 
@@ -119,7 +115,7 @@ def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
     (held / "go").touch()
     time.sleep(2.0)  # as long as the job would need to draw, if it were still there
     assert (held / f"results/figures/{DRAWING}.csv").read_bytes() == right
-    assert "Nothing to be done" in held.snakemake(DRAWING)
+    assert "Nothing to be done" in held.dry_run(DRAWING)
 
 
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGKILL], ids=lambda stop: stop.name)
@@ -157,15 +153,15 @@ def test_a_second_build_waits_for_the_first(held):
 
 
 def test_a_figure_tells_where_it_comes_from(drawn):
-    figure = "results/figures/fig10_09.png"
+    figure = f"results/figures/{FIGURE}.png"
     status, said = run_module(drawn.path, "vibroimpact_pipeline.provenance", figure)
     assert (status, said.splitlines()[-1]) == (0, "It is what this checkout makes.")
     drawn.edit(CONFIG, LINE, OTHER)
     status, said = run_module(drawn.path, "vibroimpact_pipeline.provenance", figure)
     assert status == 1
-    assert "0.85" in said
+    assert "0.97" in said
     shutil.copy(drawn / figure, drawn / "alone.png")
     status, said = run_module(drawn.path, "vibroimpact_pipeline.provenance", "alone.png")
-    assert (status, "0.85" in said) == (1, True), "the picture bears its record itself"
+    assert (status, "0.97" in said) == (1, True), "the picture bears its record itself"
     status, said = run_module(drawn.path, "vibroimpact_pipeline.provenance", "figures/CHANGES.md")
     assert (status, "Traceback" in said) == (2, False)
