@@ -47,7 +47,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
 
     Args:
         spec: its SPEC, and as "module" what draws it; None for one that is no longer made.
-        reference: folder of the reference set. build: folder in which results/ lies.
+        reference: folder of the reference set. build: folder in which results/ lies, up to date.
 
     Returns keys figure, module, files (of each table that is compared its name in the reference set, and its path in
     the build), status, reasons (one line each), tables (see `tables.compare`, with the table's name).
@@ -75,8 +75,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         verdict["reasons"] += [f"{names[name]}: {reason}" for reason in reasons]
         verdict["tables"] += [{"table": names[name], **one} for one in distances]
     if old.keys() == new.keys() == names.keys():
-        with TemporaryDirectory() as folder:
-            comparable = _compare_pictures(verdict, spec["module"], png, built, old, new, Path(folder))
+        comparable = _compare_pictures(verdict, spec["module"], png, built, old, new)
         if not verdict["reasons"]:
             verdict["status"] = PASSED if comparable else NOT_COMPARABLE
     return verdict
@@ -93,41 +92,30 @@ def _tables(verdict, paths):
     return found
 
 
-def _compare_pictures(verdict, module, png, built, old, new, folder):
-    """Add reasons; return whether the picture of the reference was drawn by the versions in use."""
+def _compare_pictures(verdict, module, png, built, old, new):
+    """Add reasons; return whether the picture of the reference was drawn by the versions in use.
+
+    Where the tables are equal, the built picture is what today's `draw` makes of the reference's table.
+    """
     figure, reasons = verdict["figure"], verdict["reasons"]
     known = reference_sums(png.parent).get(figure, {})
     comparable = known.get("drawn with") == pictures.environment()
-    try:
-        fresh = pictures.draw(module, new, figure, folder)
-        expected = pictures.sums(fresh)
-        if all(old[name].equals(new[name]) for name in old):
-            again, found = fresh, expected
-        elif comparable:
-            (folder / "again").mkdir()
-            again = pictures.draw(module, old, figure, folder / "again")
-            found = pictures.sums(again)
-    except Exception as error:
-        reasons.append(f"cannot be drawn: {_line(error)}")
-        return comparable
-    for kind, path in built.items():
+    with TemporaryDirectory() as folder:
         try:
-            if pictures.sums({kind: path})[kind] != expected[kind]:
-                reasons.append(f"{path.name}: not what `draw` makes of the table")
+            found, picture = pictures.sums(built), pictures.pixels(built["png"].read_bytes())
+            if (picture == picture[0, 0]).all():
+                reasons.append("picture: blank")
+            if comparable and not all(old[name].equals(new[name]) for name in old):
+                drawn = pictures.draw(module, old, figure, folder)
+                found, picture = pictures.sums(drawn), pictures.pixels(drawn["png"].read_bytes())
+            before = pictures.pixels(png.read_bytes())
         except Exception as error:
-            reasons.append(f"{path.name}: unreadable: {_line(error)}")
-    picture = pictures.pixels(fresh["png"].read_bytes())
-    if (picture == picture[0, 0]).all():
-        reasons.append("picture: blank")
-    if comparable:
-        try:
-            before, after = (pictures.pixels(path.read_bytes()) for path in (png, again["png"]))
-        except Exception as error:
-            reasons.append(f"{png.name} of the reference: unreadable: {_line(error)}")
+            reasons.append(f"picture: cannot be read or drawn: {_line(error)}")
             return comparable
-        if before.shape != after.shape:
-            reasons.append(f"picture: {_size(after)} instead of {_size(before)}")
-        elif changed := int((before != after).any(axis=-1).sum()):
+    if comparable:
+        if before.shape != picture.shape:
+            reasons.append(f"picture: {_size(picture)} instead of {_size(before)}")
+        elif changed := int((before != picture).any(axis=-1).sum()):
             reasons.append(f"picture: `draw` makes {changed} other pixels of the reference's table")
         others = [kind for kind in ("pdf", "svg") if known.get(kind) != found[kind]]
         reasons += [f"{kind}: `draw` makes another one of the reference's table" for kind in others]

@@ -40,7 +40,8 @@ def _pictures(figure, reference, build) -> dict[str, str]:
             found[name] = pictures.pixels((folder / f"{figure}.png").read_bytes())
         except Exception:
             continue  # the verdict says so, whatever the library has raised
-    addresses = {name: pictures.address(picture) for name, picture in found.items()}
-    if len(found) == 2 and found["reference"].shape == found["new"].shape and not np.array_equal(*found.values()):
-        addresses["difference"] = pictures.address(pictures.difference(**found))
-    return addresses
+    if len(found) == 2 and np.array_equal(*found.values()):
+        return dict.fromkeys(found, pictures.address(found["new"]))
+    if len(found) == 2 and found["reference"].shape == found["new"].shape:
+        found["difference"] = pictures.difference(**found)
+    return {name: pictures.address(picture) for name, picture in found.items()}

@@ -16,7 +16,7 @@ from vibroimpact_pipeline.specs import made, specs
 
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 SPECS = made(CONFIG, specs())
-FIGURES = ["fig10_02", "fig10_04", "fig10_06", "companion_epsilon"]
+FIGURES = ["fig10_02", "fig10_04", "fig10_06", "fig10_11"]
 """Without a table, with one, with markers and arrows, with two tables."""
 DAY = datetime.date(2020, 2, 29)
 
