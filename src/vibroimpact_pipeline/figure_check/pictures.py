@@ -95,11 +95,16 @@ def small(picture: np.ndarray) -> bytes:
     return content.getvalue()
 
 
-def address(picture: np.ndarray) -> str:
-    """A picture (height, width, channels) for a page, as a data: address, in squares of pixels."""
+def smaller(picture: np.ndarray) -> bytes:
+    """A PNG file of a picture (height, width, channels) for a page, in squares of pixels."""
     content = io.BytesIO()
     Image.fromarray(picture).reduce(SHRINK).save(content, "PNG")
-    return "data:image/png;base64," + base64.b64encode(content.getvalue()).decode()
+    return content.getvalue()
+
+
+def address(png: bytes) -> str:
+    """The content of a PNG file as a data: address, for a page."""
+    return "data:image/png;base64," + base64.b64encode(png).decode()
 
 
 def difference(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
