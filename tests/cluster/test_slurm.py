@@ -60,6 +60,7 @@ def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
     assert submitted == 4, "what takes a second goes to no scheduler"
 
 
+@pytest.mark.thorough
 def test_a_sweep_is_the_same_bytes_in_any_number_of_tiles(tmp_path):
     tree = copied(ROOT, tmp_path / "tree")
     tree.edit("config/config.yaml", "sweeps:\n", SWEEP)

@@ -86,6 +86,7 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
     assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [ASYMMETRIC]
 
 
+@pytest.mark.thorough
 def test_names_last_fifty_times_as_long(chapter, observation):
     """The label stability of docs/regimes.md, on a smaller map."""
     counts = Counter()

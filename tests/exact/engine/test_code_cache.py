@@ -84,6 +84,7 @@ def test_sound_code_is_used_and_nothing_is_written(compiled, tmp_path):
     assert times() == before
 
 
+@pytest.mark.thorough
 def test_the_engine_survives_damage(tmp_path):
     """The code of the loop of events, as the tests use it, with a bit flipped in the middle."""
     for folder in (ROOT / "src/vibroimpact/__pycache__").glob("compiled-*/engine_*"):
