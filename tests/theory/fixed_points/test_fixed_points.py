@@ -10,7 +10,6 @@ from scipy.optimize import root
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory import manifold
-from vibroimpact.theory.fixed_points import real_zeros
 from vibroimpact.theory.fixed_points.labels import labels
 from vibroimpact.theory.fixed_points.search import search
 from vibroimpact.theory.masri_printed import printed_limit
@@ -240,16 +239,6 @@ def test_merging_points_are_reported_as_multiple():
         assert np.abs(point.slow_eigenvalues).min() < 1e-3, "a fold: one slow eigenvalue passes through zero"
     gap = [np.diff([p.C[0] for p in vi.fixed_points(build({"f20_hat": inside + h}))[:2]])[0] for h in (1e-4, 1e-6)]
     assert gap[0] / gap[1] == pytest.approx(10, rel=0.02)
-
-
-@pytest.mark.parametrize("name", ["equal", "unequal", "weak"])
-def test_the_search_is_fast(name, monkeypatch):
-    """In boxes looked at, which is its work: halving to the resolution would take 30 levels around every point."""
-    boxes, expand = [], real_zeros._expand
-    monkeypatch.setattr(real_zeros, "_expand", lambda *given: boxes.append(len(given[2])) or expand(*given))
-    search(build(CASES[name][0]))
-    assert len(boxes) <= 12
-    assert sum(boxes) <= 200
 
 
 def test_labels_are_those_of_the_sentences_about_figs_10_6_10_7_and_10_9():

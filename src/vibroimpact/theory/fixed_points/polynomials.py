@@ -43,17 +43,15 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """What stands for (10.24): |u_1| = |u_2| = 1 without denominators, and with moduli throughout, each (3, 3, 3).
+        """What stands for (10.24): |u_1| = |u_2| = 1 without denominators, and with moduli throughout, each (2, 3, 3).
 
-        |n_2|^2 - |n_1|^2, |Delta|^2 - |n_1|^2 and |Delta|^2 - |n_2|^2, where u_i = n_i / Delta: n_1 depends on C_2
-        alone and n_2 on C_1 alone. Entry [:, j, k] belongs to C_1^j C_2^k.
+        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, where u_i = n_i / Delta: n_1 depends on C_2 alone and n_2 on C_1
+        alone. Entry [:, j, k] belongs to C_1^j C_2^k.
         """
-        terms = _solution(self.z, self.q, self.K, self.forcing)
-        bounds = _solution(*(np.abs(part) for part in (self.z, self.q, self.K, self.forcing)))
-        combine = np.array([[0, -1, 1], [1, -1, 0], [1, 0, -1]])
-        coefficients = np.einsum("ab,bjk->ajk", combine, [_modulus_squared(term) for term in terms])
-        magnitudes = np.einsum("ab,bjk->ajk", np.abs(combine), [_modulus_squared(bound) for bound in bounds])
-        return coefficients, magnitudes
+        delta, one, two = map(_modulus_squared, _solution(self.z, self.q, self.K, self.forcing))
+        parts = (np.abs(part) for part in (self.z, self.q, self.K, self.forcing))
+        most, first, second = map(_modulus_squared, _solution(*parts))
+        return np.array([two - one, delta - one]), np.array([second + first, most + first])
 
 
 def _solution(z, q, K, forcing):

@@ -71,7 +71,9 @@ def search(system: System) -> FixedPointSearch:
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     radius = search_radius(system)
-    zeros, multiple = real_zeros(*balance.polynomials(), radius)
+    zeros, multiple = np.empty((0, 2)), np.empty(0, bool)
+    if not system.has_undriven_module:  # what its ball dissipates would leave it no fixed point
+        zeros, multiple = real_zeros(*balance.polynomials(), radius)
     points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
     points.sort(key=lambda point: tuple(point.C))
     inside = [bool(np.all(point.C >= 0)) for point in points]
