@@ -53,7 +53,7 @@ def fixed_points(system: System) -> list[FixedPoint]:
     """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
     Returns:
-        A list of FixedPoint, ascending in C_1. It is complete up to rounding (see `certify`).
+        A list of FixedPoint, ascending in C_1; `certify` proves that none is missing.
 
     Raises:
         ValueError: system is not a System; else as `search`.
