@@ -97,6 +97,7 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
     assert files_of(FIGURE, outer / "weaker/results") != files_of(FIGURE, outer / "results")
 
 
+@pytest.mark.thorough
 def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     """Sockets have names of 107 characters at most, the line that starts a script 127 or 255."""
     there = Tree(tree.path.rename(long(tmp_path, 150) / "zwei Kästen"))
