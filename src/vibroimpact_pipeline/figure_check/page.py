@@ -5,9 +5,7 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment
 
-from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.check import PASSED, command, lines, ordered, share
-from vibroimpact_pipeline.figure_check.tables import KINDS, UNITS
+from vibroimpact_pipeline.figure_check import check, pictures, tables
 from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
@@ -15,21 +13,10 @@ TEMPLATE = Path(__file__).with_name("page.html.j2")
 
 def page(verdicts: list[dict], reference, build) -> str:
     """The page for verdicts of the figure check; reference, build: folders, as of `check.check`."""
-    template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(
-        TEMPLATE.read_text(encoding="utf-8")
-    )
-    return guarded(
-        template.render(
-            verdicts=ordered(verdicts),
-            said=lines(verdicts),
-            command=command,
-            different=[verdict["figure"] for verdict in verdicts if verdict["status"] != PASSED],
-            share=share,
-            pictures={verdict["figure"]: _pictures(verdict["figure"], reference, build) for verdict in verdicts},
-            kinds=KINDS,
-            units=UNITS,
-        )
-    )
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
+    shown = {verdict["figure"]: _pictures(verdict["figure"], reference, build) for verdict in verdicts}
+    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, tables=tables))
 
 
 def _pictures(figure, reference, build) -> dict[str, str]:
@@ -40,7 +27,7 @@ def _pictures(figure, reference, build) -> dict[str, str]:
             found[name] = pictures.pixels((folder / f"{figure}.png").read_bytes())
         except Exception:
             continue  # the verdict says so, whatever the library has raised
-    addresses = {name: pictures.address(picture) for name, picture in found.items()}
-    if len(found) == 2 and found["reference"].shape == found["new"].shape and not np.array_equal(*found.values()):
-        addresses["difference"] = pictures.address(pictures.difference(**found))
-    return addresses
+    shapes = {picture.shape for picture in found.values()}
+    if len(found) == 2 and len(shapes) == 1 and not np.array_equal(*found.values()):
+        found["difference"] = pictures.difference(**found)
+    return {name: pictures.address(picture) for name, picture in found.items()}
