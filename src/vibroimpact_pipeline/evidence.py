@@ -8,7 +8,7 @@ import pandas as pd
 from vibroimpact.claims.evidence import Evidence, Simulation
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES
-from vibroimpact_pipeline.config import case_parameters
+from vibroimpact_pipeline.specs import case_parameters
 
 TABLES = (
     *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),

@@ -63,16 +63,23 @@ def running(job) -> Iterator[SimpleNamespace]:
         except (Refused, NotAsMade) as error:
             sys.exit(str(error))
         except ValueError as error:
-            if line := _with_key(error, job):
+            if line := with_key(error, job.params.get("config") or {}):
                 sys.exit(line)
             raise
 
 
-def _with_key(error, job) -> str | None:
-    """The error in an argument that stands in the config, with its key there."""
-    from vibroimpact_pipeline.config import with_key  # few jobs need it
+def with_key(error, decided: dict) -> str | None:
+    """What the library says of an argument with the key of the config that it comes from; None if from none.
 
-    return with_key(error, job.params.get("config") or {})
+    Args:
+        error: an error or its text, which begins with the name of an argument and a colon.
+        decided: entries of the config by their whole key.
+    """
+    name, _, _ = str(error).partition(":")
+    argument, _, _ = name.partition(".")
+    holding = [key for key, value in decided.items() if isinstance(value, dict) and argument in value]
+    holding += [key.removesuffix(f".{argument}") for key in decided if key.endswith(f".{argument}")]
+    return f"{holding[0]}.{error}" if holding else None
 
 
 def made_by(job, inputs: dict[str, str]) -> dict:

@@ -18,6 +18,7 @@ from PIL import Image
 from vibroimpact_pipeline import code
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.results import digest_of, read_record
+from vibroimpact_pipeline.specs import at, case_parameters
 
 LOCK = "environment.lock"
 PACKAGES = ("numpy", "scipy", "numba", "matplotlib")
@@ -106,16 +107,15 @@ def differences(path, made: dict, config: dict) -> Iterator[str]:
 
 def _at(config, place):
     """The entry of the config at "section.key"; of a case, what the systems of the library are made of."""
-    from vibroimpact_pipeline.config import case_parameters
-
     section, _, name = place.partition(".")
     if place == "cases":
         return {case: case_parameters(config, case) for case in config["cases"]}
     if section == "cases" and "." not in name:
         return case_parameters(config, name) if name in config["cases"] else None
-    for key in place.split("."):
-        config = config.get(key) if isinstance(config, dict) else None
-    return config
+    try:
+        return at(config, place)
+    except LookupError:
+        return None
 
 
 def main() -> int:

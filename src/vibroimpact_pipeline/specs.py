@@ -9,7 +9,7 @@ A SPEC is a literal with these entries.
   systems: those of all cases are its argument `systems`.
 - settings: path in the config by argument. inputs: path of a table by argument. {figure} and {case} are filled in.
 - notebook_settings, notebook_inputs: the same for what the notebook reads besides. needs: further paths in the config
-  without which the figure is not made.
+  without which the figure is not made. sweeps: of sweeps that it draws what they move along each axis, and observe.
 - columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
   figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere;
   on_demand: the command that makes it, if a plain build does not.
@@ -19,6 +19,7 @@ Equations, columns or own words may be the name of a figure that has the same. A
 """
 
 import ast
+from functools import cache
 from pathlib import Path
 
 from vibroimpact_pipeline.code import FIGURES, ROOT
@@ -29,6 +30,7 @@ LIKE |= {"physical_units": "machines"}
 """The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
 
 
+@cache
 def specs(folder=FOLDER) -> dict[str, dict]:
     """SPEC by figure, of all modules in a folder that have one; the plotted table is "csv" among its tables."""
     found = {}
@@ -116,6 +118,11 @@ def at(config: dict, path: str):
     for key in path.split("."):
         config = config[key]
     return config
+
+
+def case_parameters(config: dict, case: str) -> dict:
+    """The parameters of System for one case: those shared by all cases and its excitation amplitudes."""
+    return config["system"] | {name: config["cases"][case][name] for name in ("f10_hat", "f20_hat")}
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:

@@ -11,11 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from configs import FREE, GOOD, ONE_CASE, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSUAL, edited, problems
-from pipeline_trees import ROOT
+from pipeline_trees import CORES, ROOT, run_module
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, with_key
-from vibroimpact_pipeline.config.system import NAMES
+from vibroimpact_pipeline.config import ConfigError, checked, read
+from vibroimpact_pipeline.config.model import PREFIXES, RULES
+from vibroimpact_pipeline.config.regimes import NAMES
+from vibroimpact_pipeline.jobs import with_key
+from vibroimpact_pipeline.specs import case_parameters
 
 THIRD = (3 * 1.02) ** 2 * 10 - 10
 """The detuning with which box 2 resonates at three times the frequency of the forcing."""
@@ -81,11 +84,11 @@ def test_a_complaint_names_the_file_to_mend(tmp_path):
     other.write_text("system: {kappa: 2, epsilon: 0.1}\n")
     config = edited("system.gamma1_hat = ... & cases.unequal.f20_hat = x & system.kappa = 2 & system.epsilon = 99")
     with pytest.raises(ConfigError) as refusal:
-        checked(config, files=[whole, other])
+        checked(config, [*((path, read(path)) for path in (whole, other)), ("--config", {"system": {"epsilon": 99}})])
     assert [line.rsplit(": ", 1)[0] for line in str(refusal.value).splitlines()] == [
         f"{whole}: cases.unequal.f20_hat",
         "--config: system.epsilon",
-        f"{other}: system.gamma1_hat",
+        "--config: system.gamma1_hat",
         f"{other}: system.kappa",
     ]
 
@@ -176,6 +179,14 @@ def test_every_number_that_is_accepted_builds_the_systems_and_sweeps(place, fact
         if all(len(set(entry.values)) == len(entry.values) for entry in axes) and len(axes) < 3:
             grid = Grid(systems[sweep["case"]], axes)
             assert all(isinstance(grid.system(number), System) for number in grid.spread(50))
+
+
+def test_every_rule_of_the_workflow_is_a_name_that_figures_cannot_have():
+    _, output = run_module(ROOT, "snakemake", *CORES, "--list-rules", "--quiet", "all")
+    rules = {line.strip() for line in output.splitlines() if line.strip().isidentifier()}
+    own = {*GOOD["figures"], *GOOD["report"]["animations"]}
+    assert own < rules, output
+    assert {rule for rule in rules - own if not rule.startswith(PREFIXES)} == RULES
 
 
 def test_the_editor_is_told_of_the_schema():

@@ -52,7 +52,7 @@ def said(path, content) -> str:
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     started = time.process_time()
     with pytest.raises(ConfigError) as refusal:
-        checked(read(path), files=[path])
+        checked(content := read(path), [(path, content)])
     assert time.process_time() - started < 2
     return str(refusal.value)
 

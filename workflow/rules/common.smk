@@ -33,7 +33,7 @@ sys.path.insert(0, str(ROOT / "src"))
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact_pipeline.specs import made, specs
+from vibroimpact_pipeline.specs import case_parameters, made, specs
 from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.code import fingerprint
 
@@ -53,34 +53,28 @@ def config_files():
     return [CONFIG_FILE] if IS_MODULE else [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
 
 
-def told_in_lines(work, *arguments):
-    """What reads or checks the config; or its problems, in lines, and no build."""
-    from vibroimpact_pipeline.config import ConfigError
-
-    try:
-        return work(*arguments)
-    except ConfigError as error:
-        refuse(error)
-
-
 def checked_config(given):
     """The config with defaults; without its model, as the schema made from it allows."""
     if not WITH_MODEL:
         validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
         return given
-    from vibroimpact_pipeline.config import checked, read
-
+    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
     whole = read(CONFIG_FILE) if IS_MODULE else {}
     update_config(whole, given)
-    return told_in_lines(checked, whole, f"config of module {__name__}" if IS_MODULE else "--config", config_files())
+    try:
+        return checked(whole, [*SOURCES, last])
+    except ConfigError as error:
+        refuse(error)
 
 
 WITH_MODEL = all(map(importlib.util.find_spec, ("pydantic", "numpy")))
 if WITH_MODEL:
-    from vibroimpact_pipeline.config import read as read_config
+    from vibroimpact_pipeline.config import ConfigError, checked, read
 
-    for file in config_files():
-        told_in_lines(read_config, file)  # before Snakemake does, whose complaints are longer
+    try:
+        SOURCES = [(file, read(file)) for file in config_files()]  # before Snakemake does, whose complaints are longer
+    except ConfigError as error:
+        refuse(error)
 
 
 # Fingerprints of the code behind a job, which it checks again when it ends.
@@ -91,7 +85,7 @@ PIPELINE = FIGURES | {"pipeline": fingerprint("pipeline")}
 
 def system_of(case):
     """Parameters of System for one case."""
-    return config["system"] | {name: config["cases"][case][name] for name in ("f10_hat", "f20_hat")}
+    return case_parameters(config, case)
 
 
 def all_systems():

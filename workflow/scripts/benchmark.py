@@ -7,8 +7,9 @@ import pandas as pd
 
 from vibroimpact.system import System
 from vibroimpact_pipeline.code import ROOT
-from vibroimpact_pipeline.config import ConfigError, case_parameters, checked, read
+from vibroimpact_pipeline.config import ConfigError, checked, read
 from vibroimpact_pipeline.results import replacing
+from vibroimpact_pipeline.specs import case_parameters
 
 SECONDS, STARTS = 0.5, 1_000_000
 
@@ -56,7 +57,8 @@ if __name__ == "__main__":
     parser.add_argument("--output", type=Path, default=ROOT / "results/accuracy/benchmark.csv")
     arguments = parser.parse_args()
     try:
-        config = checked(read(arguments.config), files=[arguments.config])
+        given = read(arguments.config)
+        config = checked(given, [(arguments.config, given)])
     except ConfigError as error:
         parser.exit(1, f"{error}\n")
     main(config, arguments.output)

@@ -39,6 +39,9 @@ SPEC = {
         "observation": "regimes.observation"},
     "inputs": {"response": "results/sweeps/frequency_response.csv", "clearance": "results/sweeps/clearance.csv",
         "design": "results/sweeps/design.csv"},
+    "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
+        "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
+        "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
         "panel": {"values": ["clearance", "restitution", "design"]},
         "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, the lowest "

@@ -30,6 +30,8 @@ SPEC = {
     "systems": True,
     "settings": {"starts": "sweeps.regime_map.starts"},
     "inputs": {"table": "results/sweeps/regime_map.csv"},
+    "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
+        "observe": ["regimes", "fixed_points"]}},
     "columns": {
         "panel": {"meaning": "map"},
         "series": {"meaning": "cell of the map, case of the config, or what changes on a border", "values": ["cell",

@@ -42,6 +42,8 @@ SPEC = {
     "case": "sweeps.frequency_response.case",
     "settings": {"band": "sweeps.clearance.band"},
     "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
+    "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
+        "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
     "columns": {
         "panel": {"values": ["frequency", "force"]},
         "series": {"meaning": "balls, as simulated; symmetric 1:1 responses by the theory and exact; or the linear "

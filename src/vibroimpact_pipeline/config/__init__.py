@@ -1,9 +1,8 @@
 """The config of the pipeline: config/config.yaml, read and checked before anything runs.
 
-One section per file; limits and conditions stand beside the fields they are about. The rules get plain values.
+Limits and conditions stand beside the fields they are about. The rules get plain values.
 """
 
-from vibroimpact_pipeline.config.check import case_parameters, checked, with_key
-from vibroimpact_pipeline.config.reading import ConfigError, read
+from vibroimpact_pipeline.config.reading import ConfigError, checked, read
 
-__all__ = ["ConfigError", "case_parameters", "checked", "read", "with_key"]
+__all__ = ["ConfigError", "checked", "read"]

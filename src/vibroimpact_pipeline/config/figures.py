@@ -3,11 +3,11 @@
 The chapter's figures keep their notebooks, as their captions do; any other name may be given to a figure of one's own.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import ConfigDict, Field
 
-from vibroimpact_pipeline.config.fields import NAME, Amplitude, CaseName, Label, Planes, around, items, span
+from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.section import Section
 
 MOST = 100
@@ -40,14 +40,13 @@ class Sawtooth(ClosedForm):
 class Manifold(ClosedForm):
     """Figure 10.4."""
 
-    parameters: items(Literal["kappa"], 1, 1, "System parameters that the figure depends on")
-    C_max: Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
+    C_max: kinds.Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
 
 
 class Regions(ClosedForm):
     """Figure 10.5."""
 
-    C_range: around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
+    C_range: kinds.around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
 
 
 class FixedPoints(Section):
@@ -55,8 +54,8 @@ class FixedPoints(Section):
 
     notebook: Literal["fixed_points"] = NOTEBOOK
     model: Literal["slow_flow"] = MODEL
-    case: CaseName
-    C_max: Planes
+    case: kinds.CaseName
+    C_max: kinds.Planes
 
 
 class Response(Section):
@@ -64,10 +63,10 @@ class Response(Section):
 
     notebook: Literal["theoretical_response"] = NOTEBOOK
     model: Literal["slow_flow"] = MODEL
-    case: CaseName
-    fixed_point: Label
+    case: kinds.CaseName
+    fixed_point: kinds.Label
     periods: float = Field(ge=0.5, le=100, description="Length of the response [forcing periods]")
-    C_max: Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
+    C_max: kinds.Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
 
 
 class SimulatedMotion(Section):
@@ -75,7 +74,7 @@ class SimulatedMotion(Section):
 
     notebook: Literal["simulation"] = NOTEBOOK
     model: Literal["simulation"] = MODEL
-    case: CaseName
+    case: kinds.CaseName
 
 
 Clearance = Annotated[float, Field(ge=1e-6, le=1e3, description="Half of the play [m]")]
@@ -102,15 +101,13 @@ class Plant(Section):
     F20: float = quantity("Amplitude of the force on machine 2 [N]")
     kappa: float = Field(ge=0.01, le=0.99, description="Restitution coefficient")
 
-    def conditions(self):
-        if not 1e-6 <= self.m / self.M <= 10:
-            yield ("m",), f"{self.m} is not between 1e-6 and 10 times M = {self.M}"
+    rules: ClassVar = [("m", "1e-6 <= m / M <= 10")]
 
 
 class Band(Section):
     """Frequencies, evenly spaced."""
 
-    range: span(Hertz, "Its ends [Hz]")
+    range: kinds.span(Hertz, "Its ends [Hz]")
     values: int = Field(ge=2, le=1000, description="So many, both ends included")
 
 
@@ -127,15 +124,13 @@ class PhysicalUnits(Section):
 
     notebook: Literal["physical_units"] = NOTEBOOK
     plant: Plant
-    clearances: items(Clearance, 1, 6, "Clearances, half of the play [m]")
+    clearances: kinds.items(Clearance, 1, 6, "Clearances, half of the play [m]")
     frequencies: Band
     cycles: int = Field(ge=1, le=100_000, description="Length of a run [forcing periods]")
     settle: int = Field(ge=0, le=100_000, description="Cycles of it that are left out [forcing periods]")
     shown: Shown
 
-    def conditions(self):
-        if self.settle >= self.cycles:
-            yield ("settle",), f"{self.settle} leaves nothing of {self.cycles} cycles to observe"
+    rules: ClassVar = [("settle", "settle < cycles")]
 
 
 OWN = ("fixed_points", "theoretical_response", "simulation", "physical_units")
@@ -147,7 +142,7 @@ class Figures(Section):
     """The figures to build: those of the chapter, each of which may be left out, and one's own under other names."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[Annotated[str, Field(pattern=NAME)], OwnFigure | None]
+    __pydantic_extra__: dict[Annotated[str, Field(pattern=kinds.NAME)], OwnFigure | None]
 
     fig10_01: Drawing | None = None
     fig10_02: Drawing | None = None
@@ -163,5 +158,4 @@ class Figures(Section):
 
     def conditions(self):
         number = sum(scene is not None for _, scene in self)
-        if not 1 <= number <= MOST:
-            yield (), f"has {number} entries, more than {MOST}" if number else "is empty"
+        return [] if 1 <= number <= MOST else [((), f"has {number} entries, not 1 to {MOST}")]

@@ -1,12 +1,11 @@
-"""What Pydantic finds wrong with a config, in words that say what was given and what is allowed."""
+"""What is wrong with a config, in words that say what was given and what is allowed."""
 
 import re
 
 from pydantic import ValidationError
 
-from vibroimpact_pipeline.config.fields import WORDS
+from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.figures import OWN
-from vibroimpact_pipeline.config.reading import shown
 from vibroimpact_pipeline.config.section import Problem, hint
 
 PHRASES = {
@@ -17,9 +16,10 @@ PHRASES = {
     "multiple_of": "{} is not a multiple of {multiple_of}",
     "finite_number": "{} is not finite",
     "missing": "missing",
+    "union_tag_not_found": "missing",
     "condition": "{what}",
-    "too_long": "has length {actual_length}, above {max_length}",
-    "too_short": "has length {actual_length}, below {min_length}",
+    "too_long": "has more than {max_length} entries",
+    "too_short": "has fewer than {min_length} entries",
     "string_pattern_mismatch": "{} is not {words}",
 }
 KINDS = {"float": "a number", "int": "a whole number", "string": "text", "list": "a list", "tuple": "a list"}
@@ -29,22 +29,19 @@ def problems_of(error: ValidationError) -> list[Problem]:
     """Return everything that Pydantic found wrong, each with its place in the config."""
     found = {}
     for details in error.errors(include_url=False):
-        place, kind, about = details["loc"], details["type"], details.get("ctx", {})
-        if len(place) > 3 and place[0] == "figures" and place[2] in OWN:
+        place, about = details["loc"], details.get("ctx", {})
+        if place[:1] == ("figures",) and {*place[2:3]} & {*OWN}:
             place = place[:2] + place[3:]  # without the name of the variant
         place = place[:-1] if place[-1:] == ("[key]",) else place
-        if "discriminator" in about:
-            place = (*place, about["discriminator"].strip("'"))
-        found.setdefault(place, _described(kind, details["input"], about, details["msg"]))
+        place += ("notebook",) if "discriminator" in about else ()
+        found.setdefault(place, _described(details["type"], details["input"], about, details["msg"]))
     return list(found.items())
 
 
 def _described(kind, value, about, message):
     if kind in PHRASES:
         given = shown(value, plain=kind != "string_pattern_mismatch")  # numbers may be texts
-        return PHRASES[kind].format(given, words=WORDS.get(about.get("pattern")), **about)
-    if kind == "union_tag_not_found":
-        return "missing"
+        return PHRASES[kind].format(given, words=kinds.WORDS.get(about.get("pattern")), **about)
     if kind in ("literal_error", "union_tag_invalid"):
         names = re.findall(r"'([^']+)'", about.get("expected") or about["expected_tags"])
         given = about.get("tag", value)
@@ -52,3 +49,15 @@ def _described(kind, value, about, message):
     if kind.endswith(("_type", "_parsing", "_parsing_size", "_from_float")):
         return f"{shown(value)} is not {KINDS.get(kind.split('_')[0], 'a mapping')}"
     return message
+
+
+def written(place) -> str:
+    """Return a place as it is written: system.kappa, regimes.branches.paths[0]."""
+    names = (f"[{part}]" if isinstance(part, int) else f".{shown(part, plain=True)}" for part in place)
+    return "".join(names).removeprefix(".")
+
+
+def shown(value, plain: bool = False) -> str:
+    """Return a value as an error message shows it: on one line, with its middle left out where it is long."""
+    text = "nothing" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
+    return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

@@ -1,67 +1,255 @@
-"""The whole config, and the conditions across its sections."""
+"""The whole config: its smaller sections, and the conditions across sections."""
 
-from pydantic import Field
+import re
+from typing import Annotated, ClassVar, Literal
 
-from vibroimpact_pipeline.config.accuracy import Accuracy
-from vibroimpact_pipeline.config.cases import Cases
+from pydantic import Field, ValidationError
+
+from vibroimpact.system import System
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.figures import Figures
-from vibroimpact_pipeline.config.names import taken
+from vibroimpact_pipeline.config.messages import problems_of
 from vibroimpact_pipeline.config.regimes import Regimes
-from vibroimpact_pipeline.config.report import Report
 from vibroimpact_pipeline.config.section import Section, hint, sections
-from vibroimpact_pipeline.config.stability import Stability
-from vibroimpact_pipeline.config.sweeps import DRAWN, Sweeps, not_drawn
-from vibroimpact_pipeline.config.system import SystemSection, unsound
+from vibroimpact_pipeline.config.sweeps import Sweep
+from vibroimpact_pipeline.specs import specs
+
+SLOWEST = 1e-3
+"""Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
+HIGHEST = 1.69
+"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
+PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
+"""How names begin that are of companions, sweeps, the chapter's figures and texts of own figures."""
+WORKFLOW = ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")
+RULES = {
+    name for path in WORKFLOW for name in re.findall(r"(?m)^(?:use rule \w+ as|rule) (\w+)", path.read_text("utf-8"))
+}
+"""Rules whose names figures and animations, which become rules as well, cannot have."""
+Coefficient = Annotated[float, Field(ge=0, le=10_000)]
+Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
+
+
+class SystemSection(Section):
+    """Dimensionless parameters shared by all cases, hatted as in (10.4) and (10.6)."""
+
+    epsilon: kinds.Epsilon
+    kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
+    alpha12_hat: Coefficient = Field(description="Stiffness of the coupling")
+    gamma1_hat: Coefficient = Field(description="Damping of box 1 to ground")
+    gamma2_hat: Coefficient = Field(description="Damping of box 2 to ground")
+    gamma12_hat: Coefficient = Field(description="Damping of the coupling")
+    sigma20_hat: Detuning = Field(description="Detuning of box 2; 1 + epsilon sigma20_hat, its stiffness, is above 0")
+    sigma_e_hat: Detuning = Field(description="Detuning of the forcing; 1 + epsilon sigma_e_hat is at least 0.001")
+
+
+class Parameters(SystemSection):
+    """All parameters of one system: what the cases share, and two forces."""
+
+    f10_hat: kinds.Force
+    f20_hat: kinds.Force
+
+    def conditions(self):
+        try:
+            system = System(**dict(self))
+            if system.Omega < SLOWEST:
+                raise ValueError(f"sigma_e_hat: 1 + epsilon sigma_e_hat = {system.Omega} is below {SLOWEST}")
+            _refuse_resonance(system)
+        except ValueError as error:
+            name, _, what = str(error).partition(": ")
+            yield (name,) if name in Parameters.model_fields else (), what
+
+
+def _refuse_resonance(system):
+    """Refuse an undamped system whose periodic responses are not isolated, or not bounded."""
+    if system.gamma1 > 0 and system.gamma2 > 0:
+        return
+    # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
+    from vibroimpact.exact.orbits.impulse_response import ImpulseResponse
+    from vibroimpact.theory.fixed_points.search import refuse_free_motion
+
+    refuse_free_motion(system)
+    for sign in () if system.has_undriven_module else (1, -1):
+        ImpulseResponse(system, sign)
+
+
+class Simulation(Section):
+    """The direct integration of a case: a transient that is left out, and a window with at most 200 000 samples."""
+
+    initial_state: kinds.State
+    transient_cycles: int = Field(ge=0, le=1_000_000, description="Cycles before the window [forcing periods]")
+    window_cycles: int = Field(ge=1, le=10_000, description="Cycles that are kept [forcing periods]")
+    samples_per_cycle: int = Field(ge=8, le=10_000, multiple_of=2, description="Samples in a cycle, an even number")
+    digits: int | None = Field(None, ge=20, le=2000, description="Decimal digits of the motion; absent: doubles")
+
+    # A picture shows no more samples, and its files grow with each; so many digits of so many cycles take hours.
+    rules: ClassVar = [
+        ("window_cycles", "window_cycles * samples_per_cycle <= 200_000"),
+        ("digits", "(digits or 0) * (transient_cycles + window_cycles) <= 5_000_000"),
+    ]
+
+
+class Case(Section):
+    """A pair of forces, and the direct integration under them."""
+
+    f10_hat: kinds.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
+    f20_hat: kinds.Force = Field(description="Excitation amplitude of box 2")
+    simulation: Simulation
+
+
+class Companion1004(Section):
+    """Companion of figure 10.4."""
+
+    C_max: float = Field(ge=HIGHEST, le=100, description="Right end of the axis, beyond the derived limits (1.68)")
+
+
+class Companion1005(Section):
+    """Companion of figure 10.5."""
+
+    C_range: kinds.around(0.6, HIGHEST) = Field(description="Ends of the axis, which holds the derived limits (1.68)")
+
+
+class VerdictGrid(kinds.ForceGrid):
+    """The theory's verdicts against exact orbits, at the centres of points x points cells of forces."""
+
+    epsilon: kinds.items(kinds.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
+
+    # Searches for all symmetric orbits, some ten milliseconds each.
+    rules: ClassVar = [("points", "points**2 * len(epsilon) <= 1_000_000")]
+
+    def moves(self):
+        return [{"epsilon": value} for value in self.epsilon]
+
+
+class Stability(Section):
+    """Axes of the companions of figures 10.4 and 10.5, and the grid that criteria are judged on."""
+
+    companion_10_04: Companion1004
+    companion_10_05: Companion1005
+    verdict_grid: VerdictGrid
+
+
+class Problem(Section):
+    """A test problem of the work-precision chart; every method and the reference run it many times."""
+
+    case: kinds.CaseName
+    initial_state: kinds.State
+    cycles: int = Field(ge=1, le=100, description="Length [forcing periods]")
+
+
+class Benchmark(Problem):
+    """The motion of `make benchmark`."""
+
+    cycles: int = Field(ge=1, le=1000, description="Length [forcing periods]")
+
+
+class Accuracy(Section):
+    """The motions that methods are measured on, and how long a timing is repeated."""
+
+    effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
+    short_seconds: float = Field(ge=1e-3, le=1, description="Repeat a timing for so long, in the default build [s]")
+    full_seconds: float = Field(ge=1e-3, le=60, description="The same in the full form [s]")
+    problems: kinds.named(Problem, 1, 3, kinds.TITLE) = Field(description="Test problems by free titles")
+    benchmark: Benchmark
+
+
+class Animation(Section):
+    """The first cycles of a case's simulated window."""
+
+    case: kinds.CaseName
+    cycles: int = Field(ge=1, le=1000, description="Cycles shown, no more than the window has [forcing periods]")
+
+
+class ForceSweep(Section):
+    """The control on the page of fixed points: f20_hat changes, the rest is as in the case."""
+
+    case: kinds.CaseName
+    range: kinds.Forces
+    values: int = Field(ge=2, le=1000, description="Values of f20_hat")
+    C_max: kinds.Amplitude = Field(description="Right end of the planes")
+
+    # They are written with six decimals.
+    rules: ClassVar = [("values", "range[1] - range[0] >= 1e-6 * (values - 1)")]
+
+
+class Report(Section):
+    """What moves in the report: animations, and the control that moves the fixed points."""
+
+    animations: kinds.named(Animation, 1, 10) = Field(description="Animations by free names")
+    force_sweep: ForceSweep
 
 
 class Config(Section):
     """Everything that decides on a build. All is dimensionless but plants; times are in forcing periods."""
 
     system: SystemSection
-    cases: Cases = Field(description="Excitation amplitudes, and how the motion is integrated, by free names")
+    # At most twelve: companions have a panel for each.
+    cases: kinds.named(Case, 1, 12) = Field(description="Excitation amplitudes, and how motions are integrated")
     figures: Figures
     stability: Stability
     regimes: Regimes
     accuracy: Accuracy
     tile_seconds: float = Field(20.0, gt=0, le=1e5, description="Cut sweeps into jobs of about so long [core seconds]")
     report: Report
-    sweeps: Sweeps = Field({}, description=f"Sweeps by name; companion figures draw {', '.join(DRAWN)}")
-
-    def parameters(self, case: str) -> dict:
-        """Return the parameters of System for one case."""
-        return {**dict(self.system), "f10_hat": self.cases[case].f10_hat, "f20_hat": self.cases[case].f20_hat}
+    sweeps: kinds.named(Sweep, 0, 100) = Field({}, description="Questions of one's own, by name; companions draw some")
 
     def conditions(self):
-        yield from taken(self)
-        yield from ((("sweeps", *place), what) for place, what in not_drawn(self.sweeps))
+        yield from self._taken_names()
         for place, section, case in sections(self):
             if hasattr(section, "case") and case not in self.cases:
                 yield (*place, "case"), f"unknown case {case!r}{hint(case, self.cases)}"
         if (drawn := self.regimes.coexistence.case) != (followed := self.regimes.branches.case):
             what = f"{drawn!r} is not {followed!r}, over whose branches it is drawn"
             yield ("regimes", "coexistence", "case"), what
-        yield from dict(self._unsound_cases()).items() or self._unsound_moves().items()
+        yield from self._unsound().items()
         for name, sweep in self.sweeps.items():
-            yield from ((("sweeps", name, *place), what) for place, what in sweep.costs(self.regimes.observation))
+            for place, what in [*_not_drawn(name, sweep), *sweep.costs(self.regimes.observation)]:
+                yield ("sweeps", name, *place), what
         for name, shown in self.report.animations.items():
             if shown.case in self.cases and shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
                 what = f"{shown.cycles} is above {kept}, window_cycles of the case {shown.case}"
                 yield ("report", "animations", name, "cycles"), what
 
-    def _unsound_cases(self):
-        """Yield problems of the systems; a problem of shared parameters has the same place in all cases."""
-        for case in self.cases:
-            for name, what in unsound(self.parameters(case)):
-                shared = name and name[0] in SystemSection.model_fields
-                yield ("system", *name) if shared else ("cases", case, *name), what
+    def _taken_names(self):
+        """Yield figures and animations whose names mean something else already."""
+        own = [("figures", name) for name in self.figures.model_extra]
+        for *section, name in own + [("report", "animations", name) for name in self.report.animations]:
+            twice = section[0] == "report" and ("figures", name) in own
+            if twice or name in RULES or name.startswith(PREFIXES):
+                what = f"the name is that of a rule or another figure, or begins with {', '.join(PREFIXES)}"
+                yield (*section, name), what
 
-    def _unsound_moves(self):
-        """Return the first problem at each place that parameters are moved to."""
-        found = {}
-        for place, section, case in sections(self):
-            for move in section.moves():
-                for one in {case} & self.cases.keys() if case else self.cases:
-                    at = ", ".join(f"{name} = {value:g}" for name, value in move.items())
-                    for name, what in unsound(self.parameters(one) | move):
-                        found.setdefault(place, f"at {at}: {': '.join([*name, what])}")
+    def _amiss(self, case, **changed):
+        """Return what keeps the parameters of a case, some of them changed, from being those of a system."""
+        forces = {name: getattr(self.cases[case], name) for name in ("f10_hat", "f20_hat")}
+        try:
+            Parameters.model_validate({**dict(self.system), **forces, **changed})
+        except ValidationError as error:
+            return problems_of(error)
+        return []
+
+    def _unsound(self):
+        """Return what is wrong with the systems of the cases, or else with those that parameters are moved to."""
+        found, shared = {}, SystemSection.model_fields.keys()
+        for case in self.cases:
+            for name, what in self._amiss(case):
+                found[("system", *name) if shared & {*name} else ("cases", case, *name)] = what
+        moves = [(place, case, move) for place, section, case in sections(self) for move in section.moves()]
+        for place, case, move in () if found else moves:
+            for one in {case} & self.cases.keys() if case else self.cases:
+                at = ", ".join(f"{name} = {value:g}" for name, value in move.items())
+                for name, what in self._amiss(one, **move):
+                    found.setdefault(place, f"at {at}: {': '.join([*name, what])}")
         return found
+
+
+def _not_drawn(name, sweep):
+    """Yield what a sweep lacks that companion figures draw it by: see "sweeps" in their SPEC."""
+    for figure, spec in specs().items():
+        if drawn := spec.get("sweeps", {}).get(name):
+            uneven = drawn.get("evenly") and not all(axis.range and axis.scale != "logarithmic" for axis in sweep.axes)
+            if uneven or [axis.along for axis in sweep.axes] != drawn["along"]:
+                how = ", evenly" if uneven else ""
+                yield ("axes",), f"are not {drawn['along']}{how}, as {figure} draws it; take another name"
+            if missing := [wanted for wanted in drawn["observe"] if wanted not in sweep.observe]:
+                yield ("observe",), f"{' and '.join(missing)} missing, which {figure} draws; take another name"

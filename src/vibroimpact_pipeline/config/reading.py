@@ -1,9 +1,16 @@
-"""The plain values of a config file, and what can be said of them before the model looks at them."""
+"""A config read from files and checked: everything that is wrong with it, in one line each."""
+
+from itertools import count
 
 import yaml
+from pydantic import ValidationError
 
-LARGEST, MOST, DEEPEST, ALL = 100_000, 1000, 20, 50_000
-"""Bytes of a file, entries of a mapping or list, levels of nesting, values in all (aliases make many of few)."""
+from vibroimpact_pipeline.config.messages import problems_of, shown, written
+
+LARGEST, DEEPEST, ALL = 100_000, 20, 50_000
+"""Bytes of a file, levels of nesting, values in all (aliases make many of few)."""
+MOST = 30
+"""Lines that are shown at once."""
 
 
 class ConfigError(ValueError):
@@ -36,7 +43,7 @@ def read(path) -> dict:
         config = yaml.load(content.decode("utf-8"), _Loader)
         if not isinstance(config, dict):
             raise ValueError(f"{shown(config)} is not a mapping of system, cases and figures")
-        for place, problem in unfit(config):
+        for place, problem in cleared(config)[1]:
             raise ValueError(f"{written(place)}: {problem}")
         return config
     except OSError as error:
@@ -51,31 +58,60 @@ def read(path) -> dict:
     raise ConfigError(f"{path}: {shown(what, plain=True)}")
 
 
-def unfit(config) -> list[tuple[tuple, str]]:
-    """Return the places of values that no config holds, dates say, or the first place that is too large or too deep."""
-    found, waiting, values = [], [((), config)], 0
-    while waiting:
-        place, value = waiting.pop()
-        if isinstance(value, dict | list):
-            values += len(value)
-            if len(value) > MOST or values > ALL or len(place) > DEEPEST:
-                what = f"has more than {MOST} entries, {DEEPEST} levels or with all before {ALL} values"
-                return [(place[:3], what)]
-            items = value.items() if isinstance(value, dict) else enumerate(value)
-            waiting += [((*place, key), item) for key, item in items]
-        elif isinstance(value, bool) or not (value is None or isinstance(value, str | int | float)):
-            found.append((place, f"{shown(value)} is not a number, text, list or mapping"))
-    return found
+def checked(config: dict, sources=()) -> dict:
+    """Return the plain values of a config as the model has them: numbers are numbers, defaults in, absent entries out.
+
+    Args:
+        config: all entries together.
+        sources: (name, content) of what they are from, a later one over those before.
+
+    Raises:
+        ConfigError: something is wrong; a line for each problem, "source: key: what".
+    """
+    from vibroimpact_pipeline.config.model import Config
+
+    values, found = cleared(config)
+    try:
+        if not found:
+            return Config.model_validate(values).model_dump(mode="json", exclude_none=True)
+    except ValidationError as error:
+        found = problems_of(error)
+    more = [f"... and {len(found) - MOST} more"] if len(found) > MOST else []
+    told = sorted((written(place), _source(place, sources), what) for place, what in found)[:MOST]
+    raise ConfigError("\n".join([f"{source}: {key}: {what}" for key, source, what in told] + more))
 
 
-def written(place) -> str:
-    """Return a place as it is written: system.kappa, regimes.branches.paths[0]."""
-    names = (f"[{part}]" if isinstance(part, int) else f".{shown(part, plain=True)}" for part in place)
-    return "".join(names).removeprefix(".")
+def cleared(config) -> tuple[dict, list]:
+    """Return a config without its entries of null, which take others away, and the problems of what no config holds.
+
+    Inside a mapping given by `--config`, Snakemake hands null over as text.
+    """
+    found, values = {}, count()
+
+    def clear(value, place):
+        if next(values) > ALL or len(place) > DEEPEST:
+            found[place[:3]] = f"has more than {DEEPEST} levels or, with all before, {ALL} values"
+        elif isinstance(value, dict):
+            return {key: clear(item, (*place, key)) for key, item in value.items() if item not in (None, "null")}
+        elif isinstance(value, list):
+            return [clear(item, (*place, number)) for number, item in enumerate(value)]
+        elif isinstance(value, bool) or not isinstance(value, str | int | float | None):
+            found[place] = f"{shown(value)} is not a number, text, list or mapping"
+        return value
+
+    return clear(config, ()), list(found.items())
 
 
-def shown(value, plain: bool = False) -> str:
-    """Return a value as an error message shows it: on one line, with its middle left out where it is long."""
-    plain = plain and str(value).isprintable()
-    text = "nothing" if value is None else str(value) if plain else repr(value)
-    return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"
+def _source(place, sources):
+    """Return the name of the last source that has what is at a place, or is nearest to it where it is missing."""
+
+    def depth(source):
+        value = source[1]
+        for known, part in enumerate(place):
+            try:
+                value = value[part]
+            except (LookupError, TypeError):
+                return known
+        return len(place)
+
+    return max(reversed(sources), key=depth, default=["--config"])[0]

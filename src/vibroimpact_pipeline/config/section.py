@@ -1,7 +1,8 @@
-"""What all sections of the config have in common: no unknown keys, no infinite numbers, conditions across fields."""
+"""What sections of the config have in common: known keys, and conditions across fields."""
 
 import difflib
 from collections.abc import Iterable, Iterator
+from typing import ClassVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
@@ -13,41 +14,39 @@ Problem = tuple[Place, str]
 
 
 class Section(BaseModel):
-    """A mapping of the config. Numbers may be texts, as `--config` hands them over; null stands for an absent entry."""
+    """A mapping of the config. Numbers may be texts, as `--config` hands them over."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
+    rules: ClassVar = ()
+    """Conditions across fields, as expressions in these, each after the key that is told where it does not hold."""
+
     def conditions(self) -> Iterable[Problem]:
         """Yield what is wrong across fields, each of which is right by itself."""
-        return ()
+        for key, rule in self.rules:
+            if not eval(rule, dict(self)):
+                given = getattr(self, key)
+                yield (key,), (f"{given} is given; " if isinstance(given, int | float) else "") + f"{rule} is needed"
 
     def moves(self) -> Iterable[dict[str, float]]:
         """Yield what parameters of systems are changed to, by name."""
         return ()
 
-    @model_validator(mode="before")
+    @model_validator(mode="wrap")
     @classmethod
-    def _has_known_keys(cls, given):
-        """Refused before the fields are looked at: a misspelt key is one problem, not a missing one besides."""
+    def _meets_conditions(cls, given, validate):
+        """Unknown keys come first: a misspelt key is one problem, not a missing one besides."""
+        known = cls.model_fields
         if isinstance(given, dict) and cls.model_config["extra"] == "forbid":
-            known = cls.model_fields
-            refuse(cls, [((key,), f"unknown key{hint(key, known)}") for key in given if key not in known])
-        return given
-
-    @model_validator(mode="after")
-    def _meets_conditions(self):
-        refuse(type(self), self.conditions())
-        return self
+            _refuse([((key,), f"unknown key{hint(key, known)}") for key in given if key not in known])
+        section = validate(given)
+        _refuse(section.conditions())
+        return section
 
 
-def refuse(section: type, problems: Iterable[Problem]) -> None:
-    """Raise all problems at once, if there are any.
-
-    Raises:
-        pydantic.ValidationError: with an error per problem.
-    """
+def _refuse(problems):
     if errors := [InitErrorDetails(type=condition(what), loc=place, input=None) for place, what in problems]:
-        raise ValidationError.from_exception_data(section.__name__, errors)
+        raise ValidationError.from_exception_data("config", errors)
 
 
 def condition(what: str) -> PydanticCustomError:
@@ -70,12 +69,3 @@ def sections(value, place: Place = (), case: str | None = None) -> Iterator[tupl
     for key, item in enumerate(value) if isinstance(value, list) else dict(value).items():
         if isinstance(item, Section | dict | list):
             yield from sections(item, (*place, key), case)
-
-
-def above(place: Place, limit: float, what: str, **factors: float) -> list[Problem]:
-    """Return the problem that so many (a product of what keys ask for) are more than a limit."""
-    asked = 1
-    for value in factors.values():
-        asked *= value
-    product = " x ".join(f"{value:.6g} {name}" for name, value in factors.items())
-    return [(place, f"{product} = {asked:.3g} {what}, above {limit:.3g}")] if asked > limit else []

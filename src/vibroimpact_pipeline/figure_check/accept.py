@@ -36,16 +36,17 @@ def changed(verdicts: list[dict], figures=()) -> list[dict]:
 
 def summary(verdict: dict) -> list[str]:
     """What changes in one figure: numbers before and after, their distance, and what else is found."""
-    said = [f"{verdict['figure']}: {verdict['status']}"]
-    for one in verdict["tables"]:
-        if one["distance"] != 0:
-            said.append(
-                f"  {one['table']}, {one['column']}: before {one['reference']}, after {one['new']}, "
-                f"difference {one['distance']} {UNITS[one['measure']]} ({one['where']})"
-            )
     reasons = verdict["reasons"]
-    said += [f"  {reason}" for reason in reasons[:SHOWN]]
-    return said + [f"  and {len(reasons) - SHOWN} more"] * (len(reasons) > SHOWN)
+    said = [
+        f"  {one['table']}, {one['column']}: before {one['reference']}, after {one['new']}, "
+        f"difference {one['distance']} {UNITS[one['measure']]} ({one['where']})"
+        for one in verdict["tables"]
+        if one["distance"] != 0
+    ]
+    said += [f"  {reason}" for reason in reasons[:SHOWN]] + [f"  and {len(reasons) - SHOWN} more"] * (
+        len(reasons) > SHOWN
+    )
+    return [f"{verdict['figure']}: {verdict['status']}", *said]
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
@@ -72,10 +73,10 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
             figure = verdict["figure"]
             sums.pop(figure, None)
             if verdict["module"]:
-                sums[figure] = _take(verdict, None if pictures_only else build, reference, Path(folder))
+                sums[figure] = _take(verdict, None if pictures_only else build, reference, folder)
             else:
-                for path in [reference / f"{figure}.png", *reference.glob(f"{figure}.*csv")]:
-                    path.unlink(missing_ok=True)
+                for path in reference.glob(f"{figure}.*"):
+                    path.unlink()
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
     text = f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n" + "\n".join(entries) + "\n" + earlier
@@ -103,13 +104,11 @@ def _entry(verdict, build):
     built = json.loads(sidecar.read_text(encoding="utf-8")) if sidecar.is_file() else {}
     commit = f" Built from {built['commit'][:10]} ({built['tree']} tree)." if built.get("commit") else ""
     first, *more = verdict["reasons"] or ["nothing that the check sees"]
-    return f"- **{verdict['figure']}**: {first}" + (f", and {len(more)} more" if more else "") + f".{commit}"
+    return f"- **{verdict['figure']}**: {first}{f', and {len(more)} more' * bool(more)}.{commit}"
 
 
 def main(arguments=None) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python -m vibroimpact_pipeline.figure_check.accept", description=__doc__.splitlines()[0]
-    )
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("figures", nargs="*", help="figures to accept; all that differ, if none is named")
     parser.add_argument("--reason", default="", help="why the reference changes; asked for, if not given")
     parser.add_argument("--pictures", action="store_true", help="keep the tables; take the pictures drawn of them now")

@@ -6,6 +6,7 @@ A figure has passed, failed, or is not comparable: its tables agree, but other v
 import json
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from itertools import repeat
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -55,85 +56,69 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     verdict = {"figure": figure, "module": None, "files": {}, "status": FAILED, "reasons": [], "tables": []}
     if spec is None:
         return verdict | {"reasons": ["not built: the config has no such figure"]}
+    reference, build, reasons = Path(reference), Path(build), verdict["reasons"]
     verdict["module"], verdict["files"] = spec["module"], kept(figure, spec)
-    built = {kind: Path(build) / f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
-    names = {name: file for name, (file, _) in verdict["files"].items()}
-    old_files = {name: Path(reference) / file for name, file in names.items()}
-    new_files = {name: Path(build) / path for name, (_, path) in verdict["files"].items()}
-    png = Path(reference) / f"{figure}.png"
-    for said, paths in (
-        ("no reference", [png, *old_files.values()]),
-        ("not built", [*built.values(), *new_files.values()]),
-    ):
+    png, built = reference / f"{figure}.png", {kind: f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
+    published = [png, *(reference / file for file, _ in verdict["files"].values())]
+    made = [build / path for path in [*built.values(), *(path for _, path in verdict["files"].values())]]
+    for said, paths in (("no reference", published), ("not built", made)):
         if missing := [path.name for path in paths if not path.is_file()]:
-            verdict["reasons"].append(f"{said}: {', '.join(missing)}")
-    if verdict["reasons"]:
+            reasons.append(f"{said}: {', '.join(missing)}")
+    if reasons:
         return verdict
-    old, new = (_tables(verdict, paths) for paths in (old_files, new_files))
-    for name in old.keys() & new.keys():
-        reasons, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
-        verdict["reasons"] += [f"{names[name]}: {reason}" for reason in reasons]
-        verdict["tables"] += [{"table": names[name], **one} for one in distances]
-    if old.keys() == new.keys() == names.keys():
-        comparable = _compare_pictures(verdict, spec["module"], png, built, old, new)
-        if not verdict["reasons"]:
-            verdict["status"] = PASSED if comparable else NOT_COMPARABLE
+    old, new = {}, {}
+    for name, (file, path) in verdict["files"].items():
+        with _told(reasons, f"{file}: unreadable"):
+            old[name], new[name] = read(reference / file), read(build / path)
+            said, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
+            reasons += [f"{file}: {reason}" for reason in said]
+            verdict["tables"] += [{"table": file, **one} for one in distances]
+    if len(new) == len(verdict["files"]):
+        paths = {kind: build / path for kind, path in built.items()}
+        comparable = _compare_pictures(reasons, figure, spec["module"], png, paths, old, new)
+        verdict["status"] = FAILED if reasons else PASSED if comparable else NOT_COMPARABLE
     return verdict
 
 
-def _tables(verdict, paths):
-    """Tables by name; of one that cannot be read, a reason."""
-    found = {}
-    for name, path in paths.items():
-        try:
-            found[name] = read(path)
-        except Exception as error:  # libraries raise errors of all kinds for a spoilt file
-            verdict["reasons"].append(f"{path.name}: unreadable: {_line(error)}")
-    return found
+@contextmanager
+def _told(reasons, what):
+    """Make any error a reason: libraries raise all kinds for a spoilt file."""
+    try:
+        yield
+    except Exception as error:
+        reasons.append(f"{what}: {' '.join(str(error).split()) or type(error).__name__}")
 
 
-def _compare_pictures(verdict, module, png, built, old, new):
+def _compare_pictures(reasons, figure, module, png, built, old, new):
     """Add reasons; return whether the picture of the reference was drawn by the versions in use.
 
     Where the tables are equal, the built picture is what today's `draw` makes of the reference's table.
     """
-    figure, reasons = verdict["figure"], verdict["reasons"]
     known = reference_sums(png.parent).get(figure, {})
     comparable = known.get("drawn with") == pictures.environment()
-    with TemporaryDirectory() as folder:
-        try:
-            found, picture = pictures.sums(built), pictures.pixels(built["png"].read_bytes())
-            if (picture == picture[0, 0]).all():
-                reasons.append("picture: blank")
-            if comparable and not all(old[name].equals(new[name]) for name in old):
-                drawn = pictures.draw(module, old, figure, folder)
-                found, picture = pictures.sums(drawn), pictures.pixels(drawn["png"].read_bytes())
-            before = pictures.pixels(png.read_bytes())
-        except Exception as error:
-            reasons.append(f"picture: cannot be read or drawn: {_line(error)}")
-            return comparable
-    if comparable:
-        if before.shape != picture.shape:
-            reasons.append(f"picture: {_size(picture)} instead of {_size(before)}")
-        elif changed := int((before != picture).any(axis=-1).sum()):
+    with TemporaryDirectory() as folder, _told(reasons, "picture: cannot be read or drawn"):
+        found, after = pictures.sums(built), pictures.pixels(built["png"].read_bytes())
+        if (after == after[0, 0]).all():
+            reasons.append("picture: blank")
+        if not comparable:
+            return False
+        if not all(old[name].equals(new[name]) for name in old):
+            drawn = pictures.draw(module, old, figure, folder)
+            found, after = pictures.sums(drawn), pictures.pixels(drawn["png"].read_bytes())
+        before = pictures.pixels(png.read_bytes())
+        if before.shape != after.shape:
+            reasons.append("picture: {1} x {0} pixels instead of {3} x {2}".format(*after.shape[:2], *before.shape))
+        elif changed := int((before != after).any(axis=-1).sum()):
             reasons.append(f"picture: `draw` makes {changed} other pixels of the reference's table")
         others = [kind for kind in ("pdf", "svg") if known.get(kind) != found[kind]]
         reasons += [f"{kind}: `draw` makes another one of the reference's table" for kind in others]
     return comparable
 
 
-def _line(error):
-    return " ".join(str(error).split()) or type(error).__name__
-
-
-def _size(picture):
-    return "{1} x {0} pixels".format(*picture.shape)
-
-
 def share(verdict: dict) -> float:
     """The largest distance of a figure's tables as a share of its limit."""
     return max(
-        (one["distance"] / one["limit"] for one in verdict["tables"] if one["distance"] and one["limit"]), default=0.0
+        (one["distance"] / one["limit"] for one in verdict["tables"] if one["distance"] and one["limit"]), default=0
     )
 
 
@@ -151,12 +136,9 @@ def command(figures) -> str:
 def lines(verdicts: list[dict]) -> list[str]:
     """One line per figure that did not pass, with its first reason, and a last line that sums up."""
     said = []
-    for verdict in ordered(verdicts):
-        first, *more = verdict["reasons"] or [OTHER_VERSIONS.format("pictures.json names them")]
-        if verdict["status"] != PASSED:
-            said.append(
-                f"{verdict['figure']}: {verdict['status']}: {first}" + (f" (and {len(more)} more)" if more else "")
-            )
+    for verdict in (verdict for verdict in ordered(verdicts) if verdict["status"] != PASSED):
+        first, *more = verdict["reasons"] or [OTHER_VERSIONS]
+        said.append(f"{verdict['figure']}: {verdict['status']}: {first}" + f" (and {len(more)} more)" * bool(more))
     counts = Counter(verdict["status"] for verdict in verdicts)
     far = max(map(share, verdicts), default=0.0)
     summary = f"{len(verdicts)} figures: " + ", ".join(f"{n} {status}" for status, n in counts.items())

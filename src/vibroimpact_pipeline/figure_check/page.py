@@ -4,9 +4,7 @@ from pathlib import Path
 
 from jinja2 import Environment
 
-from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.check import PASSED, command, lines, ordered, share
-from vibroimpact_pipeline.figure_check.tables import KINDS, UNITS
+from vibroimpact_pipeline.figure_check import check, pictures, tables
 from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
@@ -14,21 +12,10 @@ TEMPLATE = Path(__file__).with_name("page.html.j2")
 
 def page(verdicts: list[dict], reference, build) -> str:
     """The page for verdicts of the figure check; reference, build: folders, as of `check.check`."""
-    template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(
-        TEMPLATE.read_text(encoding="utf-8")
-    )
-    return guarded(
-        template.render(
-            verdicts=ordered(verdicts),
-            said=lines(verdicts),
-            command=command,
-            different=[verdict["figure"] for verdict in verdicts if verdict["status"] != PASSED],
-            share=share,
-            pictures={verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts},
-            kinds=KINDS,
-            units=UNITS,
-        )
-    )
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
+    shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
+    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, tables=tables))
 
 
 def _pictures(verdict, reference, build) -> dict[str, str]:
@@ -37,11 +24,11 @@ def _pictures(verdict, reference, build) -> dict[str, str]:
     for name, folder in (("reference", Path(reference)), ("new", Path(build) / "results/figures")):
         try:
             content = (folder / f"{figure}.png").read_bytes()
-            if verdict["status"] == PASSED:
+            if verdict["status"] == check.PASSED:
                 return {"same": pictures.address(content)}
             found[name] = pictures.pixels(content)
         except Exception:
             continue  # the verdict says so, whatever the library has raised
-    if len(found) == 2 and found["reference"].shape == found["new"].shape:
+    if len({picture.shape for picture in found.values()}) == 1 and len(found) == 2:
         found["difference"] = pictures.difference(**found)
     return {name: pictures.address(pictures.smaller(picture)) for name, picture in found.items()}

@@ -33,10 +33,9 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
         if one["kind"] is None:
             reasons.append(f"no limit is stated for column {one['column']}")
         elif not one["distance"] <= one["limit"]:
-            reasons.append(
-                f"{one['column']} is off by {one['distance']:.2g} {UNITS[one['measure']]}, limit {one['limit']:g} "
-                f"({one['where']}: {_shown(one['new'])} instead of {_shown(one['reference'])})"
-            )
+            before, after = (v if isinstance(v, str) else f"{v:.9g}" for v in (one["reference"], one["new"]))
+            far = f"{one['column']} is off by {one['distance']:.2g} {UNITS[one['measure']]}, limit {one['limit']:g}"
+            reasons.append(f"{far} ({one['where']}: {after} instead of {before})")
     return reasons, [{key: _plain(value) for key, value in one.items()} for one in found]
 
 
@@ -44,10 +43,6 @@ def _plain(value):
     """A value as JSON has it: no number that is not finite, none of NumPy's."""
     value = value.item() if hasattr(value, "item") else value
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _shown(value):
-    return value if isinstance(value, str) else f"{value:.9g}"
 
 
 def _structure(old, new, columns):
@@ -100,7 +95,7 @@ def _distances(old, new, columns):
         for column, kind in (kinds | unruled).items():
             scales = _scales(old, column)[part.index]
             for measure, limit in (KINDS[kind]["limits"] if kind else {"largest": None}).items():
-                far, row = MEASURES[measure](part[column], fresh[column], scales)
+                far, row = MEASURES[measure][0](part[column], fresh[column], scales)
                 if far > farthest.get((column, kind, measure), {"distance": -1})["distance"]:
                     place = {"where": ", ".join(series)} | {
                         name: float(values[column].median()) if row is None else values[column].iloc[row]
@@ -125,7 +120,7 @@ def _kinds(part, series, columns):
 
 
 def _is_sample(kinds):
-    """Whether a series with columns of these kinds is a sample, in which no row has its counterpart."""
+    """True if a series with columns of these kinds is a sample, in which no row has its counterpart."""
     return bool(kinds) and all("distribution" in KINDS[kind]["limits"] for kind in kinds.values())
 
 
@@ -177,23 +172,15 @@ def _standard_errors(old, new, scales):
 
 
 MEASURES = {
-    "largest": _largest,
-    "decades": _decades,
-    "middle of decades": _middle_of_decades,
-    "part of rows": _part_of_rows,
-    "distribution": _times_chance,
-    "size": _standard_score_of_sizes,
-    "mean": _standard_errors,
+    "largest": (_largest, "of its axis"),
+    "decades": (_decades, "decades"),
+    "middle of decades": (_middle_of_decades, "decades in the middle"),
+    "part of rows": (_part_of_rows, "of its rows"),
+    "distribution": (_times_chance, "times chance"),
+    "size": (_standard_score_of_sizes, "times chance in number"),
+    "mean": (_standard_errors, "standard errors"),
 }
-UNITS = {
-    "largest": "of its axis",
-    "decades": "decades",
-    "middle of decades": "decades in the middle",
-    "part of rows": "of its rows",
-    "distribution": "times chance",
-    "size": "times chance in number",
-    "mean": "standard errors",
-}
+UNITS = {measure: unit for measure, (_, unit) in MEASURES.items()}
 """What the distances of each measure count. The axis is the range of the reference's column in its panel; where that
 range is zero, and in tables without panels, the reference itself. What is not finite is infinitely far."""
 
@@ -219,12 +206,11 @@ def _scales(table, name):
 
 
 def _texts(table):
-    numbers = set(table.select_dtypes("number"))
-    return [name for name in table if name not in numbers]
+    return list(table.select_dtypes(exclude="number"))
 
 
 def _given(values):
-    return values.notna() if pd.api.types.is_numeric_dtype(values) else values.notna() & (values != "")
+    return values.notna() & (values != "")
 
 
 def _by_series(table):

@@ -2,9 +2,21 @@
 
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, Field
 
 from vibroimpact_pipeline.config.section import Section, condition
+
+
+def needs(fits, what: str) -> AfterValidator:
+    """Return the check of a value that `fits` accepts it, with what is said of another."""
+
+    def check(value):
+        if not fits(value):
+            raise condition(f"{'' if isinstance(value[0], Section) else value} {what}".lstrip())
+        return value
+
+    return AfterValidator(check)
+
 
 NAME, TITLE, LETTER = "^[a-z][a-z0-9_]{1,39}$", "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 WORDS = {
@@ -13,36 +25,22 @@ WORDS = {
     LETTER: "one small letter",
 }
 """What texts have to look like, in words."""
+ASCENDING = needs(lambda ends: ends[0] < ends[1], "is no range: its first end is not below its second")
+DIFFERENT = needs(lambda values: all(one not in values[:n] for n, one in enumerate(values)), "has a value twice")
+WITHIN_WALLS = needs(
+    lambda at: abs(at[0] - at[1]) <= 1 and abs(at[2] - at[3]) <= 1,
+    "starts a ball beyond a wall: X1 - Y1 and X2 - Y2 are between -1 and 1",
+)
 
 
-def _ascending(ends):
-    if not ends[0] < ends[1]:
-        raise condition(f"{ends} is no range: {ends[0]} is not below {ends[1]}")
-    return ends
-
-
-def _different(values):
-    for place, value in enumerate(values):
-        if value in values[:place]:
-            raise condition(f"{value} stands there twice")
-    return values
-
-
-def _within_walls(state):
-    for module, W in ((1, state[0] - state[1]), (2, state[2] - state[3])):
-        if abs(W) > 1:
-            raise condition(f"ball {module} starts beyond a wall: X{module} - Y{module} = {W} is not between -1 and 1")
-    return state
-
-
-def items(kind, least: int, most: int, about: str | None = None, check=_different):
+def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
     """Return the type of a list, of different values unless something else is checked."""
-    return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), AfterValidator(check)]
+    return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
 def span(kind, about: str = "Where it begins and ends"):
     """Return the type of a list of a lower and an upper end."""
-    return items(kind, 2, 2, about, _ascending)
+    return items(kind, 2, 2, about, ASCENDING)
 
 
 def around(low: float, high: float):
@@ -51,17 +49,9 @@ def around(low: float, high: float):
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping with free names, of which null takes an entry away."""
-
-    def counted(given):
-        number = sum(item is not None for item in given.values()) if isinstance(given, dict) else least
-        if not least <= number <= most:
-            raise condition(f"has {number} entries, more than {most}" if number else "is empty")
-        return given
-
-    taken_away = AfterValidator(lambda entries: {key: item for key, item in entries.items() if item is not None})
+    """Return the type of a mapping with free names; null, of which `reading` clears it, takes an entry away."""
     free = Annotated[str, Field(pattern=name)]
-    return Annotated[dict[free, kind | None], taken_away, BeforeValidator(counted)]
+    return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
 
 CaseName = Annotated[str, Field(description="Name of a case")]
@@ -71,16 +61,10 @@ Forces = span(Force, "Lower and upper end of the forces")
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
 Epsilon = Annotated[float, Field(ge=1e-6, le=10, description="Mass of a ball over that of its box")]
 Amplitude = Annotated[float, Field(gt=1, le=100)]
-Planes = items(Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), beyond the fold", list)
+Cycles = Annotated[int, Field(ge=1, le=1_000_000)]
+Planes = items(Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), beyond the fold", None)
 START = "Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls"
-State = items(Force, 8, 8, START, _within_walls)
-
-
-class Motion(Section):
-    """A motion from its start."""
-
-    case: CaseName
-    initial_state: State
+State = items(Force, 8, 8, START, WITHIN_WALLS)
 
 
 class ForceGrid(Section):
