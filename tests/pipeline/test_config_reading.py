@@ -18,7 +18,7 @@ BAD = {
     "an endless number": (f"a: {'9' * 5000}\n", ""),
     "a number beyond floats": (f"a: 1{':01' * 900}.5\n", ""),
     "a zero byte": ("a: 1\0\n", ""),
-    "deep nesting": (f"a: {'[' * 9000}\n", "nested deeper"),
+    "deep nesting": (f"a: {'[' * 9000}\n", "maximum recursion depth"),
     "a list": ("- 1\n", "[1] is not a mapping"),
     "nothing": ("", "nothing is not a mapping"),
     "too much": ("# \n" * 40_000, "has more than 100000 bytes"),
