@@ -48,22 +48,13 @@ def files(known: dict, data: dict) -> list[File]:
     """All kinds of files, those of figures first; known: the SPEC of each figure."""
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
-    listed = [{**table, "files": [table["file"]]} for table in tables] + data["files"]
-    return [
-        File(
-            paths=entry["files"],
-            about=entry["about"],
-            columns=columns(entry, shared) if "columns" in entry else {},
-            own=[name for name, own in each(entry.get("columns", {})).items() if _is_own(name, own, shared)],
-            keys=each(entry.get("keys", {})),
-            on_demand=entry.get("on_demand", {}),
-        )
-        for entry in listed
-    ]
-
-
-def _is_own(name, own, shared):
-    return name not in shared or bool(own.keys() - {"compared", "infinite"})
+    found = []
+    for entry in [{**table, "files": [table["file"]]} for table in tables] + data["files"]:
+        listed = each(entry.get("columns", {}))
+        own = [name for name, said in listed.items() if name not in shared or said.keys() - {"compared", "infinite"}]
+        known_columns, keys = columns({"columns": listed}, shared), each(entry.get("keys", {}))
+        found.append(File(entry["files"], entry["about"], known_columns, own, keys, entry.get("on_demand", {})))
+    return found
 
 
 def page(known: dict, data: dict) -> str:
@@ -81,7 +72,8 @@ def page(known: dict, data: dict) -> str:
 
 def _section(file):
     """Heading, where the file is and what it holds, the shared columns by name, all others and keys with meaning."""
-    places = [f"`{path}`" + _made_by(file, path) for path in file.paths]
+    on_demand = {path: f" (made by `{command}`)" for path, command in file.on_demand.items()}
+    places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.own]
     path = file.paths[0]
     place = f" {{#{Path(path).stem}}}" if path.endswith(".csv") and "{" not in path else ""
@@ -95,15 +87,9 @@ def _section(file):
         yield _table(["key", "meaning"], ((f"`{key}`", said) for key, said in file.keys.items()))
 
 
-def _made_by(file, path):
-    return f" (made by `{file.on_demand[path]}`)" if path in file.on_demand else ""
-
-
 def _columns(listed):
-    return _table(
-        ["column", "meaning", "unit"],
-        ((f"`{name}`", _meaning(entry), entry["unit"]) for name, entry in listed.items()),
-    )
+    rows = ((f"`{name}`", _meaning(entry), entry["unit"]) for name, entry in listed.items())
+    return _table(["column", "meaning", "unit"], rows)
 
 
 def _meaning(entry):

@@ -114,7 +114,7 @@ def _at(config, place):
         return case_parameters(config, name) if name in config["cases"] else None
     try:
         return at(config, place)
-    except LookupError:
+    except (LookupError, TypeError):
         return None
 
 

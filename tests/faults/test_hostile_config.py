@@ -2,11 +2,11 @@
 
 import pytest
 
+from configs import LAUGHS
 from pipeline_trees import ROOT, Tree, copied, run_module
 
 SNAKEMAKES = ("Using workflow specific profile", "Config file ")
 """What Snakemake says before it reads a config, by its beginnings."""
-LAUGHS = "a0: &a0 [ha, ha]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12))
 OVERRIDES = {
     "system={kappa: 1.2}": "system.kappa: 1.2 is not below 1",
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",

@@ -36,40 +36,11 @@ DATA = {"type": "application/json"}
 KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
 KINDS = ("iframe", "object", "embed", "base", "form", "marquee")
 """Elements that no page has of its own."""
-TEXTS = [
-    HOSTILE,
-    *(HOSTILE[start : start + 25] for start in range(0, len(HOSTILE), 9)),
-    *(
-        "<!--",
-        "&amp;",
-        "&#60;b>",
-        "a\n\n# b",
-        "- a",
-        "1. a",
-        "> a",
-        "```\n<b>\n```",
-        "~~~",
-        "[a]: b",
-        "<http://a.b>",
-        "a@b.c",
-    ),
-    *(
-        "\\<b>",
-        "\\\\(x\\\\)",
-        "$x$",
-        "$$x$$",
-        "^a^",
-        "~a~",
-        ":::",
-        "---",
-        "a  \nb",
-        "|",
-        "+-+",
-        "é — ²",
-        "@a [@b]",
-        "[^1]",
-    ),
-]
+MARKS = (
+    "<!-- ¦ &amp; ¦ &#60;b> ¦ a\n\n# b ¦ - a ¦ 1. a ¦ > a ¦ ```\n<b>\n``` ¦ ~~~ ¦ [a]: b ¦ <http://a.b> ¦ a@b.c ¦ "
+    "\\<b> ¦ \\\\(x\\\\) ¦ $x$ ¦ $$x$$ ¦ ^a^ ¦ ~a~ ¦ ::: ¦ --- ¦ a  \nb ¦ | ¦ +-+ ¦ é — ² ¦ @a [@b] ¦ [^1]"
+)
+TEXTS = [HOSTILE, *(HOSTILE[start : start + 25] for start in range(0, len(HOSTILE), 9)), *MARKS.split(" ¦ ")]
 
 
 @pytest.fixture(scope="module")

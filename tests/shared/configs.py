@@ -15,6 +15,7 @@ MINE = (
     "sweeps.mine = {case: equal, axes: [{along: [epsilon], range: [0.05, 0.1], values: 3}, {along: [f10_hat, f20_hat], "
     "listed: [0.5, 0.8]}], observe: [amplitudes, regimes], starts: 5, seed: 1, cycles: 40, settle: 30}"
 )
+LAUGHS = "a0: &a0 [ha, ha]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12))
 
 LINES = Path(__file__).with_name("malformed_configs.txt").read_text(encoding="utf-8").splitlines()
 TABLE = [line.split(" -> ") for line in LINES if not line.startswith("#")]

@@ -46,16 +46,11 @@ def read(path) -> dict:
         for place, problem in cleared(config)[1]:
             raise ValueError(f"{written(place)}: {problem}")
         return config
-    except OSError as error:
-        what = error.strerror
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        what = f"line {mark.line + 1}, column {mark.column + 1}: {error.problem}"
-    except RecursionError:
-        what = f"nested deeper than {DEEPEST} levels"
-    except (ValueError, ArithmeticError, LookupError, yaml.YAMLError) as error:
-        what = " ".join(str(error).split())
-    raise ConfigError(f"{path}: {shown(what, plain=True)}")
+    except (OSError, ValueError, ArithmeticError, LookupError, RecursionError, yaml.YAMLError) as error:
+        mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+        what = getattr(error, "strerror", None) or getattr(error, "problem", None) or str(error)
+    raise ConfigError(f"{path}: {place}{shown(' '.join(what.split()), plain=True)}")
 
 
 def checked(config: dict, sources=()) -> dict:

@@ -143,18 +143,11 @@ def move_outline(path):
 def dashes(path):
     """In the page's stream: dashed lines made solid."""
     content = path.read_bytes()
-    for found in re.finditer(rb"stream\n", content):
-        start = found.end()
-        stream = content[start : content.index(b"\nendstream", start)]
-        try:
-            page = zlib.decompress(stream)
-        except zlib.error:
-            continue
-        if b"] 0 d" in page:
-            other = zlib.compress(re.sub(rb"\[[\d. ]+\] ?[\d.]+ d", b"[] 0 d", page))
-            path.write_bytes(content.replace(stream, other))
-            return
-    raise AssertionError("no dashes")
+    for stream in re.findall(rb"stream\n(x.*?)\nendstream", content, re.DOTALL):
+        solid = re.sub(rb"\[[\d. ]+\] ?[\d.]+ d", b"[] 0 d", zlib.decompress(stream))
+        content = content.replace(stream, zlib.compress(solid))
+    assert content != path.read_bytes()
+    path.write_bytes(content)
 
 
 def dot(path):
@@ -172,13 +165,11 @@ def cut(path):
     [
         *(("png", spoil) for spoil in (jpeg, paint, cut)),
         *(("svg", spoil) for spoil in (label, move_outline, cut)),
-        *(("pdf", spoil) for spoil in (dashes, dot, cut, jpeg)),
+        *(("pdf", spoil) for spoil in (dashes, dot, cut)),
     ],
 )
 def test_a_built_file_that_shows_something_else_fails(tree, kind, spoil):
     path = tree.results / f"fig10_04.{kind}"
-    if (kind, spoil) == ("pdf", jpeg):
-        path.write_bytes((tree.results / "fig10_04.png").read_bytes())
     spoil(path)
     verdict = tree.verdict("fig10_04")
     assert verdict["status"] == "failed"
