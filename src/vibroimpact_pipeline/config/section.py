@@ -24,7 +24,7 @@ class Section(BaseModel):
     def conditions(self) -> Iterable[Problem]:
         """Yield what is wrong across fields, each of which is right by itself."""
         for key, rule in self.rules:
-            if not eval(rule, dict(self)):
+            if not eval(rule, dict(self)):  # a constant of this code, which the message quotes
                 given = getattr(self, key)
                 yield (key,), (f"{given} is given; " if isinstance(given, int | float) else "") + f"{rule} is needed"
 

@@ -96,6 +96,11 @@ def test_what_only_a_vector_file_would_show_is_noticed(tree, monkeypatch, kind):
     assert tree.verdict("fig10_04")["reasons"] == [f"{kind}: `draw` makes another one of the reference's table"]
 
 
+def test_one_pixel_of_the_published_picture_is_noticed(tree):
+    paint(tree.reference / "fig10_04.png")
+    assert tree.verdict("fig10_04")["reasons"] == ["picture: `draw` makes 1 other pixels of the reference's table"]
+
+
 def test_other_versions_are_not_comparable_and_the_numbers_decide(tree, monkeypatch):
     elsewhere = pictures.environment() | {"freetype": "9.9"}
     monkeypatch.setattr(pictures, "environment", lambda: elsewhere)
