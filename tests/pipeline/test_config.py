@@ -79,7 +79,7 @@ def test_a_complaint_names_the_file_to_mend(tmp_path):
     assert [line.rsplit(": ", 1)[0] for line in str(refusal.value).splitlines()] == [
         f"{whole}: cases.unequal.f20_hat",
         "--config: system.epsilon",
-        "--config: system.gamma1_hat",
+        f"{other}: system.gamma1_hat",
         f"{other}: system.kappa",
     ]
 

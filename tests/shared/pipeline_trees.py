@@ -46,25 +46,18 @@ class Tree:
     def snakemake(self, *arguments, check=True, prefix=(), **environment) -> str:
         """Output of one Snakemake call, started by the command `prefix`; a variable that is None is not set."""
         if prefix or environment:
-            run = subprocess.run(
-                [*prefix, *SNAKEMAKE, *arguments],
-                cwd=self.path,
-                env={name: value for name, value in {**os.environ, **environment}.items() if value is not None},
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                check=False,
-            )
-            self.returncode, output = run.returncode, run.stdout
+            run = self.start(*arguments, prefix=prefix, **environment)
+            output = run.communicate()[0]
+            self.returncode = run.returncode
         else:
             self.returncode, output = run_module(self.path, "snakemake", *CORES, *arguments)
         assert not check or self.returncode == 0, output
         return output
 
-    def start(self, *arguments, **environment) -> subprocess.Popen:
+    def start(self, *arguments, prefix=(), **environment) -> subprocess.Popen:
         """A Snakemake call in the background, in a process group of its own; a variable that is None is not set."""
         return subprocess.Popen(
-            [*SNAKEMAKE, *arguments],
+            [*prefix, *SNAKEMAKE, *arguments],
             cwd=self.path,
             env={name: value for name, value in {**os.environ, **environment}.items() if value is not None},
             stdout=subprocess.PIPE,

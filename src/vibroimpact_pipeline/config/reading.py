@@ -98,7 +98,10 @@ def cleared(config) -> tuple[dict, list]:
 
 
 def _source(place, sources):
-    """Return the name of the last source that has what is at a place, or is nearest to it where it is missing."""
+    """Return the name of the last source that has a place; where it is missing, of the last file that comes nearest.
+
+    What is in no file is the last source: a missing key is told of it only where no file comes as near.
+    """
 
     def depth(source):
         value = source[1]
@@ -109,4 +112,6 @@ def _source(place, sources):
                 return known
         return len(place)
 
-    return max(reversed(sources), key=depth, default=["--config"])[0]
+    having = [source for source in sources if depth(source) == len(place)]
+    files_first = [*reversed(sources[:-1]), *sources[-1:]]
+    return having[-1][0] if having else max(files_first, key=depth, default=["--config"])[0]

@@ -14,9 +14,9 @@ _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
 """Half-widths, relative to max(1, |zero|), of boxes in one of which Newton's method contracts about a simple zero."""
 _NEARLY_REAL = 1e-2
-"""Roots whose imaginary part is a larger share of their modulus are far from real ones: they come in pairs."""
+"""Largest imaginary part, relative to the modulus, of a root that may stand for real zeros."""
 _CLOSE = 0.03
-"""Starts where a polynomial is a larger share of the moduli of its terms are no starts: y is of the other root."""
+"""Largest value of a polynomial at a start, relative to the sum of the moduli of its terms."""
 _STEPS = 30
 _SAME = 1e-5
 """Distance, relative to max(1, |zero|), within which multiple zeros are taken for one."""
@@ -126,9 +126,10 @@ def _adjugate(matrix):
 
 
 def _contract(pair, size, points):
-    """Whether Newton's method contracts in a box about each point, by twice its second derivatives and rounding, (n,).
+    """Return True (n,) for each point about which Newton's method contracts in one of the boxes: a simple zero.
 
-    Kantorovich: the shift of the zero by rounding, and the change of the Newton step over the box, stay within it.
+    Kantorovich: the shift of the zero by rounding, and the change of the Newton step over the box by twice its second
+    derivatives, stay within it.
     """
     _, gradient, noise = _expanded(pair, size, points)
     x, y = map(_derivatives, points.T[..., None] ** np.arange(3))
