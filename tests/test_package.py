@@ -94,7 +94,7 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
         "vibroimpact.theory",
         "vibroimpact.exact",
         "vibroimpact.regimes",
-        "vibroimpact.rivals",
+        "vibroimpact.integrators",
         "vibroimpact.absorbers",
     )
     assert {name for name in lacking if name.startswith(science)} == {

@@ -6,8 +6,8 @@ import pytest
 from vibroimpact.accuracy import hazards as table
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.rivals import METHODS
-from vibroimpact.rivals.protocol import IMPACT, REFUSED, UNFINISHED, Failure, Method, RivalRun
+from vibroimpact.integrators import METHODS
+from vibroimpact.integrators.protocol import IMPACT, REFUSED, UNFINISHED, Failure, Method, MethodRun
 from vibroimpact.system import System
 
 SYSTEM = System(**table.CHAPTER)
@@ -63,13 +63,13 @@ SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
 @pytest.mark.parametrize(
     ("result", "verdict"),
     [
-        (RivalRun(np.zeros(8), NO_IMPACTS, 1), table.RIGHT),
-        (RivalRun(np.full(8, 0.02), NO_IMPACTS, 1), table.WRONG),
-        (RivalRun(np.full(8, np.nan), NO_IMPACTS, 1), table.WRONG),
-        (RivalRun(np.zeros(8), SPURIOUS, 1), table.WRONG),
-        (RivalRun(np.full(8, 0.02), NO_IMPACTS, 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
-        (RivalRun(None, NO_IMPACTS, 1, failure=Failure(REFUSED, "no")), table.ERROR),
-        (RivalRun(None, NO_IMPACTS, 1, failure=Failure(UNFINISHED, "long")), table.ENDLESS),
+        (MethodRun(np.zeros(8), NO_IMPACTS, 1), table.RIGHT),
+        (MethodRun(np.full(8, 0.02), NO_IMPACTS, 1), table.WRONG),
+        (MethodRun(np.full(8, np.nan), NO_IMPACTS, 1), table.WRONG),
+        (MethodRun(np.zeros(8), SPURIOUS, 1), table.WRONG),
+        (MethodRun(np.full(8, 0.02), NO_IMPACTS, 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
+        (MethodRun(None, NO_IMPACTS, 1, failure=Failure(REFUSED, "no")), table.ERROR),
+        (MethodRun(None, NO_IMPACTS, 1, failure=Failure(UNFINISHED, "long")), table.ENDLESS),
     ],
 )
 def test_verdicts(result, verdict):

@@ -8,9 +8,9 @@ from pipeline_trees import ROOT
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.hazards import CHAPTER, RESTING, SETTLED
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.rivals.contact_laws import Law
-from vibroimpact.rivals.ivanov import variants
-from vibroimpact.rivals.penalty import Penalty, PowerLaw
+from vibroimpact.integrators.contact_laws import Law
+from vibroimpact.integrators.ivanov import variants
+from vibroimpact.integrators.penalty import Penalty, PowerLaw
 from vibroimpact.system import System
 
 PAGE = (ROOT / "docs/methods.md").read_text(encoding="utf-8")

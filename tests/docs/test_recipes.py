@@ -105,7 +105,7 @@ def test_a_figure_can_be_added(project):
 def test_an_integrator_can_be_added(project):
     (printed,) = follow("howto_integrator", project)
     assert "." in printed.splitlines()[0]
-    listed = run("python -c 'from vibroimpact.rivals import METHODS; print([m.name for m in METHODS])'", project)
+    listed = run("python -c 'from vibroimpact.integrators import METHODS; print([m.name for m in METHODS])'", project)
     assert "symplectic Euler" in listed
 
 

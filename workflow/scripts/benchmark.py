@@ -27,7 +27,7 @@ def main(config: dict, output) -> None:
     from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
     from vibroimpact.accuracy.throughput import throughput
     from vibroimpact.accuracy.timing import versions
-    from vibroimpact.rivals import METHODS
+    from vibroimpact.integrators import METHODS
 
     settings = config["accuracy"]["benchmark"]
     problem = problem_of("benchmark", config, settings)

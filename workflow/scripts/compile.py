@@ -48,8 +48,8 @@ def certificate(system, start):
 
 
 def rivals(system, start):
-    from vibroimpact.rivals import METHODS
-    from vibroimpact.rivals.event_driven import Engine
+    from vibroimpact.integrators import METHODS
+    from vibroimpact.integrators.event_driven import Engine
 
     for method in METHODS:
         if not method.available() and not isinstance(method, Engine):

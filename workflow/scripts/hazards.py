@@ -5,7 +5,7 @@ import pandas as pd
 from vibroimpact.accuracy.hazards import hazards, judge
 from vibroimpact.figures import hazards as figure
 from vibroimpact.figures.kit.style import write_and_draw
-from vibroimpact.rivals import METHODS
+from vibroimpact.integrators import METHODS
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
 

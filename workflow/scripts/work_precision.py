@@ -7,7 +7,7 @@ from vibroimpact.accuracy.work_precision import Problem, measure
 from vibroimpact.figures import work_precision as figure
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
-from vibroimpact.rivals import METHODS
+from vibroimpact.integrators import METHODS
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running

@@ -56,7 +56,7 @@ def _after_one_cycle(system, state, digits):
 
 
 def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
-    """The rows of `measure` in a few numbers, by name; those of rivals that are not there are left out."""
+    """The rows of `measure` in a few numbers, by name; those of integrators that are not there are left out."""
     ours = _fastest(rows, OURS, np.inf)
     taylor = min(_of(rows, TAYLOR), key=lambda row: row["error_state"], default=None)
     explicit = _fastest(rows, EXPLICIT, EXPLICIT_ACCURACY)

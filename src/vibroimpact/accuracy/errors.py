@@ -25,7 +25,7 @@ class Errors:
 
 
 def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
-    """Errors of a RivalRun against a reference run (events and final as in exact.simulation) of the same motion.
+    """Errors of a MethodRun against a reference run (events and final as in exact.simulation) of the same motion.
 
     Args:
         period: of the forcing, in units of tau.

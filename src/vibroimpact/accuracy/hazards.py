@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from vibroimpact.accuracy.errors import FAINT, compare
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
 

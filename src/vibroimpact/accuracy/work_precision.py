@@ -7,7 +7,7 @@ import numpy as np
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.accuracy.timing import timed
-from vibroimpact.rivals.protocol import Method, RivalRun
+from vibroimpact.integrators.protocol import Method, MethodRun
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
@@ -72,7 +72,7 @@ def climb(problem: Problem, method: Method, ladder, reference, seconds: float) -
     return [{**row, "order": order} for row in rows]
 
 
-def _run(problem, method, setting) -> RivalRun:
+def _run(problem, method, setting) -> MethodRun:
     return method.run(problem.system, problem.state, problem.cycles, 0.0, setting)
 
 

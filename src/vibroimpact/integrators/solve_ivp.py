@@ -4,9 +4,9 @@ import numpy as np
 from scipy.integrate import Radau, solve_ivp
 from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
-from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.protocol import REFUSED, UNFINISHED, Method, RivalRun, failed
-from vibroimpact.rivals.right_hand_side import accelerations, jacobian, rates
+from vibroimpact.integrators.contact import Contacts
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import accelerations, jacobian, rates
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
@@ -75,7 +75,7 @@ class SolveIvp(Method):
             tau, s = float(flight.t[-1]), flight.y[:, -1].copy()
             if flight.status == 1:
                 contacts.resolve(tau, s, [k // 2 for k in range(4) if tau in flight.t_events[k]])
-        return RivalRun(s, contacts.impacts, steps, evaluations)
+        return MethodRun(s, contacts.impacts, steps, evaluations)
 
 
 def _events(i, wall):

@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.protocol import REFUSED, UNFINISHED, Method, RivalRun, failed
-from vibroimpact.rivals.right_hand_side import NAMES, coefficients
+from vibroimpact.integrators.contact import Contacts
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import NAMES, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.state import NAMES as STATE
 
@@ -51,7 +51,7 @@ class HeyokaTaylor(Method):
                 return failed(kind, f"{flight.failure} at tau = {flight.tau:.6g}", steps, noted=contacts.impacts)
             tau, s = flight.tau, flight.state
             if flight.module is None:
-                return RivalRun(s, contacts.impacts, steps)
+                return MethodRun(s, contacts.impacts, steps)
             contacts.resolve(tau, s, [flight.module])
 
 

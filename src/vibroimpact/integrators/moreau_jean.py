@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.protocol import UNFINISHED, Method, RivalRun, failed
-from vibroimpact.rivals.right_hand_side import coefficients
+from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
@@ -23,7 +23,7 @@ class MoreauJean(Method):
         if steps > limit:
             return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
         final, rows = _march(coefficients(system), np.array(state, dtype=float), tau0, step, steps)
-        return RivalRun(final, rows, steps)
+        return MethodRun(final, rows, steps)
 
 
 @kept()

@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.event_log import APPROACH, KIND, MODULE, TIME, WALL
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.rivals.protocol import REFUSED, Method, RivalRun, failed
+from vibroimpact.integrators.protocol import REFUSED, Method, MethodRun, failed
 from vibroimpact.system.state import IMPACT
 
 
@@ -20,7 +20,7 @@ class Engine(Method):
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
             return failed(REFUSED, str(error), 0)
-        return RivalRun(run.final, partial(_impacts, run), len(run.rows) + 1, doubt=partial(_doubt, run))
+        return MethodRun(run.final, partial(_impacts, run), len(run.rows) + 1, doubt=partial(_doubt, run))
 
 
 def _impacts(run):

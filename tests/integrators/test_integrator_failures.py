@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from vibroimpact.accuracy import hazards
-from vibroimpact.rivals import moreau_jean
-from vibroimpact.rivals.contact import Contacts
-from vibroimpact.rivals.leading_order import LeadingOrder, steady_state
-from vibroimpact.rivals.protocol import REFUSED, UNFINISHED
-from vibroimpact.rivals.right_hand_side import coefficients
+from vibroimpact.integrators import moreau_jean
+from vibroimpact.integrators.contact import Contacts
+from vibroimpact.integrators.leading_order import LeadingOrder, steady_state
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
+from vibroimpact.integrators.right_hand_side import coefficients
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 

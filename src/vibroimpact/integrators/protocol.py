@@ -22,7 +22,7 @@ class Failure:
 
 
 @dataclass(eq=False)
-class RivalRun:
+class MethodRun:
     """The result of a method.
 
     final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure; noted: the impacts in
@@ -48,7 +48,7 @@ class RivalRun:
 
 
 class Method(ABC):
-    """One integrator of (10.1). A new one is one file with a subclass, listed in `rivals.METHODS`.
+    """One integrator of (10.1). A new one is one file with a subclass, listed in `integrators.METHODS`.
 
     name, family: as printed; ladder: settings from coarse to fine, all of one kind (`knob` says which); careful: the
     one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
@@ -70,17 +70,17 @@ class Method(ABC):
         return None
 
     @abstractmethod
-    def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> RivalRun:
+    def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
         """Integrate from a state (8,) at tau0 over so many forcing periods in at most `limit` steps.
 
         setting: one of the ladder. limit: by default the method's. A run that cannot go on comes back with a failure.
         """
 
-    def scale(self, setting, run: RivalRun) -> float:
+    def scale(self, setting, run: MethodRun) -> float:
         """The small quantity in which the error is expected to fall: by default the mean step."""
         return 1.0 / run.steps
 
 
-def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> RivalRun:
+def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
     """A run without a result; the impacts found until then are kept."""
-    return RivalRun(None, noted, steps, evaluations, Failure(kind, reason))
+    return MethodRun(None, noted, steps, evaluations, Failure(kind, reason))

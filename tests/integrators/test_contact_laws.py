@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from vibroimpact.rivals.contact_laws import (
+from vibroimpact.integrators.contact_laws import (
     HERTZ,
     HUNT_CROSSLEY,
     SPRING,
@@ -15,7 +15,7 @@ from vibroimpact.rivals.contact_laws import (
     stiffness_of,
     stiffness_turning_at_the_wall,
 )
-from vibroimpact.rivals.penalty import force, law_numbers
+from vibroimpact.integrators.penalty import force, law_numbers
 
 MASS, DURATION = 0.1 / 1.1, 0.01
 LAWS = {"spring": SPRING, "Hertz": HERTZ, "Hunt-Crossley": HUNT_CROSSLEY, "power law": power_law(20)}

@@ -5,8 +5,8 @@ import pytest
 
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.rivals.ivanov import folded, unfolded
-from vibroimpact.rivals.protocol import UNFINISHED
+from vibroimpact.integrators.ivanov import folded, unfolded
+from vibroimpact.integrators.protocol import UNFINISHED
 from vibroimpact.system.restitution import after_impact
 
 EPSILON, KAPPA = 0.1, 0.65

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from vibroimpact.rivals.protocol import REFUSED, Method, RivalRun, failed
+from vibroimpact.integrators.protocol import REFUSED, Method, MethodRun, failed
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.response import impact_times, leading_order
@@ -25,7 +25,7 @@ class LeadingOrder(Method):
         starts = [np.abs(steady_state(system, point, tau0) - state).max() for point in points]
         point = points[int(np.argmin(starts))]
         end = tau0 + cycles * system.period
-        return RivalRun(steady_state(system, point, end), partial(_impacts, system, point, tau0, end), 1)
+        return MethodRun(steady_state(system, point, end), partial(_impacts, system, point, tau0, end), 1)
 
 
 def steady_state(system, point, tau) -> np.ndarray:

@@ -22,8 +22,8 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.protocol import UNFINISHED, Method, RivalRun, failed
-from vibroimpact.rivals.right_hand_side import accelerations, coefficients
+from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100  # time between two jumps, and how many in turn may be as short: chatter gets no further
@@ -53,7 +53,7 @@ class Ivanov(Method):
         z, boxes, rows, steps, stuck = march(coefficients(system), k, start, tau0, step, setting * cycles)
         if not math.isnan(stuck):
             return failed(UNFINISHED, f"impacts without end at tau = {stuck:.6g}", steps, 4 * steps, rows)
-        return RivalRun(folded(z, boxes, system.epsilon, k), rows, steps, 4 * steps)
+        return MethodRun(folded(z, boxes, system.epsilon, k), rows, steps, 4 * steps)
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:

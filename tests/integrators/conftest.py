@@ -6,7 +6,7 @@ import pytest
 
 from chapter import PARAMETERS
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.rivals import METHODS
+from vibroimpact.integrators import METHODS
 from vibroimpact.system import System
 
 EQUAL = System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)

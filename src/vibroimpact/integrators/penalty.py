@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import RK45
 
 from vibroimpact.exact.engine.code_cache import kept
-from vibroimpact.rivals.contact_laws import (
+from vibroimpact.integrators.contact_laws import (
     HERTZ,
     HUNT_CROSSLEY,
     SPRING,
@@ -21,8 +21,8 @@ from vibroimpact.rivals.contact_laws import (
     stiffness_of,
     stiffness_turning_at_the_wall,
 )
-from vibroimpact.rivals.protocol import UNFINISHED, Method, RivalRun, failed
-from vibroimpact.rivals.right_hand_side import accelerations, coefficients
+from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
@@ -51,7 +51,7 @@ class Penalty(Method):
         final, rows, steps, tau = _march(numbers, law_numbers(law, *wall), _STAGES, start, tau0, end, steps)
         if tau < end:
             return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, 6 * steps, rows)
-        return RivalRun(final, rows, steps, 6 * steps)
+        return MethodRun(final, rows, steps, 6 * steps)
 
     def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
         """The law; K, D at speed 1, and where |W| is in contact."""

@@ -1,4 +1,4 @@
-"""Contact logic shared by the event-driven rivals: what happens at a wall, given where a general integrator stopped.
+"""Contact logic shared by the event-driven integrators: the law at a wall, where a general integrator stopped.
 
 Without it they could not integrate the system at all: after chatter there is a ball at rest on a wall, which none of
 them knows. A ball whose rebound is slower than `slow` sticks if the box presses it against the wall; the infinitely
@@ -6,7 +6,7 @@ many impacts left out shift the state by less than their third power. Nothing he
 returns: a ball that it lets through the wall goes on beyond it.
 """
 
-from vibroimpact.rivals.right_hand_side import accelerations, coefficients
+from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.system.state import BALLS, BOXES
 
