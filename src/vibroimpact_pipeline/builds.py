@@ -3,6 +3,7 @@
 import base64
 import fcntl
 import importlib.util
+import os
 import secrets
 import shutil
 import sys
@@ -11,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import TextIO
 
-from vibroimpact_pipeline.jobs import TOKEN
+from vibroimpact_pipeline.jobs import BUILD, TOKEN
 from vibroimpact_pipeline.results import PARTIAL, distrusted, remove, replacing
 
 SHOWN = 4
@@ -52,8 +53,9 @@ def begin(results: Path, params_of: Callable[[dict], dict | None], makes: Callab
     """
     if not dry_run:
         lock()
+        os.environ[BUILD] = secrets.token_hex(8)
         with replacing(TOKEN) as partial:
-            partial.write_text(secrets.token_hex(8), encoding="ascii")
+            partial.write_text(os.environ[BUILD], encoding="ascii")
         for folder in results.rglob(f"{PARTIAL}*"):
             shutil.rmtree(folder, ignore_errors=True)
     # As long as Snakemake knows with which parameters a result was made, it makes it anew itself where it is asked for.

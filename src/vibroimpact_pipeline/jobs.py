@@ -22,6 +22,8 @@ from vibroimpact_pipeline.results import (
 
 TOKEN = Path(".cache/build")
 """Holds a random word for each build: the job of a build that was killed finds another one there."""
+BUILD = "VIBROIMPACT_BUILD"
+"""The environment variable that gives a job the word of its own build; Slurm passes it on."""
 PR_SET_PDEATHSIG = 1
 
 
@@ -42,8 +44,9 @@ def running(job) -> Iterator[SimpleNamespace]:
         if job.log:
             stack.enter_context(logging_to(job.log[0]))
         try:
-            parts, token = dict(job.params.get("code", {})), build_token()
+            parts = dict(job.params.get("code", {}))
             before = code.stamps(parts)
+            check_build()
             if any(code.fingerprint_now(part) != seen for part, seen in parts.items()):
                 raise Refused("the code has changed since the build began. Build again.")
             inputs = checked_digests(job.input)
@@ -54,8 +57,7 @@ def running(job) -> Iterator[SimpleNamespace]:
                 raise Refused("the code has changed while this job ran. Build again.")
             if checked_digests(job.input) != inputs:
                 raise Refused("an input has changed while this job ran. Build again.")
-            if build_token() != token:
-                raise Refused("another build has begun meanwhile; this job's outputs are left out.")
+            check_build()
             made = made_by(job, inputs)
             for name, path in outputs.items():
                 put_in_place(partial[name], path)
@@ -111,9 +113,10 @@ def logging_to(path) -> Iterator[None]:
             raise
 
 
-def build_token() -> str | None:
-    """The word of the build that goes on, None where none was begun here."""
-    return TOKEN.read_text(encoding="ascii") if TOKEN.is_file() else None
+def check_build() -> None:
+    """Raise Refused in a job of an earlier build than the one that has begun here last."""
+    if TOKEN.is_file() and TOKEN.read_text(encoding="ascii") != os.environ.get(BUILD):
+        raise Refused("another build has begun meanwhile; this job's outputs are left out.")
 
 
 def end_with_parent() -> None:

@@ -81,6 +81,17 @@ def test_a_job_does_not_start_with_other_code_or_inputs(job, change):
         pytest.fail("the job has started")
 
 
+def test_a_job_that_waited_in_a_queue_until_the_next_build_does_not_start(job, monkeypatch):
+    monkeypatch.setenv(jobs.BUILD, "the build before")
+    another_build()
+    with pytest.raises(SystemExit, match="another build has begun"), jobs.running(job):
+        pytest.fail("the job has started")
+    monkeypatch.setenv(jobs.BUILD, "another")
+    with jobs.running(job) as out:
+        Path(out.csv).write_text("2")
+    assert OUTPUT.exists()
+
+
 def test_an_output_that_was_not_written_fails_the_job(job):
     with pytest.raises(FileNotFoundError), jobs.running(job):
         pass
