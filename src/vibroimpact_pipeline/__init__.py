@@ -1,4 +1,4 @@
-"""What only the pipeline needs: config, records of results, provenance, figure check, report, archive."""
+"""The pipeline around the library: config, records of results, provenance, figure check, report, archive."""
 
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.environment import set_environment

@@ -1,4 +1,4 @@
-"""One file to cite and to run elsewhere: the committed sources, the results with their records, and an RO-Crate."""
+"""The archive of a build, to cite and to run elsewhere: committed sources, results with records, an RO-Crate."""
 
 import gzip
 import subprocess
@@ -50,7 +50,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
 
 
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
-    """The RO-Crate of a folder: who made it, of what, under which licence, and what each file is."""
+    """Return the RO-Crate of a folder: authors, licence, and a description of each file."""
     made = ROCrate()
     workflow = made.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
     authors = [
@@ -72,7 +72,7 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
 
 
 def _plain(member: tarfile.TarInfo, time: int) -> tarfile.TarInfo:
-    """The same bytes for the same files, whoever packs them and when."""
+    """Strip owner and time from an archive entry, so that the same files give the same bytes."""
     member.uid = member.gid = 0
     member.uname = member.gname = ""
     member.mtime, member.mode = time, 0o755 if member.isdir() or member.mode & 0o100 else 0o644

@@ -1,4 +1,4 @@
-"""The begin of a build: the libraries are there, no other build goes on, and every result that is there is whole."""
+"""Checks before a build: libraries installed, no other build running, every existing result intact."""
 
 import base64
 import fcntl
@@ -22,13 +22,13 @@ NEEDED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydan
 
 
 def missing_libraries() -> list[str]:
-    """Names of the modules that jobs need and that are not installed."""
+    """Return the names of required modules that are not installed."""
     return [name for name in NEEDED if importlib.util.find_spec(name) is None]
 
 
 @cache
 def lock() -> TextIO:
-    """Wait for another build of this directory to end; the system frees the lock with the process."""
+    """Lock this directory for one build, after waiting for any other; the lock ends with the process."""
     TOKEN.parent.mkdir(exist_ok=True)
     file = open(TOKEN.with_name("build.lock"), "a")  # noqa: SIM115
     try:
@@ -47,9 +47,9 @@ def known_to_snakemake(path: str) -> bool:
 
 
 def begin(results: Path, params_of: Callable[[dict], dict | None], makes: Callable[[str], bool], dry_run: bool) -> None:
-    """Remove what killed jobs have left and results that cannot be trusted (see `results.distrusted`), and say which.
+    """Remove leftovers of killed jobs and results that cannot be trusted (see `results.distrusted`), and print them.
 
-    Jobs of a build before this one, which was killed, can replace nothing from now on. A dry run removes nothing.
+    From here on, jobs of an earlier build that was killed can replace nothing. A dry run removes nothing.
     """
     if not dry_run:
         lock()

@@ -1,4 +1,4 @@
-"""What the figures, claims and pages of the chapter need of a config: its parameters and its cases."""
+"""The parameters and cases of the chapter, compared with those of a config."""
 
 import hashlib
 import json
@@ -17,7 +17,7 @@ CASE_OF = {
 
 
 def departures(config: dict) -> list[str]:
-    """Where a config departs from section 10.4, a line each; what it has beside the chapter's cases is no departure."""
+    """Return one line per difference between a config and section 10.4; additional cases are not differences."""
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:
@@ -32,7 +32,7 @@ def _differences(place, given, printed):
 
 
 def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
-    """Entries of the config that differ from those that the claims were written with, a line each.
+    """Return one line per config entry that differs from the one the claims were written for.
 
     Args:
         seen: the digest of each entry (see `digest`) by its dotted path.
@@ -50,5 +50,5 @@ def _digest_at(config, path):
 
 
 def digest(entry) -> str:
-    """Tells whether an entry of the config is the one that somebody has seen."""
+    """Return a short digest of a config entry."""
     return hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()[:12]

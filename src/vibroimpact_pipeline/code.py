@@ -1,4 +1,4 @@
-"""Fingerprints of the code, with the standard library alone: what a rule's `params` say and its job checks again.
+"""Fingerprints of the code, for the `params` of rules; jobs check them again. Standard library only.
 
 Coarse on purpose: any change of the library makes everything computed again, one of `figures/` every figure.
 """
@@ -23,12 +23,12 @@ PARTS = {
 
 @cache
 def fingerprint(part: str) -> str:
-    """The fingerprint of a part of the code, by its name in PARTS, as it was when this process first asked."""
+    """Return the fingerprint of a part of the code (a name in PARTS), as it was at the first call in this process."""
     return fingerprint_now(part)
 
 
 def fingerprint_now(part: str) -> str:
-    """Hash of the names and contents of all files of a part."""
+    """Return a hash of the names and contents of all files of a part."""
     digest = hashlib.sha256()
     for path in files(part):
         digest.update(f"{path.relative_to(ROOT)}\n".encode() + path.read_bytes())
@@ -36,7 +36,7 @@ def fingerprint_now(part: str) -> str:
 
 
 def files(part: str) -> list[Path]:
-    """All files of a part, sorted."""
+    """Return all files of a part, sorted."""
     return sorted(_files(ROOT / PARTS[part], ROOT / FIGURES if part == "library" else None))
 
 
@@ -50,6 +50,6 @@ def _files(folder: Path, left_out: Path | None) -> Iterator[Path]:
 
 
 def stamps(parts) -> dict[Path, tuple[int, int]]:
-    """Times of the last change of content and of state (ns) of every file; putting an old version back changes them."""
+    """Return mtime and ctime (ns) of every file of the parts; restoring an old version changes its ctime."""
     states = {path: path.stat() for part in parts for path in files(part)}
     return {path: (state.st_mtime_ns, state.st_ctime_ns) for path, state in states.items()}

@@ -1,4 +1,4 @@
-"""What every file of the results holds: the SPEC of the figures and report/data.yaml, read together."""
+"""The data dictionary: what each results file holds, from the figures' SPECs and report/data.yaml."""
 
 import re
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ FIGURES, DATA = "src/vibroimpact/figures", "report/data.yaml"
 
 @dataclass(frozen=True)
 class File:
-    """A kind of file among the results.
+    """One kind of results file.
 
     paths: where such files are; {case} and the like stand for a word. about: what they hold. columns: meaning, unit and
     maybe values of each column, by name; own: names of those whose meaning is not shared. keys: meaning by the path of
@@ -29,23 +29,23 @@ class File:
     on_demand: dict[str, str] = field(default_factory=dict)
 
     def has(self, path: str) -> bool:
-        """Whether a path, from the checkout, is one of these files."""
+        """Return True if a path relative to the checkout is one of these files."""
         return any(stands_for(pattern, path) for pattern in self.paths)
 
 
 def stands_for(pattern: str, path: str) -> bool:
-    """Whether a pattern with {words} matches a path."""
+    """Return True if a pattern with {words} matches a path."""
     return re.fullmatch(r"[\w-]+".join(map(re.escape, re.split(r"\{\w+\}", pattern))), path) is not None
 
 
 def read(root) -> tuple[dict, dict]:
-    """The SPEC of every figure, and report/data.yaml."""
+    """Read the SPEC of every figure and report/data.yaml."""
     root = Path(root)
     return specs(root / FIGURES), yaml.safe_load((root / DATA).read_text(encoding="utf-8"))
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """All kinds of files, those of figures first; known: the SPEC of each figure."""
+    """Return all kinds of files, those of figures first; `known` is the SPEC of each figure."""
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
     found = []
@@ -58,7 +58,7 @@ def files(known: dict, data: dict) -> list[File]:
 
 
 def page(known: dict, data: dict) -> str:
-    """The data dictionary as Markdown, without its heading."""
+    """Return the data dictionary as Markdown, without its heading."""
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),
@@ -71,7 +71,7 @@ def page(known: dict, data: dict) -> str:
 
 
 def _section(file):
-    """Heading, where the file is and what it holds, the shared columns by name, all others and keys with meaning."""
+    """Return one section: heading, path and content of the file, names of the shared columns, table of the others."""
     on_demand = {path: f" (made by `{command}`)" for path, command in file.on_demand.items()}
     places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.own]
@@ -93,13 +93,13 @@ def _columns(listed):
 
 
 def _meaning(entry):
-    """What a column means, with the values it may have where these words do not say them."""
+    """Return the meaning of a column, with its allowed values unless the meaning names them."""
     meaning, values = entry["meaning"], entry.get("values", [])
     return meaning if all(value in meaning for value in values) else f"{meaning}: {'; '.join(values)}"
 
 
 def _table(heads, rows):
-    """A pipe table, with one row for all names that mean the same."""
+    """Return a pipe table with one row for all names of the same meaning."""
     merged = ((", ".join(name for name, *_ in same), *rest) for rest, same in groupby(rows, lambda row: row[1:]))
     lines = [heads, ["---"] * len(heads), *merged]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)

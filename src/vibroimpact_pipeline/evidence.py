@@ -1,4 +1,4 @@
-"""What the chapter's claims are judged by, read from the results of a build."""
+"""The evidence for judging the chapter's claims, read from the results of a build."""
 
 import json
 from pathlib import Path
@@ -17,7 +17,7 @@ TABLES = (
 
 
 def evidence(config: dict, inputs: dict) -> Evidence:
-    """What the checks look at, of the chapter's cases alone; simulations are the inputs <case>_samples, and so on."""
+    """Return the evidence on the chapter's cases; `inputs` names the simulations <case>_samples, and so on."""
     simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
     proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
     return Evidence(
@@ -29,7 +29,7 @@ def evidence(config: dict, inputs: dict) -> Evidence:
 
 
 def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
-    """The rows of its cases, where rows have one."""
+    """Return the rows of the chapter's cases; a table without cases whole."""
     return table[table["case"].isin(CASES)].reset_index(drop=True) if "case" in table else table
 
 

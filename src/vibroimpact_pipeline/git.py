@@ -1,10 +1,10 @@
-"""What git says of the checkout."""
+"""Output of git commands in the checkout."""
 
 import subprocess
 
 
 def git(*arguments: str, root=".") -> str | None:
-    """The output of a git command in a directory, or None where git does not know what lies there.
+    """Return the output of a git command in a directory, or None if git does not track that directory.
 
     That is so without git, without a repository, and in a copy of the pipeline that lies inside another repository,
     whose commit and changes say nothing about it.

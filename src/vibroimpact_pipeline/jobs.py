@@ -1,4 +1,4 @@
-"""The frame of every job: its log, checks of its code and inputs before and after, outputs put in place at the end."""
+"""The frame of every job: its log, checks of code and inputs before and after, outputs moved into place at the end."""
 
 import ctypes
 import os
@@ -71,7 +71,7 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """What the library says of an argument with the key of the config that it comes from; None if from none.
+    """Return an error of the library with the config key of its argument; None if the argument is not from the config.
 
     Args:
         error: an error or its text, which begins with the name of an argument and a colon.
@@ -85,20 +85,20 @@ def with_key(error, decided: dict) -> str | None:
 
 
 def made_by(job, inputs: dict[str, str]) -> dict:
-    """What the records of a job's outputs say of it."""
+    """Return the entries on a job for the records of its outputs."""
     params = digest_of_data(dict(job.params.items()))
     return {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": params, "inputs": inputs}
 
 
 def _beside(path, stack) -> Path:
-    """A temporary path of the same name, in a folder beside it."""
+    """Return a temporary path of the same name in a new folder beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=PARTIAL, dir=path.parent)), path.name)
 
 
 @contextmanager
 def logging_to(path) -> Iterator[None]:
-    """Send everything that this process and its children print to a log file; of an error, a line to the terminal."""
+    """Redirect the output of this process and its children to a log file; print errors as one line to the terminal."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     terminal = os.dup(sys.stderr.fileno())
     with open(path, "w", encoding="utf-8") as log:
@@ -120,6 +120,6 @@ def check_build() -> None:
 
 
 def end_with_parent() -> None:
-    """Have the system end this process with the one that started it (Linux)."""
+    """Make the kernel end this process together with its parent (Linux)."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

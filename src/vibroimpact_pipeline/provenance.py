@@ -1,4 +1,4 @@
-"""Where a figure comes from: a record beside it and in its metadata, and whether the checkout would still make it so.
+"""Provenance of a figure: a record beside it and in its metadata, and a command that compares it with the checkout.
 
 python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
@@ -26,7 +26,7 @@ DUBLIN_CORE = "{http://purl.org/dc/elements/1.1/}description"
 
 
 def record(job) -> dict:
-    """What decides on a figure, the same in every build of one commit: it goes into the metadata of the pictures."""
+    """Return the record for the metadata of the pictures, the same in every build of one commit."""
     return {
         "figure": job.params.figure,
         "config": job.params.config,
@@ -38,7 +38,7 @@ def record(job) -> dict:
 
 
 def _name(path):
-    """The path of an input; of a file of the checkout, from there."""
+    """Return the path of an input, relative to the checkout if it lies there."""
     return str(Path(path).relative_to(code.ROOT)) if Path(path).is_relative_to(code.ROOT) else str(path)
 
 
@@ -51,7 +51,7 @@ def write(path, made: dict) -> None:
 
 
 def read(path) -> dict:
-    """The record of a figure's file: the one beside it, else the one in the metadata of a PNG, SVG or PDF file.
+    """Return the record of a figure: the file beside it, else the metadata of its PNG, SVG or PDF.
 
     Raises:
         ValueError: the file has none.
@@ -74,7 +74,7 @@ def _in_svg(path):
 
 
 def _in_pdf(path):
-    """Matplotlib writes the entry as plain text, with a backslash before brackets and backslashes."""
+    """Return /Subject, which Matplotlib writes as plain text with backslashes before brackets and backslashes."""
     found = re.search(rb"/Subject \(((?:[^\\()]|\\.)*)\)", path.read_bytes(), re.DOTALL)
     return found and re.sub(rb"\\(.)", rb"\1", found[1])
 
@@ -83,7 +83,7 @@ METADATA = {".png": _in_png, ".svg": _in_svg, ".pdf": _in_pdf}
 
 
 def differences(path, made: dict, config: dict) -> Iterator[str]:
-    """What has changed since the figure was made, a line each.
+    """Yield one line per change since the figure was made.
 
     Args:
         path: of the figure's file.
@@ -106,7 +106,7 @@ def differences(path, made: dict, config: dict) -> Iterator[str]:
 
 
 def _at(config, place):
-    """The entry of the config at "section.key"; of a case, what the systems of the library are made of."""
+    """Return the config entry at "section.key"; for a case, the parameters of its System."""
     section, _, name = place.partition(".")
     if place == "cases":
         return {case: case_parameters(config, case) for case in config["cases"]}
@@ -119,7 +119,7 @@ def _at(config, place):
 
 
 def main() -> int:
-    """Exit status: 0 the file matches, 1 it does not, 2 it has no record."""
+    """Return the exit status: 0 the file matches, 1 it does not, 2 it has no record."""
     from vibroimpact_pipeline.config import checked
     from vibroimpact_pipeline.config import read as read_config
 

@@ -1,4 +1,4 @@
-"""Results on disk: each is written whole or not at all, and has a record of what it is and how it was made.
+"""Results on disk: written whole or not at all, each with a record of its content and origin.
 
 The record of `results/a/b.csv` is `results/a/.made/b.csv.json`: the SHA-256 of the result, the rule, its wildcards,
 a digest of its parameters (a slice of the config and fingerprints of the code), and the SHA-256 of every input.
@@ -25,11 +25,11 @@ LEFT_ALONE = (RECORDS, "logs", "benchmarks")
 
 
 class NotAsMade(RuntimeError):
-    """A file is not what its job wrote, or nobody knows how it was made."""
+    """A file differs from what its job wrote, or has no record."""
 
 
 def digest_of(path) -> str:
-    """SHA-256 of a file; of a directory, that of the names and digests of all files below it."""
+    """Return the SHA-256 of a file, or for a directory that of the names and digests of all files below it."""
     path = Path(path)
     if path.is_dir():
         below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
@@ -39,12 +39,12 @@ def digest_of(path) -> str:
 
 
 def digest_of_data(data) -> str:
-    """SHA-256 of JSON data, such as the parameters of a job."""
+    """Return the SHA-256 of JSON data, such as the parameters of a job."""
     return hashlib.sha256(json.dumps(data, sort_keys=True, default=str).encode()).hexdigest()
 
 
 def to_disk(path) -> None:
-    """Wait until the disk holds a file, or the names in a directory; a rename without it is lost in a power cut."""
+    """Flush a file, or the names in a directory, to disk; a power cut loses a rename without it."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
@@ -54,7 +54,7 @@ def to_disk(path) -> None:
 
 @contextmanager
 def replacing(path) -> Iterator[Path]:
-    """Give a temporary path of the same name to write to; put it in place of `path` unless something was raised."""
+    """Yield a temporary path of the same name; move it to `path` at the end unless an exception is raised."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=PARTIAL, dir=path.parent) as folder:
@@ -63,7 +63,7 @@ def replacing(path) -> Iterator[Path]:
 
 
 def put_in_place(partial: Path, path: Path) -> None:
-    """Move a complete file or directory to its path, so that it survives a power cut."""
+    """Move a complete file or directory to its path and flush both to disk."""
     for each in [partial, *partial.rglob("*")] if partial.is_dir() else [partial]:
         to_disk(each)
     if path.is_dir() and not path.is_symlink():
@@ -73,19 +73,19 @@ def put_in_place(partial: Path, path: Path) -> None:
 
 
 def record_of(path) -> Path:
-    """The path of the record of a result."""
+    """Return the path of the record of a result."""
     path = Path(path)
     return path.parent / RECORDS / f"{path.name}.json"
 
 
 def write_record(path, made: Mapping) -> None:
-    """Record how a result was made, and what it is now."""
+    """Write the record of a result: its digest and how it was made."""
     with replacing(record_of(path)) as partial:
         partial.write_text(json.dumps({"sha256": digest_of(path), **made}, indent=1) + "\n", encoding="utf-8")
 
 
 def read_record(path) -> dict | None:
-    """The record of a result, None if there is none that can be read."""
+    """Return the record of a result, or None if there is none that can be read."""
     try:
         return json.loads(record_of(path).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -93,12 +93,12 @@ def read_record(path) -> dict | None:
 
 
 def is_result(path) -> bool:
-    """Return True for a path that jobs write to; files of the checkout are given otherwise."""
+    """Return True for a path that jobs write to, False for a file of the checkout."""
     return not Path(path).is_absolute() and RESULTS in Path(path).parts
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """The SHA-256 of every input of a job, results compared with their records.
+    """Return the SHA-256 of every input of a job, after comparing results with their records.
 
     Raises:
         NotAsMade: one has no record, or is not what its job wrote.
@@ -115,7 +115,7 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 def distrusted(
     results: Path, params_of: Callable[[str, dict], dict | None], makes: Callable[[str], bool]
 ) -> dict[str, str]:
-    """Results that must be made again, with the reason.
+    """Return the results that must be made again, with the reason.
 
     Args:
         results: the directory of the results.
@@ -136,7 +136,7 @@ def distrusted(
 
 
 def _made_from(distrusted, records, digests):
-    """Results that were made, maybe over others, from inputs that are distrusted, have changed or are gone."""
+    """Return results made, directly or through others, from inputs that are distrusted, changed or missing."""
     found = {}
 
     def is_input(name, digest):
@@ -158,12 +158,12 @@ def _made_from(distrusted, records, digests):
 
 
 def recorded_files(folder: Path) -> Iterator[Path]:
-    """All files below a folder that have a record; results that are directories are left out."""
+    """Return all files below a folder that have a record, without results that are directories."""
     return (path for path in sorted(_results(folder)) if path.is_file() and record_of(path).is_file())
 
 
 def _results(folder: Path) -> Iterator[Path]:
-    """Files, and directories that are a result of their own, below a folder."""
+    """Yield files, and directories that are results themselves, below a folder."""
     for path in folder.iterdir() if folder.is_dir() else ():
         if path.name in LEFT_ALONE or path.name.startswith(PARTIAL):
             continue

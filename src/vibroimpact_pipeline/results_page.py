@@ -1,4 +1,4 @@
-"""The page to open first after a build: what the exact system says of each figure, and links to all results."""
+"""The first page after a build: the exact system's verdict on each figure, and links to all results."""
 
 import json
 import re
@@ -17,7 +17,7 @@ TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*
 
 
 def page(results: Path, titles: dict[str, str]) -> str:
-    """The index of the results of a build as HTML that reads offline.
+    """Return the index of the results of a build as offline HTML.
 
     Args:
         results: the directory.

@@ -1,4 +1,4 @@
-"""The SPEC of every figure, read without importing any of them: by the standard library alone.
+"""The SPEC of every figure, read from the source without importing it. Standard library only.
 
 A SPEC is a literal with these entries.
 
@@ -32,7 +32,7 @@ LIKE |= {"physical_units": "machines"}
 
 @cache
 def specs(folder=FOLDER) -> dict[str, dict]:
-    """SPEC by figure, of all modules in a folder that have one; the plotted table is "csv" among its tables."""
+    """Return SPEC by figure for all modules in a folder that have one; the plotted table is "csv" among its tables."""
     found = {}
     for path in sorted(Path(folder).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
@@ -55,14 +55,14 @@ def specs(folder=FOLDER) -> dict[str, dict]:
 
 
 def drawn_by(figure: str, scene: dict, known: dict) -> str:
-    """The module that draws a figure of the config: its own, or that of its notebook's first figure."""
+    """Return the module that draws a figure of the config: its own, or that of its notebook's first figure."""
     if figure in known:
         return figure
     return "fig10_10" if "C_max" in scene and scene["notebook"] == "theoretical_response" else LIKE[scene["notebook"]]
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """The SPEC of a figure of the config; where that is the one of another, with its own files and words."""
+    """Return the SPEC of a figure of the config; if another figure's module draws it, with its own files and words."""
     module = drawn_by(figure, scene, known)
     if module == figure:
         return known[figure]
@@ -74,7 +74,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def request(figure: str, spec: dict, config: dict) -> dict:
-    """What a figure is made from: its case, settings and their paths in the config, inputs; with the notebook's share.
+    """Return case, settings with their config paths, and inputs of a figure, including those of its notebook.
 
     Raises:
         LookupError: the config lacks one of these, so that the figure is not made.
@@ -96,7 +96,7 @@ def request(figure: str, spec: dict, config: dict) -> dict:
 
 
 def made(config: dict, known: dict) -> dict[str, dict]:
-    """SPEC of every figure that a config makes, with "module", what draws it, and its "request"."""
+    """Return the SPEC of every figure that a config makes, with its "module" and its "request"."""
     scenes = config["figures"] | {name: {} for name, spec in known.items() if not {"notebook", "made_by"} & spec.keys()}
     found = {}
     for figure, scene in scenes.items():
@@ -110,7 +110,7 @@ def made(config: dict, known: dict) -> dict[str, dict]:
 
 
 def at(config: dict, path: str):
-    """The entry of a config at "section.key".
+    """Return the entry of a config at "section.key".
 
     Raises:
         LookupError: there is none.
@@ -121,15 +121,15 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """The parameters of System for one case: those shared by all cases and its excitation amplitudes."""
+    """Return the parameters of System for one case: those shared by all cases and its forcing amplitudes."""
     return config["system"] | {name: config["cases"][case][name] for name in ("f10_hat", "f20_hat")}
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Columns of a table one by one, with meaning and unit of names that mean the same in every table."""
+    """Return the columns of a table one by one, with the meaning and unit shared by all tables filled in."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 
 def each(listed: dict) -> dict:
-    """Entries by single name, of a list in which "C1, C2" stands for both."""
+    """Return entries by single name; the key "C1, C2" stands for both."""
     return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}

@@ -1,4 +1,4 @@
-"""Speed of every method on one motion, and of ensembles -> a table on the screen, and CSV with the versions below."""
+"""Measure the speed of every method on one motion, and of ensembles; print a table, and CSV with versions."""
 
 import argparse
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Where chaos and periodic motions coexist -> CSV: mean lifetimes, tori, and where these begin."""
+"""Coexistence of chaos and periodic motions -> CSV: mean lifetimes, tori, and their onsets."""
 
 from vibroimpact.figures.kit import tables
 from vibroimpact.regimes.coexistence import compute_lifetimes, compute_tori

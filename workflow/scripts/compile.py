@@ -1,4 +1,4 @@
-"""Compile the engine and its rivals into the cache of the checkout, so that the first build does not have to."""
+"""Compile the engine and the other integrators into the cache of the checkout, so that the first build need not."""
 
 import pkgutil
 from concurrent.futures import ProcessPoolExecutor
@@ -17,7 +17,7 @@ def beforehand():
 
 
 def engine():
-    """Not run: what comes after waits for this, and the certificate, beside it, compiles the tables of a system."""
+    """Compile the event loop without a run, since others wait for it; the certificate compiles the tables meanwhile."""
     import numpy as np
     from numba import typeof
 
@@ -29,14 +29,14 @@ def engine():
 
 
 def ensembles(system, start):
-    """After the engine, of which it takes what is compiled."""
+    """Compile ensembles; after the engine, whose code they use."""
     from vibroimpact.exact.engine.ensemble import ensemble
 
     ensemble(system, start, cycles=1)
 
 
 def certificate(system, start):
-    """With a made-up run without events: it does not wait for the engine."""
+    """Compile the certificate with a made-up run without events, so that it need not wait for the engine."""
     import numpy as np
 
     from vibroimpact.exact.engine.event_log import ENTRIES, ROW
@@ -57,7 +57,7 @@ def rivals(system, start):
 
 
 def imports(*_):
-    """All that jobs import, of which Python keeps compiled code as well, and Matplotlib its list of fonts."""
+    """Import all modules of jobs once: Python caches their bytecode, and Matplotlib its list of fonts."""
     import vibroimpact
 
     library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))

@@ -10,7 +10,7 @@ from vibroimpact_pipeline.jobs import running
 
 
 def arguments(params, inputs) -> dict:
-    """The arguments of a figure's `compute`: settings, the system of its case or those of all cases, tables."""
+    """Return the arguments of a figure's `compute`: settings, the system of its case or those of all cases, tables."""
     given = dict(params.settings)
     if params.get("system"):
         given["system"] = System(**params.system)

@@ -1,4 +1,4 @@
-"""All figures against the reference set -> a page, the verdicts, a summary; exit status 1 where a figure has failed."""
+"""All figures against the reference set -> page, verdicts, summary; exit status 1 if a figure fails."""
 
 import json
 import sys

@@ -13,7 +13,7 @@ from vibroimpact_pipeline.jobs import running
 
 
 def for_page(found: dict, values: list) -> dict:
-    """What the control shows: both branches of the manifold, the points at each value, and their exact orbits."""
+    """Return the data of the slider: both branches of the manifold, points at each value, and their exact orbits."""
     manifold = {
         series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in found["manifold"].groupby("series")
     }

@@ -20,7 +20,7 @@ PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
 
 
 def execute(notebook, executed, parameters: dict):
-    """The notebook after execution, with parameters that it has to declare, all of them and no others.
+    """Return the executed notebook; its declared parameters must be exactly the given ones.
 
     Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
     path of 107 characters at most.

@@ -1,4 +1,4 @@
-"""All exact 1:1 responses of one case, verdicts and proofs -> CSV, a row per orbit, and JSON: the effort spent."""
+"""All exact 1:1 responses of one case, verdicts and proofs -> CSV, a row per orbit, and JSON with the effort."""
 
 import json
 from pathlib import Path

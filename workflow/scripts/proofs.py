@@ -1,4 +1,4 @@
-"""How complete the lists of fixed points and orbits of all cases are, what is proved of the orbits -> JSON, by case.
+"""Completeness of the lists of fixed points and orbits, and proofs of the orbits -> JSON, by case.
 
 The lists of fixed points, also those with unequal flights, and of symmetric orbits are proved complete in interval
 arithmetic. That of asymmetric orbits is not: the number of Newton starts that led to the one that was met least says
@@ -25,7 +25,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, table, search) -> dict:
-    """What is proved of one case; of the asymmetric orbits, how they were sought."""
+    """Return the proofs on one case; for asymmetric orbits, the search effort."""
     proofs = {name: module.certify(system) for name, module in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

@@ -22,7 +22,7 @@ SETTINGS = "report/report.yaml"
 
 
 def collect(results, figure: str, folder: Path) -> None:
-    """Copy the files of a figure, and the notebook that made it, into the report."""
+    """Copy the files of a figure and its notebook into the report."""
     for path in results.files(figure).values():
         copy(path, folder / "figures")
     if notebook := results.notebook(figure):
@@ -37,7 +37,7 @@ def copy(path, folder: Path) -> None:
 
 
 def version(root) -> str:
-    """The commit of the checkout and its date, as far as git tells."""
+    """Return commit and date of the checkout, if git knows them."""
     described = git("describe", "--always", "--dirty=, with changes", root=root)
     if described is None:
         return "a copy without its history"
@@ -45,7 +45,7 @@ def version(root) -> str:
 
 
 def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
-    """The figures of the report in groups, in the order in which they are shown."""
+    """Return the figures of the report in groups, in the order of display."""
     chapter = [figure for figure in figures if figure.startswith("fig10_")]
     companions = [figure for figure in figures if figure.startswith("companion_")]
     return {

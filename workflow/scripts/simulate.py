@@ -13,7 +13,7 @@ from vibroimpact_pipeline.jobs import running
 
 
 def summarise(made: Window, settings: dict) -> dict:
-    """Numbers of the window: events by kind and module, and how near the motion returns after 1 to 4 cycles."""
+    """Return numbers of the window: events by kind and module, and recurrence errors after 1 to 4 cycles."""
     events, states = made.events, made.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}

@@ -1,4 +1,4 @@
-"""The config of the pipeline: config/config.yaml, read and checked before anything runs.
+"""The config of the pipeline, config/config.yaml: read and checked before anything runs.
 
 Limits and conditions stand beside the fields they are about. The rules get plain values.
 """

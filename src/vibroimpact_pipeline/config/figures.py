@@ -59,7 +59,7 @@ class FixedPoints(Section):
 
 
 class Response(Section):
-    """The theoretical response of a fixed point, as in figures 10.7 and, with the planes, 10.10."""
+    """The theoretical response at a fixed point, as in figure 10.7 and, with planes, figure 10.10."""
 
     notebook: Literal["theoretical_response"] = NOTEBOOK
     model: Literal["slow_flow"] = MODEL
@@ -70,7 +70,7 @@ class Response(Section):
 
 
 class SimulatedMotion(Section):
-    """The second module's motion as the direct integration of a case has it, as in figures 10.8 and 10.11."""
+    """The second module's motion by direct integration of a case, as in figures 10.8 and 10.11."""
 
     notebook: Literal["simulation"] = NOTEBOOK
     model: Literal["simulation"] = MODEL
@@ -112,7 +112,7 @@ class Band(Section):
 
 
 class Shown(Section):
-    """A motion from rest that is drawn over the time."""
+    """A motion from rest, drawn over time."""
 
     L: Clearance
     frequency: Hertz
@@ -120,7 +120,7 @@ class Shown(Section):
 
 
 class PhysicalUnits(Section):
-    """Machines in kilograms, newtons and metres: how far they swing over the frequency, without and with balls."""
+    """Machines in SI units: amplitude over frequency, without and with balls."""
 
     notebook: Literal["physical_units"] = NOTEBOOK
     plant: Plant
@@ -139,7 +139,7 @@ OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion | PhysicalUnits, 
 
 
 class Figures(Section):
-    """The figures to build: those of the chapter, each of which may be left out, and one's own under other names."""
+    """The figures to build: those of the chapter, each optional, and your own under other names."""
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[Annotated[str, Field(pattern=kinds.NAME)], OwnFigure | None]

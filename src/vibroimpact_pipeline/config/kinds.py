@@ -8,7 +8,7 @@ from vibroimpact_pipeline.config.section import Section, condition
 
 
 def needs(fits, what: str) -> AfterValidator:
-    """Return the check of a value that `fits` accepts it, with what is said of another."""
+    """Return a validator that accepts values for which `fits` is true, with a message for others."""
 
     def check(value):
         if not fits(value):
@@ -34,7 +34,7 @@ WITHIN_WALLS = needs(
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list, of different values unless something else is checked."""
+    """Return the type of a list, with distinct values unless another check is given."""
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
@@ -44,12 +44,12 @@ def span(kind, about: str = "Where it begins and ends"):
 
 
 def around(low: float, high: float):
-    """Return the type of a list of two ends, one at most `low`, one at least `high`."""
+    """Return the type of a list of two ends, the first at most `low`, the second at least `high`."""
     return tuple[Annotated[float, Field(ge=0, le=low)], Annotated[float, Field(ge=high, le=100)]]
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping with free names; null, of which `reading` clears it, takes an entry away."""
+    """Return the type of a mapping with free names; a null entry removes the default one (see `reading`)."""
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
@@ -76,7 +76,7 @@ class ForceGrid(Section):
 
 
 class Starts(Section):
-    """States that motions start from."""
+    """Initial states of motions."""
 
     starts: int = Field(ge=1, le=10_000, description="Starts, spread evenly; the first is rest")
     seed: int = Field(ge=0, le=2**32 - 1, description="Scrambles the starts")

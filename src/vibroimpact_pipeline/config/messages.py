@@ -1,4 +1,4 @@
-"""What is wrong with a config, in words that say what was given and what is allowed."""
+"""Error messages on a config: which key, what was given, what is allowed."""
 
 import re
 
@@ -26,7 +26,7 @@ KINDS = {"float": "a number", "int": "a whole number", "string": "text", "list":
 
 
 def problems_of(error: ValidationError) -> list[Problem]:
-    """Return everything that Pydantic found wrong, each with its place in the config."""
+    """Return all problems that Pydantic found, each with its place in the config."""
     found = {}
     for details in error.errors(include_url=False):
         place, about = details["loc"], details.get("ctx", {})
@@ -52,12 +52,12 @@ def _described(kind, value, about, message):
 
 
 def written(place) -> str:
-    """Return a place as it is written: system.kappa, regimes.branches.paths[0]."""
+    """Return a place in the config as text: system.kappa, regimes.branches.paths[0]."""
     names = (f"[{part}]" if isinstance(part, int) else f".{shown(part, plain=True)}" for part in place)
     return "".join(names).removeprefix(".")
 
 
 def shown(value, plain: bool = False) -> str:
-    """Return a value as an error message shows it: on one line, with its middle left out where it is long."""
+    """Return a value as text for an error message: one line, shortened in the middle if long."""
     text = "nothing" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
     return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

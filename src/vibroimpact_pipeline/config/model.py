@@ -44,7 +44,7 @@ class SystemSection(Section):
 
 
 class Parameters(SystemSection):
-    """All parameters of one system: what the cases share, and two forces."""
+    """All parameters of one system: those shared by the cases, and two forcing amplitudes."""
 
     f10_hat: kinds.Force
     f20_hat: kinds.Force
@@ -61,7 +61,7 @@ class Parameters(SystemSection):
 
 
 def _refuse_resonance(system):
-    """Refuse an undamped system whose periodic responses are not isolated, or not bounded."""
+    """Refuse an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
     # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
@@ -74,7 +74,7 @@ def _refuse_resonance(system):
 
 
 class Simulation(Section):
-    """The direct integration of a case: a transient that is left out, and a window with at most 200 000 samples."""
+    """The direct integration of a case: a discarded transient, and a window of at most 200 000 samples."""
 
     initial_state: kinds.State
     transient_cycles: int = Field(ge=0, le=1_000_000, description="Cycles before the window [forcing periods]")
@@ -90,7 +90,7 @@ class Simulation(Section):
 
 
 class Case(Section):
-    """A pair of forces, and the direct integration under them."""
+    """A pair of forcing amplitudes, and the direct integration with them."""
 
     f10_hat: kinds.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
     f20_hat: kinds.Force = Field(description="Excitation amplitude of box 2")
@@ -122,7 +122,7 @@ class VerdictGrid(kinds.ForceGrid):
 
 
 class Stability(Section):
-    """Axes of the companions of figures 10.4 and 10.5, and the grid that criteria are judged on."""
+    """Axes of the companions of figures 10.4 and 10.5, and the grid for judging the criteria."""
 
     companion_10_04: Companion1004
     companion_10_05: Companion1005
@@ -144,7 +144,7 @@ class Benchmark(Problem):
 
 
 class Accuracy(Section):
-    """The motions that methods are measured on, and how long a timing is repeated."""
+    """The motions for measuring methods, and the duration of each timing."""
 
     effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
     short_seconds: float = Field(ge=1e-3, le=1, description="Repeat a timing for so long, in the default build [s]")
@@ -161,7 +161,7 @@ class Animation(Section):
 
 
 class ForceSweep(Section):
-    """The control on the page of fixed points: f20_hat changes, the rest is as in the case."""
+    """The slider on the page of fixed points: f20_hat varies, all else is as in the case."""
 
     case: kinds.CaseName
     range: kinds.Forces
@@ -173,14 +173,14 @@ class ForceSweep(Section):
 
 
 class Report(Section):
-    """What moves in the report: animations, and the control that moves the fixed points."""
+    """The live parts of the report: animations, and the slider of the fixed points."""
 
     animations: kinds.named(Animation, 1, 10) = Field(description="Animations by free names")
     force_sweep: ForceSweep
 
 
 class Config(Section):
-    """Everything that decides on a build. All is dimensionless but plants; times are in forcing periods."""
+    """All settings of a build: dimensionless except machines, times in forcing periods."""
 
     system: SystemSection
     # At most twelve: companions have a panel for each.
@@ -211,7 +211,7 @@ class Config(Section):
                 yield ("report", "animations", name, "cycles"), what
 
     def _taken_names(self):
-        """Yield figures and animations whose names mean something else already."""
+        """Yield figures and animations whose names are taken already."""
         own = [("figures", name) for name in self.figures.model_extra]
         for *section, name in own + [("report", "animations", name) for name in self.report.animations]:
             twice = section[0] == "report" and ("figures", name) in own
@@ -220,7 +220,7 @@ class Config(Section):
                 yield (*section, name), what
 
     def _amiss(self, case, **changed):
-        """Return what keeps the parameters of a case, some of them changed, from being those of a system."""
+        """Return why the parameters of a case, some of them changed, are not valid for a System; None if they are."""
         forces = {name: getattr(self.cases[case], name) for name in ("f10_hat", "f20_hat")}
         try:
             Parameters.model_validate({**dict(self.system), **forces, **changed})
@@ -229,7 +229,7 @@ class Config(Section):
         return []
 
     def _unsound(self):
-        """Return what is wrong with the systems of the cases, or else with those that parameters are moved to."""
+        """Return problems of the systems of the cases, or else of those reached by moving parameters."""
         found, shared = {}, SystemSection.model_fields.keys()
         for case in self.cases:
             for name, what in self._amiss(case):
@@ -244,7 +244,7 @@ class Config(Section):
 
 
 def _not_drawn(name, sweep):
-    """Yield what a sweep lacks that companion figures draw it by: see "sweeps" in their SPEC."""
+    """Yield what a sweep lacks for the companion figures that draw it ("sweeps" in their SPEC)."""
     for figure, spec in specs().items():
         if drawn := spec.get("sweeps", {}).get(name):
             uneven = drawn.get("evenly") and not all(axis.range and axis.scale != "logarithmic" for axis in sweep.axes)

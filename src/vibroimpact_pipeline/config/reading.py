@@ -1,4 +1,4 @@
-"""A config read from files and checked: everything that is wrong with it, in one line each."""
+"""Reading and checking a config: all problems at once, one line each."""
 
 from itertools import count
 
@@ -14,11 +14,11 @@ MOST = 30
 
 
 class ConfigError(ValueError):
-    """The config cannot be built; a line for each problem, with the place to mend it."""
+    """The config is not valid; the message has a line for each problem, with the file and key."""
 
 
 class _Loader(yaml.SafeLoader):
-    """YAML with every key given once."""
+    """A YAML loader that refuses duplicate keys."""
 
     def construct_mapping(self, node, deep=False):
         seen = set()
@@ -54,7 +54,7 @@ def read(path) -> dict:
 
 
 def checked(config: dict, sources=()) -> dict:
-    """Return the plain values of a config as the model has them: numbers are numbers, defaults in, absent entries out.
+    """Return the validated values of a config: numbers as numbers, defaults filled in, removed entries left out.
 
     Args:
         config: all entries together.
@@ -77,7 +77,7 @@ def checked(config: dict, sources=()) -> dict:
 
 
 def cleared(config) -> tuple[dict, list]:
-    """Return a config without its entries of null, which take others away, and the problems of what no config holds.
+    """Return a config without entries of null, which remove others, and the problems of unsupported values.
 
     Inside a mapping given by `--config`, Snakemake hands null over as text.
     """
@@ -98,7 +98,7 @@ def cleared(config) -> tuple[dict, list]:
 
 
 def _source(place, sources):
-    """Return the name of the last source that has a place; where it is missing, of the last file that comes nearest.
+    """Return the last source that has a place in the config; if none has, the last file with the longest part of it.
 
     What is in no file is the last source: a missing key is told of it only where no file comes as near.
     """

@@ -1,4 +1,4 @@
-"""Section `regimes`: what the exact system does beside its 1:1 responses, and how finely it is asked."""
+"""Section `regimes`: regimes of the exact system other than 1:1 responses, and the resolution of their search."""
 
 from dataclasses import fields
 from typing import Annotated, ClassVar, Literal
@@ -24,20 +24,20 @@ DEAR = f"with `observation` takes more than {CYCLES:.0e} forcing cycles in a job
 
 
 def affordable(observation, starts: int, times: int = 1, more: int = 0) -> bool:
-    """Return True if a job can settle so many starts, so many times, and then see each for more cycles."""
+    """Return True if the cycles of all starts and values are within the limit of one job."""
     longest = observation.longest() + more
     return starts * observation.cycles <= HELD and times * starts * longest <= CYCLES
 
 
 class Exponent(Section):
-    """How long a Lyapunov exponent is measured."""
+    """Length of the measurement of a Lyapunov exponent."""
 
     blocks: int = Field(ge=2, le=10_000, description="Blocks of a Lyapunov exponent; their spread is its error")
     block: int = Field(ge=1, le=10_000, description="Cycles of a block [forcing periods]")
 
 
 class Observation(Exponent):
-    """How long a start is looked at."""
+    """Length of the observation of one start."""
 
     cycles: kinds.Cycles = Field(
         description="A start is simulated for so long before it is looked at [forcing periods]"
@@ -50,7 +50,7 @@ class Observation(Exponent):
     )
 
     def longest(self) -> int:
-        """Return most cycles that one start may take."""
+        """Return the largest number of cycles for one start."""
         exponent = self.blocks * self.block
         return self.cycles * self.rounds + self.window + 2 * (self.retest + self.window + exponent)
 
@@ -71,7 +71,7 @@ class BranchPath(Line):
 
 
 class Attractors(kinds.Starts):
-    """What starts end in along the paths of the branches."""
+    """Attractors found from random starts along the paths of the branches."""
 
     values: Values = Field(description="Values along each path")
 
@@ -93,7 +93,7 @@ class Branches(Section):
 
 
 class Lifetimes(Line, kinds.Starts):
-    """The mean life of the chaos."""
+    """Mean lifetime of the chaotic transient."""
 
     values: kinds.items(kinds.Number, 1, 1000, "What they are set to")
     step: WatchedCycles = Field(description="Starts are looked at every so many cycles [forcing periods]")
@@ -140,14 +140,14 @@ class Modulation(Exponent, kinds.Starts):
 
 
 class Basins(Section):
-    """In which response a start ends, on a plane of starts."""
+    """Basins of attraction on a plane of starts."""
 
     case: kinds.CaseName
     points: int = Field(ge=2, le=1000, description="Starts along each axis")
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold, to which no order is fitted."""
+    """A fixed point near the fold of the manifold, for which no order of convergence is fitted."""
 
     case: kinds.CaseName
     label: kinds.Label
@@ -174,14 +174,14 @@ class EpsilonLimit(EpsilonRange):
 
 
 class Ladder(kinds.ForceGrid):
-    """The levels between leading order and the exact orbit."""
+    """The model hierarchy between leading order and the exact orbit."""
 
     harmonics: kinds.items(Harmonic, 3, 20, "Highest harmonics of levels: odd, ascending", ODD)
     fold_range: kinds.Forces = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
 
 
 class Decay(Section):
-    """How long an impulse is felt."""
+    """Decay after an impulse."""
 
     case: kinds.CaseName
     impulses: kinds.span(Velocity, "First and last velocity that a box is given [L omega_10]")
@@ -190,7 +190,7 @@ class Decay(Section):
 
 
 class Regimes(Section):
-    """What the exact system does beside its 1:1 responses."""
+    """Regimes of the exact system other than 1:1 responses."""
 
     observation: Observation
     branches: Branches

@@ -1,4 +1,4 @@
-"""What sections of the config have in common: known keys, and conditions across fields."""
+"""Base class of the config's sections: known keys, and conditions across fields."""
 
 import difflib
 from collections.abc import Iterable, Iterator
@@ -14,7 +14,7 @@ Problem = tuple[Place, str]
 
 
 class Section(BaseModel):
-    """A mapping of the config. Numbers may be texts, as `--config` hands them over."""
+    """A mapping of the config. Numbers may be text, as `--config` passes them."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
@@ -22,20 +22,20 @@ class Section(BaseModel):
     """Conditions across fields, as expressions in these, each after the key that is told where it does not hold."""
 
     def conditions(self) -> Iterable[Problem]:
-        """Yield what is wrong across fields, each of which is right by itself."""
+        """Yield violated conditions between fields that are valid by themselves."""
         for key, rule in self.rules:
             if not eval(rule, dict(self)):  # a constant of this code, which the message quotes
                 given = getattr(self, key)
                 yield (key,), (f"{given} is given; " if isinstance(given, int | float) else "") + f"{rule} is needed"
 
     def moves(self) -> Iterable[dict[str, float]]:
-        """Yield what parameters of systems are changed to, by name."""
+        """Yield changed parameters of systems by name."""
         return ()
 
     @model_validator(mode="wrap")
     @classmethod
     def _meets_conditions(cls, given, validate):
-        """Unknown keys come first: a misspelt key is one problem, not a missing one besides."""
+        """Report unknown keys first: a misspelt key is one problem, not also a missing one."""
         known = cls.model_fields
         if isinstance(given, dict) and cls.model_config["extra"] == "forbid":
             _refuse([((key,), f"unknown key{hint(key, known)}") for key in given if key not in known])
@@ -50,19 +50,19 @@ def _refuse(problems):
 
 
 def condition(what: str) -> PydanticCustomError:
-    """Return the error that says what is wrong."""
+    """Return the validation error with this message."""
     return PydanticCustomError("condition", "{what}", {"what": what})
 
 
 def hint(name, known: Iterable[str]) -> str:
-    """Return a question whether the known name most like a given one was meant, if any is like it."""
+    """Return "did you mean ...?" with the most similar known name, or nothing if none is similar."""
     meant = difflib.get_close_matches(str(name), list(known), n=1)
     colon = "; a space belongs after a colon" if ":" in str(name) else ""
     return (f", did you mean {meant[0]!r}?" if meant else "") + colon
 
 
 def sections(value, place: Place = (), case: str | None = None) -> Iterator[tuple[Place, Section, str | None]]:
-    """Yield a section and all those below it, with their places and the case that they are about."""
+    """Yield a section and all sections below it, each with its place and its case."""
     if isinstance(value, Section):
         case = getattr(value, "case", case)
         yield place, value, case

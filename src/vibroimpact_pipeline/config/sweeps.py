@@ -1,4 +1,4 @@
-"""Section `sweeps`: questions of one's own, one or two parameters moved over a grid and what is observed there."""
+"""Section `sweeps`: your own parameter studies, one or two axes and the observations at each point."""
 
 import math
 from itertools import product
@@ -29,7 +29,7 @@ Tuples = kinds.items(Tuple, 2, 1000, "Or a value for each parameter, the first n
 
 
 class Axis(Section):
-    """Parameters that move together, evenly over a range, or through the values of a list."""
+    """Parameters that move together, evenly over a range or through a list."""
 
     along: Along
     range: kinds.span(kinds.Number) | None = None
@@ -66,7 +66,7 @@ class Axis(Section):
 
 
 class Sweep(Section):
-    """One or two axes, the case whose other parameters are kept, and what is observed at every point."""
+    """One or two axes, the case with the other parameters, and the observations at every point."""
 
     case: kinds.CaseName
     axes: kinds.items(Axis, 1, 2, "What moves over the grid")
@@ -81,7 +81,7 @@ class Sweep(Section):
     rules: ClassVar = [("settle", "cycles is None or settle is None or settle < cycles")]
 
     def moving(self) -> list[Axis]:
-        """Return all that moves."""
+        """Return the names of all moving parameters."""
         return self.axes + ([self.band] if self.band else [])
 
     def conditions(self):
@@ -96,12 +96,12 @@ class Sweep(Section):
         yield from super().conditions()
 
     def moves(self):
-        """Yield the corners of the grid; limits of parameters are intervals, so that these speak for all points."""
+        """Yield the corners of the grid; limits of parameters are intervals, so corners are enough."""
         for corner in product(*(axis.ends() for axis in self.moving())):
             yield {name: value for end in corner for name, value in end.items()}
 
     def costs(self, observation):
-        """Yield what takes too long, or too much memory at one point."""
+        """Yield problems of points that take too long or too much memory."""
         asked = {**self.model_dump(exclude_none=True), "observation": dict(observation)}
         if (hours := core_seconds({"axes": asked["axes"], "asked": asked}) / 3600) > self.limit_hours:
             yield ("limit_hours",), f"it would take about {hours:.3g} core hours, above {self.limit_hours:g}"

@@ -1,1 +1,1 @@
-"""The figures against their reference set: are their numbers the same, and do they draw the same pictures?"""
+"""The figure check: compare tables and pictures with the reference set."""

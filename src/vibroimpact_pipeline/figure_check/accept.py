@@ -1,4 +1,4 @@
-"""Accept the new figures as the reference set: show what changes, ask for a reason, record both.
+"""Accept new figures as the reference set: show the changes, ask for a reason, record both.
 
 Nothing else writes into the reference set.
 """
@@ -23,7 +23,7 @@ SHOWN = 8
 
 
 def changed(verdicts: list[dict], figures=()) -> list[dict]:
-    """Verdicts on the named figures, or on all that did not pass.
+    """Return the verdicts on the named figures, or on all that did not pass.
 
     Raises:
         ValueError: a name that no verdict has.
@@ -35,7 +35,7 @@ def changed(verdicts: list[dict], figures=()) -> list[dict]:
 
 
 def summary(verdict: dict) -> list[str]:
-    """What changes in one figure: numbers before and after, their distance, and what else is found."""
+    """Return lines on the changes in one figure: numbers before and after, distances, other reasons."""
     reasons = verdict["reasons"]
     said = [
         f"  {one['table']}, {one['column']}: before {one['reference']}, after {one['new']}, "
@@ -50,7 +50,7 @@ def summary(verdict: dict) -> list[str]:
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
-    """Take the tables of figures into the reference set with the pictures drawn of them, and write down why.
+    """Copy the tables of figures into the reference set, draw their pictures, and record the reason.
 
     A figure that is no longer built leaves the set.
 
@@ -86,7 +86,7 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
 
 
 def _take(verdict, build, reference, folder):
-    """Put the files of a figure into the reference set, tables only where there is a build; returns its sums."""
+    """Put the files of a figure into the reference set (tables only if a build is given); return its sums."""
     figure, files = verdict["figure"], verdict["files"]
     for kept, path in files.values() if build else ():
         with replacing(reference / kept) as partial:
@@ -99,7 +99,7 @@ def _take(verdict, build, reference, folder):
 
 
 def _entry(verdict, build):
-    """A line on what changes in a figure and what built it."""
+    """Return a line on the change in a figure and the commit that built it."""
     sidecar = build / f"results/figures/{verdict['figure']}.provenance.json"
     built = json.loads(sidecar.read_text(encoding="utf-8")) if sidecar.is_file() else {}
     commit = f" Built from {built['commit'][:10]} ({built['tree']} tree)." if built.get("commit") else ""

@@ -1,4 +1,4 @@
-"""Verdicts on figures: are the tables those of the reference, and does `draw` make of these the picture it made then?
+"""Verdicts on figures: new tables against reference tables, and `draw(reference table)` against the reference picture.
 
 A figure has passed, failed, or is not comparable: its tables agree, but other versions drew the reference's picture.
 """
@@ -23,7 +23,7 @@ SUMS = "pictures.json"
 
 
 def kept(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
-    """Of each table of a figure that is compared, by name: its name in the reference set, and its path in a build."""
+    """Return file name in the reference set and path in a build by name of each compared table of a figure."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
         for name, table in spec["tables"].items()
@@ -37,14 +37,14 @@ def reference_sums(reference) -> dict[str, dict]:
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Verdicts on the figures that a config makes (`specs.made`) and on all others that have a reference, by name."""
+    """Return verdicts on all figures that a config makes (`specs.made`) or that have a reference, by name."""
     asked = sorted(({path.stem: None for path in Path(reference).glob("*.png")} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
         return list(pool.map(check, *zip(*asked, strict=True), repeat(reference), repeat(build)))
 
 
 def check(figure: str, spec: dict | None, reference, build) -> dict:
-    """Verdict on one figure, as JSON data. Whatever a file holds, it is a verdict on this figure alone.
+    """Return the verdict on one figure as JSON data; a damaged file fails this figure alone.
 
     Args:
         spec: its SPEC, and as "module" what draws it; None for one that is no longer made.
@@ -82,7 +82,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
 
 @contextmanager
 def _told(reasons, what):
-    """Make any error a reason: libraries raise all kinds for a spoilt file."""
+    """Turn any error into a reason: libraries raise many types for a damaged file."""
     try:
         yield
     except Exception as error:
@@ -90,7 +90,7 @@ def _told(reasons, what):
 
 
 def _compare_pictures(reasons, figure, module, png, built, old, new):
-    """Add reasons; return whether the picture of the reference was drawn by the versions in use.
+    """Append reasons; return True if the versions in use drew the picture of the reference.
 
     Where the tables are equal, the built picture is what today's `draw` makes of the reference's table.
     """
@@ -116,25 +116,25 @@ def _compare_pictures(reasons, figure, module, png, built, old, new):
 
 
 def share(verdict: dict) -> float:
-    """The largest distance of a figure's tables as a share of its limit."""
+    """Return the largest distance of a figure's tables as a share of its limit."""
     return max(
         (one["distance"] / one["limit"] for one in verdict["tables"] if one["distance"] and one["limit"]), default=0
     )
 
 
 def ordered(verdicts: list[dict]) -> list[dict]:
-    """What needs to be looked at first: failures, then by distance, then by name."""
+    """Sort verdicts: failures first, then by distance, then by name."""
     order = [FAILED, NOT_COMPARABLE, PASSED]
     return sorted(verdicts, key=lambda one: (order.index(one["status"]), -share(one), one["figure"]))
 
 
 def command(figures) -> str:
-    """What accepts figures as they are now."""
+    """Return the command that accepts figures as they are now."""
     return f'make accept REASON="why" FIGURES="{" ".join(figures)}"'
 
 
 def lines(verdicts: list[dict]) -> list[str]:
-    """One line per figure that did not pass, with its first reason, and a last line that sums up."""
+    """Return one line per figure that did not pass, with its first reason, and a summary line."""
     said = []
     for verdict in (verdict for verdict in ordered(verdicts) if verdict["status"] != PASSED):
         first, *more = verdict["reasons"] or [OTHER_VERSIONS]
@@ -146,6 +146,6 @@ def lines(verdicts: list[dict]) -> list[str]:
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:
-    """Whether a figure failed or, if strict, could not be compared, or there was nothing to check."""
+    """Return True if a figure failed, if there was nothing to check or, if strict, if one could not be compared."""
     failures = (FAILED, NOT_COMPARABLE) if strict else (FAILED,)
     return not verdicts or any(verdict["status"] in failures for verdict in verdicts)

@@ -1,4 +1,4 @@
-"""The figure check as one HTML page that reads offline: reference, new, difference and numbers of every figure."""
+"""The figure check as one offline HTML page: reference, new picture, difference and numbers of every figure."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ TEMPLATE = Path(__file__).with_name("page.html.j2")
 
 
 def page(verdicts: list[dict], reference, build) -> str:
-    """The page for verdicts of the figure check; reference, build: folders, as of `check.check`."""
+    """Return the page for verdicts of the figure check; `reference` and `build` are folders, as in `check.check`."""
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
@@ -19,7 +19,7 @@ def page(verdicts: list[dict], reference, build) -> str:
 
 
 def _pictures(verdict, reference, build) -> dict[str, str]:
-    """The pictures there are of a figure, by what they show: one if it has passed, which leaves no difference."""
+    """Return the pictures of a figure by caption: one if it has passed, since nothing differs."""
     figure, found = verdict["figure"], {}
     for name, folder in (("reference", Path(reference)), ("new", Path(build) / "results/figures")):
         try:

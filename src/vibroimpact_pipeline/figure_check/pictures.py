@@ -1,4 +1,4 @@
-"""What a figure's `draw` makes of its tables, and what tells it from other pictures: pixels, and sums of vectors."""
+"""Pictures drawn from tables, and their comparison: pixels of PNG, sums of SVG and PDF."""
 
 import base64
 import hashlib
@@ -25,19 +25,19 @@ SHRINK, SPREAD = 2, 3
 
 
 def environment() -> dict[str, str]:
-    """Versions that decide on a picture."""
+    """Return the versions of all libraries that determine a picture."""
     return {**drawn_with(), "numpy": version("numpy"), "pillow": version("pillow")}
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Files of the picture that the module of a figure draws of its tables, by kind."""
+    """Draw a figure from its tables with its module; return the files by kind."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.drawn(import_module(f"vibroimpact.figures.{module}"), tables), files)
     return files
 
 
 def pixels(content: bytes) -> np.ndarray:
-    """Colours and opacity of a PNG file, (height, width, 4).
+    """Return the RGBA values of a PNG file, (height, width, 4).
 
     Raises:
         OSError: it is none.
@@ -47,7 +47,7 @@ def pixels(content: bytes) -> np.ndarray:
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """SHA-256 of what each file shows, metadata and compression apart."""
+    """Return the SHA-256 of each file without metadata and compression."""
     return {kind: hashlib.sha256(SHOWN[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 
@@ -57,14 +57,14 @@ def _png(content):
 
 
 def _svg(content):
-    """Pictures within it are told by their pixels."""
+    """Return the text of an SVG without metadata; embedded pictures count by their pixels."""
     content = re.sub(rb"<metadata>.*?</metadata>", b"", content, flags=re.DOTALL)
     embedded = re.compile(rb"data:image/png;base64,\s*([^\"]+)")
     return _rounded(embedded.sub(lambda found: _png(base64.b64decode(found[1])).hex().encode(), content))
 
 
 def _pdf(content):
-    """Objects with their streams unpacked; without information on the document, lengths, and the table of places."""
+    """Return the unpacked objects of a PDF, without document information, lengths and cross-reference table."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
     shown = [body for number, body in objects.items() if number != info and not body.strip().isdigit()]
@@ -86,7 +86,7 @@ SHOWN = {"png": _png, "pdf": _pdf, "svg": _svg}
 
 
 def small(picture: np.ndarray) -> bytes:
-    """A PNG file of a picture (height, width, 4) without loss, in few bytes: opaque or grey where it can be."""
+    """Return a picture (height, width, 4) as a small lossless PNG file: without alpha, or grey, where possible."""
     opaque, grey = (picture[..., 3] == 255).all(), (picture[..., :3] == picture[..., :1]).all()
     content = io.BytesIO()
     Image.fromarray(picture).convert("RGBA" if not opaque else "L" if grey else "RGB").save(
@@ -96,19 +96,19 @@ def small(picture: np.ndarray) -> bytes:
 
 
 def smaller(picture: np.ndarray) -> bytes:
-    """A PNG file of a picture (height, width, channels) for a page, in squares of pixels."""
+    """Return a picture (height, width, channels) as a PNG file of reduced size for a page."""
     content = io.BytesIO()
     Image.fromarray(picture).reduce(SHRINK).save(content, "PNG")
     return content.getvalue()
 
 
 def address(png: bytes) -> str:
-    """The content of a PNG file as a data: address, for a page."""
+    """Return the content of a PNG file as a data: URL."""
     return "data:image/png;base64," + base64.b64encode(png).decode()
 
 
 def difference(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
-    """Both pictures in pale grey, pixels that differ in colour: orange where ink is gone, blue where it came."""
+    """Return both pictures overlaid in pale grey, with removed ink in orange and added ink in blue."""
     before, after = (picture[..., :3].min(axis=-1).astype(int) for picture in (reference, new))
     paint = np.stack([255 - (255 - np.minimum(before, after)) // 5] * 3, axis=-1).astype(np.uint8)
     for ink, colour in ((after - before, (200, 80, 0)), (before - after, (0, 90, 200))):

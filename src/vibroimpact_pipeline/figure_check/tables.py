@@ -1,4 +1,4 @@
-"""How far a table of plotted numbers is from its reference, series by series and column by column."""
+"""Distances of tables of plotted numbers from their references, by series and column."""
 
 import math
 from collections import Counter
@@ -19,7 +19,7 @@ KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(enc
 
 
 def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
-    """Reasons why a table fails, one line each, and the distance of each column from its reference.
+    """Return the reasons why a table fails, one line each, and the distance of each column from its reference.
 
     Args:
         columns: entries of a SPEC. A column of text that is not compared names its row, and must be the same.
@@ -40,13 +40,13 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
 
 
 def _plain(value):
-    """A value as JSON has it: no number that is not finite, none of NumPy's."""
+    """Return a value that JSON can hold: no NumPy scalar, None for a number that is not finite."""
     value = value.item() if hasattr(value, "item") else value
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _structure(old, new, columns):
-    """What keeps two tables from being compared: other columns, other rows, other blanks."""
+    """Return reasons why two tables cannot be compared: different columns, rows or blanks."""
     if list(old) != list(new):
         return [f"columns {', '.join(new)} instead of {', '.join(old)}"]
     found, texts = [], _texts(old)
@@ -72,7 +72,7 @@ def _rows_that_differ(old, new, texts):
 
 
 def _lacks(table, columns):
-    """What a table must have to say anything, also where its reference lacks the same."""
+    """Return what a table lacks: rows, declared columns, values, finite numbers; its reference may lack the same."""
     compared = {name: entry["compared"] for name, entry in columns.items() if "compared" in entry and name in table}
     if table.empty or not compared:
         return ["no rows" if table.empty else "none of the columns that its SPEC declares"]
@@ -86,7 +86,7 @@ def _lacks(table, columns):
 
 
 def _distances(old, new, columns):
-    """Of each column, kind and measure the entry that is farthest off, of all series."""
+    """Return by column, kind and measure the entry with the largest distance over all series."""
     new_parts, farthest = _by_series(new), {}
     numbers, texts = old.select_dtypes("number").columns, _texts(old)
     for series, part in _by_series(old).items():
@@ -109,7 +109,7 @@ def _distances(old, new, columns):
 
 
 def _kinds(part, series, columns):
-    """Kind of each column that has values in a series."""
+    """Return the kind of each column that has values in a series."""
     found = {}
     for name in part:
         kind = columns.get(name, {}).get("compared")
@@ -134,7 +134,7 @@ def _decades(old, new, scales):
 
 
 def _middle_of_decades(old, new, scales):
-    """By how much all values move together, whatever single ones do."""
+    """Return the shift of the median of log10, whatever single values do."""
     old, new = (np.log10(values.dropna().clip(lower=FLOOR)) for values in (old, new))
     return abs(new.median() - old.median()), None
 
@@ -146,26 +146,26 @@ def _part_of_rows(old, new, scales):
 
 
 def _times_chance(old, new, scales):
-    """Statistic of Kolmogorov and Smirnov for two samples; values that are the same are not told apart."""
+    """Return the two-sample Kolmogorov-Smirnov statistic; values equal to rounding count as ties."""
     old, new = (np.sort(values.dropna().to_numpy(float)) for values in (old, new))
     slack, n, m = SAME * float(scales.max()), len(old), len(new)
     return max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m)), None
 
 
 def _lead(ahead, behind, slack):
-    """By how much the part of one sample below some value exceeds that of another below a bit more, at most."""
+    """Return the largest excess of one empirical distribution over another that is shifted by the slack."""
     below = np.searchsorted(behind, ahead + slack, side="right") / len(behind)
     return (np.arange(1, len(ahead) + 1) / len(ahead) - below).max()
 
 
 def _standard_score_of_sizes(old, new, scales):
-    """Difference of the sizes of two samples, in units of its standard deviation if single values came by chance."""
+    """Return the difference of two sample sizes in standard deviations of Poisson counts."""
     n, m = (int(values.notna().sum()) for values in (old, new))
     return abs(n - m) / np.sqrt(n + m), None
 
 
 def _standard_errors(old, new, scales):
-    """Difference of two means in units of its own standard error."""
+    """Return the difference of two means in standard errors."""
     old, new = (values.dropna().to_numpy(float) for values in (old, new))
     error = np.sqrt(sum(values.var(ddof=1) / len(values) if len(values) > 1 else 0.0 for values in (old, new)))
     return abs(old.mean() - new.mean()) / (error + SAME * float(scales.max())), None
@@ -193,7 +193,7 @@ def _shares(old, new, scales):
 
 
 def _scales(table, name):
-    """The axis of every row; of a column of text, nothing that is used."""
+    """Return the length of the axis for every row; NaN for a column of text."""
     if name in _texts(table):
         return pd.Series(np.nan, table.index)
     values = table[name].replace([np.inf, -np.inf], np.nan)
@@ -214,12 +214,12 @@ def _given(values):
 
 
 def _by_series(table):
-    """Rows by (panel, series), in their order; all of a table that has none under an empty name."""
+    """Return rows by (panel, series), in order; a table without these columns as one group with an empty name."""
     if not {"panel", "series"} <= set(table):
         return {("",): table}
     return dict(iter(table.groupby(["panel", "series"], sort=False)))
 
 
 def _names(table, texts):
-    """The text of each row, for example "a1, SIM stable"."""
+    """Return the text columns of each row, joined: "a1, SIM stable"."""
     return [", ".join(map(str, row)) for row in table[texts].itertuples(index=False, name=None)]
