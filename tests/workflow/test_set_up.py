@@ -1,39 +1,123 @@
-"""Set-up: skipped while nothing it depends on changed, and clear where it cannot work."""
+"""Set-up: done once, from the lock alone, started over if it was killed, and one line where it cannot work."""
 
 import os
+import re
+import signal
 import subprocess
+import time
+import zipfile
+
+import pytest
 
 import compile as script
 from chapter import PARAMETERS
+from pipeline_trees import ROOT, Tree
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
 
+RECORDING = """#!/bin/sh
+# An interpreter that makes an environment of itself, and writes down what pip is asked to install.
+case "$*" in
+    *_base_executable*) echo "$0" ;;
+    *platform.*) echo cpython 3 11 nothing ;;
+    *ensurepip*) ;;
+    "-m venv"*)
+        mkdir -p .venv/bin .venv/lib/python3.11/site-packages
+        touch .venv/lib/python3.11/site-packages/_vibroimpact.pth
+        cp "$0" .venv/bin/python
+        touch started
+        while [ -e hold ]; do sleep 0.02; done ;;
+    *--requirement*)
+        lock=${*##*--requirement }
+        echo "$* $(cut -d ' ' -f 1 "${lock%% *}" | grep -c ==)" >>calls ;;
+    *) echo "$*" >>calls ;;
+esac
+"""
 
-def set_up(tree, **environment):
-    return subprocess.run(
+
+@pytest.fixture
+def recording(tree):
+    """The environment of a set-up that installs nothing."""
+    (tree / "recording").write_text(RECORDING)
+    (tree / "recording").chmod(0o755)
+    return {"PYTHON": str(tree / "recording")}
+
+
+def start(tree, **environment):
+    return subprocess.Popen(
         ["bash", "workflow/set_up.sh"],
         cwd=tree.path,
-        env={**os.environ, **environment},
-        capture_output=True,
+        env=os.environ | environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
         text=True,
-        check=False,
+        start_new_session=True,
     )
+
+
+def set_up(tree, expected=0, **environment):
+    """Output of a set-up that ends with an exit status."""
+    run = start(tree, **environment)
+    output = run.communicate()[0]
+    assert run.returncode == expected, output
+    return output
 
 
 def test_an_interpreter_that_does_not_fit_is_refused(tree):
     (tree / "old").write_text("#!/bin/sh\nexit 1\n")
     (tree / "old").chmod(0o755)
-    run = set_up(tree, PYTHON=str(tree / "old"))
-    assert run.returncode != 0
-    assert "needs Python 3.11 or newer" in run.stderr
+    assert "needs Python 3.11 or newer" in set_up(tree, expected=1, PYTHON=str(tree / "old"))
     assert not (tree / ".venv").exists()
 
 
-def test_the_locks_are_whole(tree):
+def test_a_killed_set_up_starts_over_and_a_finished_one_does_not(tree, recording):
+    (tree / "hold").touch()
+    first = start(tree, **recording)
+    while not (tree / "started").exists():
+        assert first.poll() is None, first.communicate()[0]
+        time.sleep(0.02)
+    os.killpg(first.pid, signal.SIGKILL)
+    first.communicate()
+    (tree / "hold").unlink()
+    assert not (tree / ".venv/.complete").exists()
+    assert "1 of 3" in set_up(tree, **recording)
+    assert set_up(tree, **recording) == ""
+
+
+def test_a_moved_checkout_is_set_up_again(tree, recording, tmp_path):
+    """The environment holds absolute paths."""
+    set_up(tree, **recording)
+    moved = tree.path.rename(tmp_path / "moved")
+    assert "1 of 3" in set_up(Tree(moved), PYTHON=str(moved / "recording"))
+
+
+@pytest.mark.parametrize("source", [{}, {"WHEELS": "wheels"}], ids=["network", "folder"])
+def test_everything_is_installed_from_the_lock_and_first_of_all_what_builds_packages(tree, recording, source):
+    (tree / "wheels").mkdir()
+    set_up(tree, **recording, **source)
+    installs = [call for call in (tree / "calls").read_text().splitlines() if "--requirement" in call]
+    assert [int(call.split()[-1]) > 100 for call in installs] == [False, True]
+    assert all("--require-hashes" in call and "--no-build-isolation" in call for call in installs)
+    assert all(("--no-index --find-links wheels" in call) == bool(source) for call in installs)
+    line = r"^setuptools==\S+ \\\n +--hash=sha256:"
+    assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
+
+
+@pytest.mark.thorough
+def test_packages_are_checked_by_hash(tree):
+    (tree / "wheels").mkdir()
+    with zipfile.ZipFile(tree / "wheels/setuptools-1-py3-none-any.whl", "w") as wheel:
+        wheel.writestr("setuptools-1.dist-info/METADATA", "Metadata-Version: 2.1\nName: setuptools\nVersion: 1\n")
+    (tree / "environment.lock").write_text("setuptools==1 \\\n    --hash=sha256:" + 64 * "0" + "\n")
+    assert "THESE PACKAGES DO NOT MATCH THE HASHES" in set_up(tree, expected=1, WHEELS="wheels")
+    assert not (tree / ".venv/.complete").exists()
+
+
+def test_the_locks_are_whole():
     """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
-    text = "".join((tree / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
+    text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
     packages = [line.split() for line in text.splitlines()]
     assert all("==" in package[0] and package[-1].startswith("--hash=sha256:") for package in packages)
     assert sum(package[0].startswith("snakemake-executor-plugin-slurm==") for package in packages) == 1
@@ -42,26 +126,19 @@ def test_the_locks_are_whole(tree):
     assert "sys_platform == 'linux'" in heyoka
 
 
-def test_what_a_cluster_needs_is_installed_on_request_alone(tree):
-    """By its hashes, after the rest; a default set-up knows nothing of it."""
-    said = subprocess.run(
-        ["make", "--no-print-directory", "--dry-run", "cluster-tools"],
-        cwd=tree.path,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    set_up, install = said.stdout.replace("\\\n", "").splitlines()
-    assert set_up == "workflow/set_up.sh"
-    assert "--require-hashes" in install
-    assert install.endswith("--requirement cluster.lock")
-    assert "cluster.lock" not in (tree / "workflow/set_up.sh").read_text()
-
-
-def test_the_engine_is_compiled_for_the_arguments_that_runs_give_it(monkeypatch):
+def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):
     asked, system = [], System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
     simulate(system, [0] * 8, 1, tau0=1, sample_times=[2])
     ensemble(system, [0] * 8, 1)
     monkeypatch.setattr(integrate, "compile", asked.append)
     script.engine()
     assert [tuple(signature) for signature in asked] == list(integrate.signatures)
+
+
+def test_actions_are_pinned_by_commit_and_leave_no_credentials():
+    text = (ROOT / ".github/workflows/ci.yml").read_text(encoding="utf-8")
+    uses = re.findall(r"uses: (.*)", text)
+    assert len(uses) > 6
+    assert [use for use in uses if not re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", use)] == []
+    checkouts = re.findall(r"uses: actions/checkout@.*\n +with:\n(?: +path: .*\n)? +persist-credentials: false\n", text)
+    assert len(checkouts) == text.count("actions/checkout@")
