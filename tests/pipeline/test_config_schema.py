@@ -10,8 +10,10 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import validate
 
 from configs import GOOD, TABLE, UNUSUAL, edited, problems
+from vibroimpact.system.chapter import CASES
+from vibroimpact_pipeline.cases import CHAPTER, with_cases
 from vibroimpact_pipeline.config.model import Config
-from vibroimpact_pipeline.config.reading import cleared
+from vibroimpact_pipeline.config.reading import checked, cleared
 from vibroimpact_pipeline.config.schema import TARGET, schema
 
 CHECK = jsonschema.Draft202012Validator(json.loads(schema()))
@@ -66,9 +68,25 @@ def test_what_is_wrong_with_one_value_the_schema_refuses():
     for edits, _ in TABLE:
         values, _ = cleared(edited(edits))
         try:
-            Config.model_validate(values)
+            Config.model_validate(with_cases(values))
         except ValidationError as error:
-            if any(found["type"] not in MODELS and not isinstance(found["input"], str) for found in error.errors()):
+            told = [found for found in error.errors() if found["loc"][-1:] != ("case",)]  # which may be the default
+            if any(found["type"] not in MODELS and not isinstance(found["input"], str) for found in told):
                 assert not CHECK.is_valid(values), edits
                 refused += 1
     assert refused > 200
+
+
+def test_the_cases_of_the_chapter_are_known_without_the_library():
+    assert tuple(CASES) == CHAPTER
+
+
+def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are_left_out():
+    made = checked(
+        edited("cases.equal = null & default_case = weak & regimes.decay.case = ... & sweeps.design.case = ...")
+    )
+    assert made["regimes"]["decay"]["case"] == made["sweeps"]["design"]["case"] == "weak"
+    assert made["regimes"]["basins"]["case"] == "unequal"
+    assert {"fig10_09", "fig10_10"} <= made["figures"].keys()
+    assert not {"fig10_06", "fig10_07", "fig10_08"} & made["figures"].keys()
+    assert list(made["report"]["animations"]) == ["modulated"]

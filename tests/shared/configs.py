@@ -40,6 +40,11 @@ UNUSUAL = [
     "cases.weak.simulation.digits = null & figures.fig10_10.C_max = 'null' & regimes.epsilon.mixed = null",
     "cases.mine = null & figures.fig10_10 = null & sweeps.design = null & figures.fig10_11 = null",
     "figures = {mine: {notebook: simulation, model: simulation, case: equal}}",
+    "cases.weak = ... & default_case = unequal",
+    "cases = {my-own: {f10_hat: 0.7, f20_hat: 0.4, simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], "
+    "transient_cycles: 9, window_cycles: 1, samples_per_cycle: 8}}} "
+    "& figures.mine = {notebook: simulation, model: simulation}",
+    "sweeps.design.case = ... & regimes.basins.case = ...",
     "stability.verdict_grid.epsilon = [0.1]",
     "regimes.branches.paths = [{along: [kappa, epsilon], range: [0.1, 0.5]}]",
     "sweeps = ...",

@@ -35,6 +35,7 @@ if os.path.exists(sys.executable):
 
 from vibroimpact_pipeline.specs import case_parameters, made, specs
 from vibroimpact_pipeline import builds
+from vibroimpact_pipeline.cases import with_cases
 from vibroimpact_pipeline.code import fingerprint
 
 if not os.access(".", os.W_OK):
@@ -56,6 +57,7 @@ def config_files():
 def checked_config(given):
     """The config with defaults; without its model, as the schema made from it allows."""
     if not WITH_MODEL:
+        given = with_cases(given)
         validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
         return given
     last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)

@@ -18,8 +18,10 @@ def needs(fits, what: str) -> AfterValidator:
     return AfterValidator(check)
 
 
-NAME, TITLE, LETTER = "^[a-z][a-z0-9_]{1,39}$", "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
+NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
+TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 WORDS = {
+    CASE: "a name of a case: a small letter, then 1 to 39 small letters, digits, - and _",
     NAME: "a name: a small letter, then 1 to 39 small letters, digits and _",
     TITLE: "a title: a letter, then up to 39 letters, digits, spaces and , ( ) -",
     LETTER: "one small letter",
@@ -54,7 +56,7 @@ def named(kind, least: int, most: int, name: str = NAME):
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
 
-CaseName = Annotated[str, Field(description="Name of a case")]
+CaseName = Annotated[str, Field(description="Name of a case; absent: default_case")]
 Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")]
 Force = Annotated[float, Field(ge=-1000, le=1000)]
 Forces = span(Force, "Lower and upper end of the forces")

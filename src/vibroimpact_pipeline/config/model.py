@@ -175,7 +175,7 @@ class ForceSweep(Section):
 class Report(Section):
     """The live parts of the report: animations, and the slider of the fixed points."""
 
-    animations: kinds.named(Animation, 1, 10) = Field(description="Animations by free names")
+    animations: kinds.named(Animation, 0, 10) = Field(description="Animations by free names")
     force_sweep: ForceSweep
 
 
@@ -184,7 +184,10 @@ class Config(Section):
 
     system: SystemSection
     # At most twelve: companions have a panel for each.
-    cases: kinds.named(Case, 1, 12) = Field(description="Excitation amplitudes, and how motions are integrated")
+    cases: kinds.named(Case, 1, 12, kinds.CASE) = Field(
+        description="Forcing amplitudes and direct integration by name: a small letter, then 1 to 39 of a-z 0-9 - _"
+    )
+    default_case: kinds.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
     figures: Figures
     stability: Stability
     regimes: Regimes
@@ -195,6 +198,8 @@ class Config(Section):
 
     def conditions(self):
         yield from self._taken_names()
+        if self.default_case not in (None, *self.cases):
+            yield ("default_case",), f"unknown case {self.default_case!r}{hint(self.default_case, self.cases)}"
         for place, section, case in sections(self):
             if hasattr(section, "case") and case not in self.cases:
                 yield (*place, "case"), f"unknown case {case!r}{hint(case, self.cases)}"

@@ -5,6 +5,7 @@ from itertools import count
 import yaml
 from pydantic import ValidationError
 
+from vibroimpact_pipeline.cases import with_cases
 from vibroimpact_pipeline.config.messages import problems_of, shown, written
 
 LARGEST, DEEPEST, ALL = 100_000, 20, 50_000
@@ -54,7 +55,7 @@ def read(path) -> dict:
 
 
 def checked(config: dict, sources=()) -> dict:
-    """Return the validated values of a config: numbers as numbers, defaults filled in, removed entries left out.
+    """Return the validated values of a config: numbers as numbers, defaults in, removed entries out.
 
     Args:
         config: all entries together.
@@ -68,7 +69,7 @@ def checked(config: dict, sources=()) -> dict:
     values, found = cleared(config)
     try:
         if not found:
-            return Config.model_validate(values).model_dump(mode="json", exclude_none=True)
+            return Config.model_validate(with_cases(values)).model_dump(mode="json", exclude_none=True)
     except ValidationError as error:
         found = problems_of(error)
     more = [f"... and {len(found) - MOST} more"] if len(found) > MOST else []

@@ -28,6 +28,8 @@ def _plain(node):
         del made["default"]
     if made.get("type") in ("number", "integer"):
         made |= {"type": [made["type"], "string"], "pattern": NUMERALS[made["type"]]}
+    if "case" in made.get("required", ()):
+        made["required"] = [name for name in made["required"] if name != "case"]  # else default_case
     return made | ({"additionalProperties": False} if "patternProperties" in made else {})
 
 
