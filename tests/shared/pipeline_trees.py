@@ -79,7 +79,7 @@ class Tree:
             for line in output.splitlines()
             if line.startswith(("rule ", "localrule ", "checkpoint "))
         }
-        return rules - {"all", "figures", "stability", "companions", "accuracy"}
+        return rules - {"all", "figures", "stability", "companions", "accuracy", "sweeps"}
 
     def edit(self, name, old, new):
         """Replace a text that must be there in a file of the tree."""

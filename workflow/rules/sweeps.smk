@@ -74,3 +74,14 @@ for name, sweep in SWEEPS.items():
             f"results/benchmarks/sweeps/{name}/figure.tsv"
         script:
             "../scripts/figure.py"
+
+
+# Sweeps of your own: those that no companion figure draws.
+rule sweeps:
+    input:
+        [
+            f"results/sweeps/{name}/figure.{kind}"
+            for name in SWEEPS
+            if not any(name in spec.get("sweeps", {}) for spec in SPECS.values())
+            for kind in ("png", "csv")
+        ],
