@@ -1,6 +1,6 @@
 """Random systems and starts made to break what a run says of itself, and an observer that shares no code with it."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -143,7 +143,7 @@ def attacks(rng, count):
 
 def _later(base, tau0):
     """The state of a run at a time."""
-    return vi.simulate(base.system, base.start, base.cycles, sample_times=[tau0]).samples[0]
+    return vi.simulate(base.system, base.start, base.cycles, sample_times=[tau0]).samples[0].copy()
 
 
 def _end(rng, base, distance):
@@ -179,7 +179,7 @@ def _graze(rng, base, distance):
     turn = begin + rng.uniform(0.05, 0.5) * base.system.period
     start, later, after = vi.simulate(
         base.system, base.start, base.cycles, sample_times=[begin, turn, turn + 1e-4]
-    ).samples
+    ).samples.copy()
     i = rng.integers(2)
     wall = -np.sign(after[4 + 2 * i] - later[4 + 2 * i])
     speed = later[4 + 2 * i]
@@ -200,14 +200,16 @@ def _rest(rng, base, distance):
     return state, tau0
 
 
-def truth(attack, digits=40):
+def truth(attack, digits=40, cycles=1):
     """The reference's run of an attack, from exactly its floats; where they are beyond a wall by rounding, from it."""
     start = [Fraction(x) for x in attack.start.tolist()]
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         if abs(gap) > 1 or float(attack.start[i] - attack.start[i + 1]) in (1.0, -1.0):
             start[i + 1] = start[i] - (1 if gap > 0 else -1)
-    return reference_run(attack.system, start, 1, digits, tau0=Fraction(attack.tau0))
+    parameters = {name: Fraction(value) for name, value in asdict(attack.system).items()}
+    parameters["sigma_e_hat"] = (Fraction(attack.system.Omega) - 1) / parameters["epsilon"]  # the float Omega
+    return reference_run(parameters, start, cycles, digits, tau0=Fraction(attack.tau0))
 
 
 def same_events(one, other):
@@ -234,3 +236,61 @@ def fast_attack(rng):
     f1, f2 = np.round(forces / system.epsilon, 4)
     system = system.with_(sigma_e_hat=round((omega - 1) / system.epsilon, 4), f10_hat=f1, f20_hat=f2)
     return Attack("fast", system, np.round(random_start(rng), 6), 0.0)
+
+
+# -- the estimated error ----------------------------------------------------------------------------------------------
+
+GENES = 21
+
+
+def bred(genes):
+    """An attack and its number of cycles from genes (GENES,) between 0 and 1: epsilon from 1e-5 to 10, a coupling up to
+    k12 = 3e5, Omega from 0.2 to 100, forces from 0.01 to 1000.
+    """
+
+    def power(gene, low, high):
+        return 10 ** (low + (high - low) * gene)
+
+    e, omega = power(genes[0], -5, 1), power(genes[7], -0.7, 2)
+    k12 = power(genes[2], -2, 5.5) if genes[2] > 0.1 else 0.0
+    dampings = [power(gene, -4, 0.5) / e if gene > 0.15 else 0.0 for gene in genes[3:6]]
+    forces = [np.sign(gene - 0.5) * power(abs(2 * gene - 1), -2, 3) / e for gene in genes[8:10]]
+    system = vi.System(
+        epsilon=e, kappa=0.001 + 0.969 * genes[1], alpha12_hat=k12 / e, gamma1_hat=dampings[0],
+        gamma2_hat=dampings[1], gamma12_hat=dampings[2], sigma20_hat=(3.7 * genes[6] - 0.7) / e,
+        sigma_e_hat=(omega - 1) / e, f10_hat=forces[0], f20_hat=forces[1],
+    )  # fmt: skip
+    x, gap = (4 * genes[10:12] - 2) * power(genes[18], -2, 1.5), 0.999 * (2 * genes[12:14] - 1)
+    v, u = (2 * genes[14:18].reshape(2, 2) - 1) * power(genes[19], -2, 2)
+    if k12 > 10:  # boxes that a stiff spring holds together
+        x[1] = x[0] + (x[1] - x[0]) / np.sqrt(k12)
+    start = np.array([x[0], x[0] - gap[0], x[1], x[1] - gap[1], v[0], u[0], v[1], u[1]])
+    return Attack("bred", system, start, 0.0), int(power(genes[20], 0, 1.5))
+
+
+def true_over_told(genes, most_events=150):
+    """True error of the final state over the told one; None of a run that is not decided, or long."""
+    try:
+        attack, cycles = bred(genes)
+        run = vi.simulate(attack.system, attack.start, cycles)
+        if len(run.events) > most_events or not run.certificate.decided:
+            return None
+        return np.abs(run.final - truth(attack, 40, cycles).final).max() / run.certificate.error
+    except (ValueError, ArithmeticError):  # such a system resonates or is not finished; the reference needs more digits
+        return None
+
+
+def climbed(rng, draws, steps):
+    """Ratios (`true_over_told`) of random draws and of a hill climb from the worst of them."""
+    genes = rng.uniform(0, 1, (draws, GENES))
+    ratios = [true_over_told(one) for one in genes]
+    worst, best = max(((r, n) for n, r in enumerate(ratios) if r is not None), default=(0.0, 0))
+    at = genes[best]
+    for _ in range(steps):
+        moved = rng.random(GENES) < 0.2
+        moved[rng.integers(GENES)] = True
+        there = np.clip(at + moved * rng.normal(size=GENES) * 10 ** rng.uniform(-6, -0.5), 0, 1)
+        ratios.append(ratio := true_over_told(there))
+        if ratio is not None and ratio > worst:
+            worst, at = ratio, there
+    return [ratio for ratio in ratios if ratio is not None]

@@ -24,7 +24,15 @@ def problem_of(name: str, config: dict, settings: dict):
 
 def main(config: dict, output) -> None:
     from vibroimpact.accuracy import work_precision
-    from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
+    from vibroimpact.accuracy.benchmark import (
+        OURS,
+        TAYLOR,
+        certificate_cost,
+        comparison,
+        measure,
+        panels,
+        unavoidable_error,
+    )
     from vibroimpact.accuracy.throughput import throughput
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.integrators import METHODS
@@ -34,6 +42,7 @@ def main(config: dict, output) -> None:
     rows = measure(problem, METHODS, SECONDS)
     table = pd.DataFrame(rows)
     found = comparison(rows, unavoidable_error(problem)) | throughput(problem.system, STARTS)
+    found["times its run that a certificate takes"] = certificate_cost(problem, SECONDS)
     raced = [method for method in METHODS if method.name in (OURS, TAYLOR)]
     chart = [
         row

@@ -24,7 +24,7 @@ def engine():
     from vibroimpact.exact.engine.event_loop import integrate
 
     vector, matrix, tables = np.empty(0), np.empty((0, 0)), np.empty((0, 0, 0, 0))
-    arguments = vector, tables, matrix, vector, 0.0, 0.0, 0, 0.0, vector, matrix, vector
+    arguments = vector, tables, matrix, vector, 0.0, 0.0, 0, 0.0, vector, matrix, vector, matrix, vector, vector
     integrate.compile(tuple(map(typeof, arguments)))
 
 

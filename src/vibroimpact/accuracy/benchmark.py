@@ -6,7 +6,9 @@ from string import ascii_lowercase
 import numpy as np
 
 from vibroimpact.accuracy.reference.run import proven_run, reference_run
+from vibroimpact.accuracy.timing import shortest_time
 from vibroimpact.accuracy.work_precision import Problem, climb
+from vibroimpact.exact.engine.simulation import simulate
 
 OURS, TAYLOR, EXPLICIT = "this engine", "heyoka", "DOP853"
 EXPLICIT_ACCURACY = 1e-8
@@ -33,6 +35,15 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     ]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
     return [{**{name: row[name] for name in SHOWN}, "ratio": row["us_per_impact"] / ours} for row in rows]
+
+
+def certificate_cost(problem: Problem, seconds: float) -> float:
+    """Time that the certificate of a run takes, flights flown once more, over that of the run itself."""
+    start = np.array([float(value) for value in problem.state])
+    _ = simulate(problem.system, start, problem.cycles).certificate  # compiled, and the tables built
+    alone = shortest_time(lambda: simulate(problem.system, start, problem.cycles), seconds)
+    both = shortest_time(lambda: simulate(problem.system, start, problem.cycles).certificate, seconds)
+    return (both - alone) / alone
 
 
 def unavoidable_error(problem: Problem, digits: int = 40) -> float:

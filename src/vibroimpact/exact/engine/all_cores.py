@@ -2,12 +2,14 @@
 
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 
 ALLOWED = ContextVar("allowed", default=sys.maxsize)
+WORKER = threading.local()
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
@@ -19,15 +21,23 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
     """
     if min(cores(), len(pieces)) <= 1 and not progress:  # nobody to share with; a pool would cost 0.1 ms and more
         return [work(*piece) for piece in pieces]
-    with ThreadPoolExecutor(max_workers=cores()) as pool:
+    given_up = threading.Event()
+    with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "given_up", given_up)) as pool:
         todo = {pool.submit(work, *piece): count for piece, count in zip(pieces, runs, strict=True)}
         try:
             if progress:
                 _report(todo)
             return [one.result() for one in todo]
         except BaseException:
+            given_up.set()
             pool.shutdown(cancel_futures=True)
             raise
+
+
+def stop_if_given_up():
+    """End a piece of work in a thread whose others failed, or were interrupted; long pieces call it now and then."""
+    if (given_up := getattr(WORKER, "given_up", None)) and given_up.is_set():
+        raise CancelledError
 
 
 def cores() -> int:

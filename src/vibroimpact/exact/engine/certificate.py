@@ -16,7 +16,7 @@ KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
 
 CLEAR = 4.0
-"""What is this many times the estimated error away is decided: true errors reach 2.6 times the estimate."""
+"""What is this many times the estimated error away is decided: true errors stay below 2.6 times the estimate."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -77,7 +77,10 @@ class Energy(Glance):
         rows = np.zeros((max(run.cycles, 1), ENTRIES))
         account(flow, powers_of(system), flights, events, system.period * np.arange(len(rows)), rows)
         total = energies(system, rows.sum(axis=0))
-        return cls(*(total[name] for name in ENERGY.names), per_cycle=energies(system, rows[: run.cycles]))
+        per_cycle = energies(system, rows[: run.cycles])
+        for array in (total, per_cycle):
+            array.flags.writeable = False
+        return cls(*(total[name] for name in ENERGY.names), per_cycle=per_cycle)
 
     @property
     def residual(self) -> float:

@@ -5,10 +5,11 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vibroimpact.exact.engine.all_cores import cores, on_all_cores
+from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
-from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, integrate
+from vibroimpact.exact.engine.event_log import EVALUATIONS, EVENTS
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, SPELL, integrate, memory, with_room
 from vibroimpact.exact.engine.flow import tables_of, unpacked
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
@@ -142,7 +143,11 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     powers = powers_of(system) if observed and len(spent) else NO_POWERS
     phase = phase_at(begin, system.Omega)
     tables = tables_of(system)
-    _loop(*tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent)
+    given = *tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent
+    (rows, ledger, where), done = memory(cycles), 0
+    while (done := _loop(*given, done, rows, ledger, where)) < len(places):
+        rows = with_room(rows, ledger)
+        stop_if_given_up()
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
     for name, place in PLACES.items():
@@ -155,23 +160,35 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
 
 @compiled
 def _loop(
-    numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen, spent
-):
-    """Run the starts (n, 8) of a piece whose status is FINISHED; fill in what they end with and amount to."""
-    opening = np.array([settle * period])
+    numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen,
+    spent, done, rows, ledger, where
+):  # fmt: skip
+    """Run the starts (n, 8) of a piece whose status is FINISHED, from the first that is not done on; fill in what they
+    end with and amount to. Returns how many are done: all, or after a while fewer (`integrate`).
+    """
+    opening, proofs = np.array([settle * period]), 0.0
     no_times, no_samples = np.empty(0), np.empty((0, 8))
     flow = unpacked(numbers, series, rotations)
-    for n in range(len(starts)):
+    for n in range(done, len(starts)):
         s = starts[n]
-        if status[n] == FINISHED:
-            events, status[n], _ = integrate(
-                numbers, series, rotations, s, phase, tail, cycles, 0.0, no_times, no_samples, final[n]
-            )
+        if status[n] != INADMISSIBLE:
+            before = ledger[EVALUATIONS]
+            status[n] = integrate(
+                numbers, series, rotations, s, phase, tail, cycles, 0.0, no_times, no_samples, final[n], rows, ledger,
+                where
+            )  # fmt: skip
+            proofs += ledger[EVALUATIONS] - before
+        if status[n] == PAUSED:
+            return n
         if status[n] != FINISHED or settle == cycles:
             seen[n, LARGEST:] = np.nan
         else:
-            end = final[n, 0], final[n, 2], final[n, 4], final[n, 6]
+            end, events = (final[n, 0], final[n, 2], final[n, 4], final[n, 6]), rows[: int(ledger[EVENTS])]
             observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
             if len(powers) > 0:
                 flights = departures(flow.coefficients, s, events, phase, cycles * period)
                 account(flow, powers, flights, events, opening, spent[n])
+        ledger[:] = 0.0
+        if proofs > SPELL:
+            return n + 1
+    return len(starts)

@@ -7,11 +7,14 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, LENGTH, land
-from vibroimpact.exact.engine.variation import fill_event, fill_flight
+from vibroimpact.exact.engine.phase import ahead
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, land, start_of
+from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
 from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
+ALIKE = 0.02
+"""How much alike two roundings by the same entry of the flow tables are."""
 
 
 @compiled
@@ -21,18 +24,22 @@ def errors_of(flow, flights, events, limit):
     which it is above the limit.
     """
     q = flow.coefficients
-    errors, known = np.full((len(flights), 2), math.inf), limit / UNIT
-    covariance, matrix, product = np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8))
-    _add_rounding(q, covariance, flights[0, BEFORE:AFTER])
+    errors, known, repeated = np.full((len(flights), 2), math.inf), limit / UNIT, 0
+    covariance, matrix, product, part = np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
+    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
     for n in range(len(flights)):
         errors[n, 0] = errors[n, 1] = UNIT * _root(covariance)
         if flights[n, LENGTH] > 0.0:
-            fill_flight(flow, flights[n], matrix)
-            _carry(matrix, covariance, product)
+            _copy(flights[n], part)
+            repeated = _fly(flow, part, repeated, covariance, matrix, product)
             errors[n, 1] = UNIT * _root(covariance)
         if n < len(events):
             _pass(q, flights, events, n, covariance, matrix, product)
-        _add_rounding(q, covariance, flights[n + 1, BEFORE:AFTER] if n < len(events) else flights[n, AFTER:])
+            reached = flights[n + 1, BEFORE:AFTER]
+        else:
+            _add_lateness(q, covariance, flights[n], 0.0, product[0])
+            reached = flights[n, AFTER:]
+        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], reached, 0)
         if not _root(covariance) <= known:  # also where it is no number: an impact without velocity
             return errors, math.inf
     return errors, UNIT * _root(covariance)
@@ -44,34 +51,54 @@ def errors_at(flow, flights, events, times, limit):
     the end of a run that ends there.
     """
     q = flow.coefficients
-    errors, known, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
+    errors, known, start, k, repeated = np.full(len(times), math.inf), limit / UNIT, 0.0, 0, 0
     covariance, there, matrix, product = np.zeros((8, 8)), np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8))
     part = np.empty(COLUMNS)
-    _add_rounding(q, covariance, flights[0, BEFORE:AFTER])
+    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
     for n in range(len(flights)):
         last = n == len(events)
         while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
             _copy(flights[n], part)
             _copy(covariance.flat, there.flat)
             part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
+            _fly(flow, part, repeated, there, matrix, product)
             land(flow, part)
-            fill_flight(flow, part, matrix)
-            _carry(matrix, there, product)
-            _add_rounding(q, there, part[AFTER:])
+            _add_lateness(q, there, part, times[k], product[0])
+            _add_rounding(q, there, part[BEFORE:AFTER], part[AFTER:], 0)
             if _root(there) <= known:
                 errors[k] = UNIT * _root(there)
             k += 1
         if last:
             break
-        if flights[n, LENGTH] > 0.0:
-            fill_flight(flow, flights[n], matrix)
-            _carry(matrix, covariance, product)
+        _copy(flights[n], part)
+        repeated = _fly(flow, part, repeated, covariance, matrix, product)
         _pass(q, flights, events, n, covariance, matrix, product)
-        _add_rounding(q, covariance, flights[n + 1, BEFORE:AFTER])
+        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], flights[n + 1, BEFORE:AFTER], 0)
         if not _root(covariance) <= known:
             break
         start += flights[n, LENGTH]
     return errors
+
+
+@inlined
+def _fly(flow, flight, repeated, covariance, matrix, product):
+    """Carry a covariance over a flight, with a rounding wherever the tables end; the row becomes its last part.
+
+    repeated: how often the tables ended before. Returns how often they have by now.
+    """
+    left = flight[LENGTH]
+    while left > 0.0:
+        flight[LENGTH] = min(left, flow.longest)
+        fill_flight(flow, flight, matrix)
+        _carry(matrix, covariance, product)
+        left -= flight[LENGTH]
+        if left > 0.0:
+            repeated += 1
+            land(flow, flight)
+            _add_rounding(flow.coefficients, covariance, flight[BEFORE:AFTER], flight[AFTER:], repeated)
+            _copy(flight[AFTER:], flight[BEFORE:AFTER])
+            flight[FORCING], _ = ahead(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
+    return repeated
 
 
 @inlined
@@ -131,14 +158,35 @@ def _add_miss(covariance, flight, event):
 
 
 @inlined
-def _add_rounding(q, covariance, state):
-    """Add a unit rounding error of a state (8,), [boxes, balls], to a covariance.
+def _add_lateness(q, covariance, flight, elapsed, rate):
+    """Add to the covariance at the end of a flight that the flight is too long or short by a rounding of time.
+
+    A run ends, and is sampled, at a difference of phases or times: of the phase since the run began its last cycle, and
+    of the time elapsed (zero: only the phase counts).
+    """
+    late = 2.0 / q.omega + flight[LENGTH] + elapsed
+    _, _, walls = start_of(flight)
+    fill_rate(q, walls, flight[AFTER:], flight[FORCING] + q.omega * flight[LENGTH], rate)
+    for k in range(8):
+        covariance[k, k] += (late * rate[k]) ** 2
+
+
+@inlined
+def _add_rounding(q, covariance, began, state, repeated):
+    """Add a unit rounding error of a flight, from one state (8,), [boxes, balls], to another, to a covariance.
 
     A flight sums what the force does on the way, F / Omega^2 to a position and F / Omega to a velocity, and loses the
-    last digits of it however little of it is left.
+    last digits of it however little of it is left. So it does with the velocities that a stiff spring gives the boxes.
+    Where it is that of the whole table once more, as so many times before (repeated), a part of it adds linearly.
     """
     speed = q.drive / max(1.0, q.omega)
     place = speed / max(1.0, q.omega)
+    farthest = max(abs(began[0]), abs(state[0])) + max(abs(began[1]), abs(state[1]))
+    speed += (math.sqrt(max(q.k11, q.k22, 1.0)) - 1.0) * farthest
+    if repeated > 0:
+        for j in range(8):
+            for k in range(8):
+                covariance[j, k] *= 1.0 + ALIKE / repeated
     for k in range(8):
         swing = 0.0 if k > 3 else (place if k < 2 else speed)
-        covariance[k, k] += (1.0 + abs(state[k]) + swing) ** 2
+        covariance[k, k] += (1.0 + ALIKE * repeated) * (1.0 + abs(state[k]) + swing) ** 2

@@ -18,13 +18,25 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, in_place, unfolded
 from vibroimpact.exact.engine.constraints import gap_rounding
 from vibroimpact.exact.engine.contact import Moment, resolve
-from vibroimpact.exact.engine.event_log import COSINE, ENTRIES, EVENTS, PHASE, ROW, SINE, Log, pack
+from vibroimpact.exact.engine.event_log import (
+    COSINE,
+    ENTRIES,
+    EVALUATIONS,
+    EVENTS,
+    FLIGHTS,
+    PHASE,
+    ROW,
+    SINE,
+    Log,
+    pack,
+)
 from vibroimpact.exact.engine.flight import STUCK_IN_TIME, TIRED, fly
 from vibroimpact.exact.engine.flow import unpacked
 from vibroimpact.exact.engine.motion import Motion, glide
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
-FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED, FULL = range(6)
+FINISHED, PENETRATED, STALLED, CROWDED, EXHAUSTED = range(5)
+PAUSED = -1
 FAILURES = {
     PENETRATED: "a ball went through a wall",
     STALLED: "time stands still",
@@ -35,9 +47,11 @@ ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # for events, to begin with: few 
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
+SPELL = 200_000  # exclusions, some 20 ms, between two looks for an interrupt
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
+PLACES = 19  # of the numbers that say where a run pauses
 
 
 class Course(NamedTuple):
@@ -56,41 +70,76 @@ class Course(NamedTuple):
 
 
 @compiled
-def integrate(numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final):
-    """Run a state (8,), in the order of the library, over a number of forcing cycles.
+def integrate(
+    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, ledger, where
+):
+    """Run a state (8,), in the order of the library, over a number of forcing cycles, or go on with such a run.
 
     numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
     times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
-    state after it), and final (8,) if the run is finished. Returns the events (m, ROW) as rows (`event_log`), the
-    status and the ledger of the run.
+    state after it), and final (8,) if the run is finished. rows, ledger, where: `memory`, filled. Returns the status:
+    PAUSED where rows are full, or after SPELL exclusions, for the interpreter to see to an interrupt; then call again,
+    `with_room`. A number, as the interpreter makes an array of a result with an interrupt half-way.
     """
     flow = unpacked(numbers, series, rotations)
-    log = Log(np.empty((min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM), ROW)), np.zeros(ENTRIES))
-    boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
-    motion = Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0)
-    course, status = Course(motion, -1, phase, tail, 0, 0.0, 0, 0), FULL
-    while status == FULL:
-        course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, log)
-        if status == FULL:
-            log = Log(np.concatenate((log.rows, np.empty_like(log.rows))), log.ledger)
+    if ledger[FLIGHTS] == 0.0:
+        boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
+        course = Course(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
+    else:
+        course = _kept(where)
+    course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, Log(rows, ledger))
     if status == FINISHED:
         pack(course.motion.boxes, course.motion.balls, final)
-    return log.rows[: int(log.ledger[EVENTS])], status, log.ledger
+    _keep(course, where)
+    return status
+
+
+def memory(cycles):
+    """Memory for a run: rows of events, a ledger, and where it pauses."""
+    room = min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
+    return np.empty((room, ROW)), np.zeros(ENTRIES), np.empty(PLACES)
+
+
+def with_room(rows, ledger):
+    """The rows of a run that pauses, twice as many if they are full."""
+    full = ledger[EVENTS] + MOST_AT_ONCE > len(rows)
+    return np.concatenate((rows, np.empty_like(rows))) if full else rows
+
+
+@unfolded
+def _keep(course, where):
+    """Write down where a run pauses."""
+    motion = course.motion
+    for k in range(4):
+        where[k], where[4 + k] = motion.boxes[k], motion.balls[k]
+    for i in range(2):
+        where[8 + i], where[10 + i] = motion.walls[i], motion.touching[i]
+    where[12], where[13], where[14], where[15] = course.due, course.phase, course.tail, course.revolutions
+    where[16], where[17], where[18] = course.elapsed, course.sampled, course.stalled
+
+
+@unfolded
+def _kept(where):
+    """The course of a run that goes on."""
+    w = where
+    boxes, balls = (w[0], w[1], w[2], w[3]), (w[4], w[5], w[6], w[7])
+    motion = Motion(boxes, balls, (int(w[8]), int(w[9])), (int(w[10]), int(w[11])), 0.0, 1.0)
+    return Course(motion, int(w[12]), w[13], w[14], int(w[15]), w[16], int(w[17]), int(w[18]))
 
 
 @in_place
 def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log):
-    """Run on to the end, or until the log is full: (course, status)."""
+    """Run on to the end, or until it pauses: (course, status)."""
     q = flow.coefficients
     (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, course
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
-    status = FINISHED
+    status, pause = FINISHED, log.ledger[EVALUATIONS] + SPELL
     while True:
         sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.ledger[EVENTS])
-        if noted + MOST_AT_ONCE > len(log.rows):
-            return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), FULL
+        if noted + MOST_AT_ONCE > len(log.rows) or log.ledger[EVALUATIONS] > pause:
+            return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), PAUSED
         ahead_of_start = (phase - first) + (tail - first_tail)
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)

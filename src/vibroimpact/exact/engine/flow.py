@@ -6,6 +6,7 @@ enough to be exact to rounding. No eigenvalues are used, so repeated, defective,
 resonant spectra are no exception.
 """
 
+from decimal import Decimal, localcontext
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 from vibroimpact.exact.engine.compiled import inlined, unfolded
 from vibroimpact.exact.engine.flow_tables import ORDERS, tables
 from vibroimpact.exact.engine.vectors import weighted_sum
-from vibroimpact.system.matrices import damping_matrix, rate_matrix, stiffness_matrix
+from vibroimpact.system.matrices import damping_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
 """Which balls stick, in the order of the tables: index = stuck_1 + 2 stuck_2."""
@@ -29,7 +30,7 @@ class Coefficients(NamedTuple):
 
     ground: stiffness of box 2 to ground (that of box 1 is 1); drive: |(f1, f2)|; growth: that of the sixth derivative
     of the force; shift: the farthest that the force moves a box from rest within the tables; mass: that of box and
-    ball together.
+    ball together; impulse, impulse_rest: (1 + kappa) / (1 + epsilon), the nearest float and the rest.
     """
 
     k11: float
@@ -49,6 +50,8 @@ class Coefficients(NamedTuple):
     shift: float
     mass: float
     inverse_mass: float
+    impulse: float
+    impulse_rest: float
 
 
 class Flow(NamedTuple):
@@ -79,8 +82,7 @@ def flow_of(system) -> Flow:
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
-    series, rotations = tables(rates, spacing, count)
+    series, rotations = tables(_rates(system), spacing, count)
     coefficients = Coefficients(
         *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
         system.stiffness2,
@@ -95,6 +97,7 @@ def flow_of(system) -> Flow:
         float(np.abs(series[:, :, 4:, ::ORDERS]).max()),
         1.0 + system.epsilon,
         1.0 / (1.0 + system.epsilon),
+        *_impulse(system),
     )
     return Flow(
         coefficients,
@@ -105,6 +108,34 @@ def flow_of(system) -> Flow:
         spacing * (count - 1),
         1.0 / fastest,
     )
+
+
+def _rates(system):
+    """Rate matrices of the contact states in pairs (2, 4, 6, 6): the floats next to the exact entries, and the rest.
+
+    Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
+    """
+    names = "epsilon", "alpha12_hat", "sigma20_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "f10_hat", "f20_hat"
+    rates = np.zeros((2, len(CONTACT_STATES), 6, 6))
+    rates[0, :, [0, 1], [2, 3]], rates[0, :, 4, 5], rates[0, :, 5, 4] = 1.0, system.Omega, -system.Omega
+    with localcontext(prec=50):
+        e, *hatted = (Decimal(getattr(system, name)) for name in names)
+        a, detuning, d1, d2, d, f1, f2 = (e * value for value in hatted)
+        for i, row in enumerate([[-1 - a, a, -d1 - d, d, f1], [a, -1 - detuning - a, d, -d2 - d, f2]]):
+            for stuck, mass in enumerate((Decimal(1), 1 + e)):
+                exact = [force / mass for force in row]
+                nearest = [float(x) for x in exact]
+                rest = [float(x - Decimal(near)) for x, near in zip(exact, nearest, strict=True)]
+                for mode in (mode for mode, sticking in enumerate(CONTACT_STATES) if sticking[i] == stuck):
+                    rates[:, mode, 2 + i, :5] = nearest, rest
+    return rates
+
+
+def _impulse(system):
+    """What an impact changes the velocity of a ball by, for each unit of relative velocity: a float and the rest."""
+    with localcontext(prec=50):
+        exact = (1 + Decimal(system.kappa)) / (1 + Decimal(system.epsilon))
+        return float(exact), float(exact - Decimal(float(exact)))
 
 
 @lru_cache(maxsize=64)

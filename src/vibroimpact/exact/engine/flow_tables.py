@@ -16,7 +16,7 @@ ORDERS = 8  # of the Taylor polynomials
 
 @compiled
 def tables(rates, spacing, count):
-    """Tables over the times j h, j < count, for rate matrices A (k, 6, 6), z' = A z.
+    """Tables over the times j h, j < count, for rate matrices A in pairs (2, k, 6, 6), z' = A z.
 
     h = spacing, a power of two; count is at least 2.
 
@@ -24,10 +24,10 @@ def tables(rates, spacing, count):
     box i at place 8 i + m, positions and velocities being exp(A j h) to rounding; and cosine and sine of the forcing
     phase, (count, 2).
     """
-    series, rotations = np.empty((len(rates), count, SIZE, 2 * ORDERS)), np.empty((count, 2))
+    series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
-    for k in range(len(rates)):
+    for k in range(rates.shape[1]):
         _fill_unit(power, 0)
         _fill_exponential(rates, k, spacing, power, one, other)
         last = np.intp(1)  # not the literal, for which `_entries` would be compiled once more
@@ -59,9 +59,8 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
             for j in range(SIZE):
                 high, low = 0.0, 0.0
                 for n in range(SIZE):
-                    high, low = _plus_product(
-                        high, low, term[0, i, n, 0], term[1, i, n, 0], rates[k, n, j] * spacing, 0.0
-                    )
+                    rate, rest = rates[0, k, n, j] * spacing, rates[1, k, n, j] * spacing
+                    high, low = _plus_product(high, low, term[0, i, n, 0], term[1, i, n, 0], rate, rest)
                 high, low = _normal(high, low)
                 after[0, i, j, 0], after[1, i, j, 0] = _over(high, low, order)
         for i in range(SIZE):
@@ -85,7 +84,7 @@ def _fill_coefficients(rates, k, rows, power, after):
             for j in range(SIZE):
                 total = 0.0
                 for n in range(SIZE):
-                    total += power[0, i, n, 0] * rates[k, n, j]
+                    total += power[0, i, n, 0] * rates[0, k, n, j]
                 after[0, i, j, 0] = total / (m + 1)
         for i in range(SIZE):
             for j in range(SIZE):

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.contact import common_velocity
 from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import advance
 from vibroimpact.exact.engine.motion import carry, mode_of, pair, with_velocity
@@ -75,7 +76,7 @@ def next_departure(q, events, n, leaving, end):
         walls = pair(walls, i, int(event[2]) if event[3] == STICK else 0)
     if completes_chatter(events, n):  # box and ball go on together
         boxes, balls = leaving.boxes, leaving.balls
-        common = (boxes[2 + i] + q.epsilon * balls[2 + i]) * q.inverse_mass
+        common = common_velocity(q, boxes[2 + i], balls[2 + i])
         boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)
         return Departure(boxes, balls, walls, leaving.time, leaving.phase)
     boxes, balls = (event[4], event[6], event[8], event[10]), (event[5], event[7], event[9], event[11])

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
-from vibroimpact.exact.engine.all_cores import on_all_cores
+from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.certificate import KNOWN, Certificate
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.errors import errors_at
@@ -35,7 +35,7 @@ class Run(Glance):
     samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
     rows, ledger: the kernel's (`event_log`).
 
-    States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
+    States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. No array of a run can be written to.
     """
 
     system: System
@@ -51,6 +51,8 @@ class Run(Glance):
         fields = self.__dict__  # at once, in half of the time that a frozen class takes for one after another
         fields.update(system=system, start=start, begin=begin, cycles=cycles)
         fields.update(samples=samples, final=final, rows=rows, ledger=ledger)
+        for array in (start, samples, final, rows, ledger):
+            array.flags.writeable = False
 
     def _glance(self):
         counts = np.bincount(self.events["kind"], minlength=len(KINDS))
@@ -69,6 +71,7 @@ class Run(Glance):
         for name, column in (("module", event_log.MODULE), ("wall", event_log.WALL), ("kind", event_log.KIND)):
             table[name] = self.rows[:, column]
         table["state"] = self.rows[:, 4 : event_log.PHASE]
+        table.flags.writeable = False
         return table
 
     @property
@@ -84,7 +87,9 @@ class Run(Glance):
     @cached_property
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
-        return self.carry(np.eye(8))
+        jacobian = self.carry(np.eye(8))
+        jacobian.flags.writeable = False
+        return jacobian
 
     def carry(self, perturbations: np.ndarray) -> np.ndarray:
         """Perturbations (8, k) of the start as they are in the final state, to first order."""
@@ -195,9 +200,12 @@ def simulate_many(
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
-    rows, status, ledger = kernel.integrate(
-        *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
-    )
+    rows, ledger, where = kernel.memory(cycles)
+    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
+    while (status := kernel.integrate(*given, rows, ledger, where)) == kernel.PAUSED:
+        rows = kernel.with_room(rows, ledger)
+        stop_if_given_up()
+    rows = rows[: int(ledger[event_log.EVENTS])]
     if status != kernel.FINISHED:
         what = kernel.FAILURES[status]
         raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")

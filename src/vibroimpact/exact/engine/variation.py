@@ -107,7 +107,7 @@ def fill_event(q, flights, events, n, matrix):
         inward, push = 0.0, 0.0
         if completes_chatter(events, n):
             field = np.empty(8)
-            _field(q, walls, before, phase, field)
+            fill_rate(q, walls, before, phase, field)
             inward, push = events[n, APPROACH], wall * field[2 + i]
         _stick_matrix(q, i, wall, inward, push, walls[1 - i] != 0, matrix)
     else:
@@ -115,7 +115,7 @@ def fill_event(q, flights, events, n, matrix):
 
 
 @compiled
-def _field(q, walls, state, phase, field):
+def fill_rate(q, walls, state, phase, field):
     """Fill the rate of change (8,) of a state (8,) in a contact state."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     force = math.sin(phase)
@@ -135,13 +135,13 @@ def _impact_matrix(q, i, before, after, walls, walls_after, phase, matrix):
     """
     box, ball = 2 + i, 6 + i
     through, outgoing = np.empty(8), np.empty(8)
-    _field(q, walls, before, phase, through)
-    _field(q, walls_after, after, phase, outgoing)
-    through[box], through[ball] = impact(q.epsilon, q.kappa, through[box], through[ball])
+    fill_rate(q, walls, before, phase, through)
+    fill_rate(q, walls_after, after, phase, outgoing)
+    through[box], through[ball] = impact(q, through[box], through[ball])
     approach = before[box] - before[ball]
     _fill_identity(matrix)
-    matrix[box, box], matrix[ball, box] = impact(q.epsilon, q.kappa, 1.0, 0.0)
-    matrix[box, ball], matrix[ball, ball] = impact(q.epsilon, q.kappa, 0.0, 1.0)
+    matrix[box, box], matrix[ball, box] = impact(q, 1.0, 0.0)
+    matrix[box, ball], matrix[ball, ball] = impact(q, 0.0, 1.0)
     for k in range(8):
         jump = (outgoing[k] - through[k]) / approach
         matrix[k, i] += jump

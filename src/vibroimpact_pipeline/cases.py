@@ -1,0 +1,48 @@
+"""The case of every entry of a config: named by the entry, or else `default_case`. Standard library only."""
+
+import copy
+
+CHAPTER = ("equal", "unequal", "weak")
+"""Cases of the chapter. A config may do without them: see `with_cases`."""
+NOTEBOOKS = ("fixed_points", "theoretical_response", "simulation")
+"""Notebooks of figures that show a case."""
+STUDIES = ("accuracy.benchmark", "report.force_sweep", *(f"regimes.{name}" for name in
+    ("branches", "coexistence", "basins", "decay")))  # fmt: skip
+COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
+
+
+def with_cases(config: dict) -> dict:
+    """Return a copy of a config in which every entry that is about a case names it.
+
+    An entry without a case takes `default_case`, which is the first case unless the config says otherwise; figures of
+    the chapter have to name theirs. If a case of the chapter is not among the cases, what shows it is left out
+    (figures, animations, the mixed point of `regimes.epsilon`), and all other entries about it take the default.
+    Anything malformed is left for the check of the config.
+    """
+    config = copy.deepcopy(config)
+    cases = config.get("cases")
+    if not isinstance(cases, dict) or not cases:
+        return config
+    default = config.get("default_case")
+    default = default if default in list(cases) else next(iter(cases))
+    missing = [case for case in CHAPTER if cases.get(case) is None]
+
+    figures = _at(config, "figures")
+    for shown in (figures, _at(config, "report.animations"), _at(config, "regimes.epsilon")):
+        for name in [name for name, entry in shown.items() if isinstance(entry, dict) and entry.get("case") in missing]:
+            del shown[name]
+    entries = [_at(config, study) for study in STUDIES]
+    entries += [entry for name in COLLECTIONS for entry in _at(config, name).values()]
+    entries += [entry for name, entry in figures.items() if not name.startswith("fig10_")]
+    for entry in entries:
+        about_a_case = isinstance(entry, dict) and entry and entry.get("notebook", NOTEBOOKS[0]) in NOTEBOOKS
+        if about_a_case and entry.get("case") in (None, *missing):
+            entry["case"] = default
+    return config
+
+
+def _at(config, path):
+    """The mapping at "section.key", an empty one if there is none."""
+    for key in path.split("."):
+        config = config.get(key) if isinstance(config, dict) else None
+    return config if isinstance(config, dict) else {}
