@@ -43,7 +43,7 @@ def certificate(system, start):
     from vibroimpact.exact.engine.simulation import Run
 
     state, samples = np.array(start, dtype=float), np.empty((0, 8))
-    run = Run(system, state, 0.0, 1, samples, state, np.empty((0, ROW)), np.zeros(ENTRIES))
+    run = Run(system, state, 0.0, 1, samples, state, [np.empty((0, ROW))], np.zeros(ENTRIES))
     _ = run.certificate, run.jacobian, run.errors([])
 
 

@@ -9,7 +9,17 @@ from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_give
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
 from vibroimpact.exact.engine.event_log import EVALUATIONS, EVENTS
-from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, SPELL, integrate, memory, with_room
+from vibroimpact.exact.engine.event_loop import (
+    EARLIER,
+    FAILURES,
+    FINISHED,
+    PAUSED,
+    SPELL,
+    empty_rows,
+    integrate,
+    is_full,
+    memory,
+)
 from vibroimpact.exact.engine.flow import tables_of, unpacked
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
@@ -146,7 +156,10 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     given = *tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent
     (rows, ledger, where), done = memory(cycles), 0
     while (done := _loop(*given, done, rows, ledger, where)) < len(places):
-        rows = with_room(rows, ledger)
+        if is_full(rows, ledger) and observed:
+            rows = np.concatenate((rows, np.empty_like(rows)))
+        elif is_full(rows, ledger):  # nobody looks at the events
+            empty_rows(ledger, where)
         stop_if_given_up()
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
@@ -188,7 +201,7 @@ def _loop(
             if len(powers) > 0:
                 flights = departures(flow.coefficients, s, events, phase, cycles * period)
                 account(flow, powers, flights, events, opening, spent[n])
-        ledger[:] = 0.0
+        ledger[:], where[EARLIER] = 0.0, 0.0
         if proofs > SPELL:
             return n + 1
     return len(starts)

@@ -51,7 +51,9 @@ SPELL = 200_000  # exclusions, some 20 ms, between two looks for an interrupt
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
-PLACES = 19  # of the numbers that say where a run pauses
+PIECE = 65536  # rows for the events of a long run, 8 MB: the system gives so much at once in large pages
+EARLIER, PLACES = 19, 20
+"""Of the numbers that say where a run pauses the place of the count of events before the rows at hand; their number."""
 
 
 class Course(NamedTuple):
@@ -78,8 +80,8 @@ def integrate(
     numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
     times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
     state after it), and final (8,) if the run is finished. rows, ledger, where: `memory`, filled. Returns the status:
-    PAUSED where rows are full, or after SPELL exclusions, for the interpreter to see to an interrupt; then call again,
-    `with_room`. A number, as the interpreter makes an array of a result with an interrupt half-way.
+    PAUSED if rows are full (`is_full`: make room), or after SPELL exclusions, for the interpreter to see to an
+    interrupt; then call again. A number, as the interpreter makes an array of a result with an interrupt half-way.
     """
     flow = unpacked(numbers, series, rotations)
     if ledger[FLIGHTS] == 0.0:
@@ -87,7 +89,8 @@ def integrate(
         course = Course(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
     else:
         course = _kept(where)
-    course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, Log(rows, ledger))
+    log = Log(rows, ledger)
+    course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, log, where[EARLIER])
     if status == FINISHED:
         pack(course.motion.boxes, course.motion.balls, final)
     _keep(course, where)
@@ -97,13 +100,18 @@ def integrate(
 def memory(cycles):
     """Memory for a run: rows of events, a ledger, and where it pauses."""
     room = min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
-    return np.empty((room, ROW)), np.zeros(ENTRIES), np.empty(PLACES)
+    return np.empty((room, ROW)), np.zeros(ENTRIES), np.zeros(PLACES)
 
 
-def with_room(rows, ledger):
-    """The rows of a run that pauses, twice as many if they are full."""
-    full = ledger[EVENTS] + MOST_AT_ONCE > len(rows)
-    return np.concatenate((rows, np.empty_like(rows))) if full else rows
+def is_full(rows, ledger):
+    """Return True if a run pauses because its rows are full."""
+    return ledger[EVENTS] + MOST_AT_ONCE > len(rows)
+
+
+def empty_rows(ledger, where):
+    """Count the events of full rows as earlier ones: the run goes on at the first row of those that it is given."""
+    where[EARLIER] += ledger[EVENTS]
+    ledger[EVENTS] = 0.0
 
 
 @unfolded
@@ -128,7 +136,7 @@ def _kept(where):
 
 
 @in_place
-def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log):
+def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log, earlier):
     """Run on to the end, or until it pauses: (course, status)."""
     q = flow.coefficients
     (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, course
@@ -150,10 +158,10 @@ def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log)
             log.rows[k, PHASE], log.rows[k, SINE], log.rows[k, COSINE] = phase, sine, cosine
         if remaining == 0.0:
             break
-        most = most_proofs + MOST_PROOFS_PER_EVENT * count
+        most = most_proofs + MOST_PROOFS_PER_EVENT * (earlier + count)
         t, due, later, there = fly(flow, motion, remaining, most, log.ledger)
         stalled = 0 if t > 0.0 else stalled + 1
-        status = _failure(q, later, there, due, stalled, count, most_events)
+        status = _failure(q, later, there, due, stalled, earlier + count, most_events)
         if status != FINISHED:
             break
         if due < 0 and t >= remaining:

@@ -33,7 +33,7 @@ class Run(Glance):
         X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
         leaves it (release); state, (8,), just after the event.
     samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
-    rows, ledger: the kernel's (`event_log`).
+    pieces, ledger: the kernel's events, rows one after another (`event_log`), and its counts.
 
     States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. No array of a run can be written to.
     """
@@ -44,14 +44,14 @@ class Run(Glance):
     cycles: int
     samples: np.ndarray
     final: np.ndarray
-    rows: np.ndarray
+    pieces: list[np.ndarray]
     ledger: np.ndarray
 
-    def __init__(self, system, start, begin, cycles, samples, final, rows, ledger):
+    def __init__(self, system, start, begin, cycles, samples, final, pieces, ledger):
         fields = self.__dict__  # at once, in half of the time that a frozen class takes for one after another
         fields.update(system=system, start=start, begin=begin, cycles=cycles)
-        fields.update(samples=samples, final=final, rows=rows, ledger=ledger)
-        for array in (start, samples, final, rows, ledger):
+        fields.update(samples=samples, final=final, pieces=pieces, ledger=ledger)
+        for array in (start, samples, final, ledger):
             array.flags.writeable = False
 
     def _glance(self):
@@ -63,6 +63,14 @@ class Run(Glance):
             "samples": str(len(self.samples)),
             "final": brief(self.final),
         }
+
+    @cached_property
+    def rows(self) -> np.ndarray:
+        """The kernel's events (n, ROW), in one array from now on."""
+        rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
+        self.pieces[:] = [rows]
+        rows.flags.writeable = False
+        return rows
 
     @cached_property
     def events(self) -> np.ndarray:
@@ -200,13 +208,18 @@ def simulate_many(
 def _run(system, state, cycles, begin, times):
     """One run from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
-    rows, ledger, where = kernel.memory(cycles)
+    (rows, ledger, where), pieces = kernel.memory(cycles), []
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
     while (status := kernel.integrate(*given, rows, ledger, where)) == kernel.PAUSED:
-        rows = kernel.with_room(rows, ledger)
+        if kernel.is_full(rows, ledger):
+            pieces.append(rows[: int(ledger[event_log.EVENTS])])
+            kernel.empty_rows(ledger, where)
+            rows = np.empty((kernel.PIECE, event_log.ROW))
         stop_if_given_up()
     rows = rows[: int(ledger[event_log.EVENTS])]
     if status != kernel.FINISHED:
         what = kernel.FAILURES[status]
-        raise ArithmeticError(f"{what} after {len(rows)} events, tau = {tau0 + (rows[-1, 0] if len(rows) else 0.0)}")
-    return Run(system, state, begin, cycles, samples, final, rows, ledger)
+        last = rows if len(rows) or not pieces else pieces[-1]
+        number, time = sum(map(len, pieces)) + len(rows), last[-1, 0] if len(last) else 0.0
+        raise ArithmeticError(f"{what} after {number} events, tau = {tau0 + time}")
+    return Run(system, state, begin, cycles, samples, final, [*pieces, rows], ledger)
