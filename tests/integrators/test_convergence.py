@@ -9,6 +9,7 @@ from vibroimpact.accuracy.work_precision import fitted_order
 # name, settings from coarse to fine, error of the final state at the finest in the periodic motion
 LADDERS = [
     ("heyoka", (1e-4, 1e-8, 1e-12), 1e-10),
+    ("RK4, compiled", (32, 128, 1_024), 1e-9),
     ("RK45", (1e-4, 1e-6, 1e-8), 1e-6),
     ("DOP853", (1e-5, 1e-8, 1e-11), 1e-9),
     ("Radau", (1e-3, 1e-5, 1e-7), 1e-6),
@@ -39,7 +40,7 @@ def test_error_falls_with_every_finer_setting_and_no_impact_is_lost(name, settin
     assert (found[-1].missed, found[-1].spurious) == (0, 0)
 
 
-ORDERLY = "Moreau-Jean", "penalty", "Hertz", "Hunt-Crossley", "power law", "Ivanov, events", "RK45"
+ORDERLY = "Moreau-Jean", "penalty", "Hertz", "Hunt-Crossley", "power law", "Ivanov, events", "RK4, compiled", "RK45"
 
 
 @pytest.mark.parametrize("name", ORDERLY)
@@ -53,7 +54,8 @@ def test_order_of_convergence(name, method, motion):
     assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
 
 
-FOLLOWED = {"heyoka": 1e-11, "RK45": 1e-6, "DOP853": 1e-9, "Moreau-Jean": 1e-2, "penalty": 1e-3, "Ivanov": 1e-3}
+FOLLOWED = {"modal scan": 1e-11, "heyoka": 1e-11, "RK4, compiled": 1e-9, "RK45": 1e-6, "DOP853": 1e-9, "penalty": 1e-3}
+FOLLOWED |= {"Moreau-Jean": 1e-2, "Ivanov": 1e-3}
 
 
 @pytest.mark.parametrize(("name", "allowed"), FOLLOWED.items())
@@ -71,9 +73,17 @@ def test_the_engine_is_exact_to_rounding(method, motion):
         assert (found.missed, found.spurious) == (0, 0)
 
 
+@pytest.mark.parametrize("name", ["periodic", "chatter"])
+def test_the_modal_form_is_exact_in_flight_whatever_its_looks(name, method, motion):
+    for setting in method("modal scan").ladder:
+        found = errors(method("modal scan"), motion(name), setting)
+        assert found.final < 1e-11
+        assert (found.missed, found.spurious) == (0, 0)
+
+
 def test_methods_report_the_same_impacts(method, motion):
     system, state, cycles, reference = motion("periodic")
-    for name in ("this engine", "heyoka", "DOP853", "Moreau-Jean", "penalty", "power law", "Ivanov", "Ivanov, events"):
+    for name in ("this engine", "modal scan", "heyoka", "RK4, compiled", "DOP853", "Moreau-Jean", "penalty", "Ivanov"):
         rival = method(name)
         impacts = rival.run(system, state, cycles, 0.0, rival.careful).impacts
         assert impacts["module"].tolist() == reference.events["module"].tolist()
@@ -85,7 +95,7 @@ def test_methods_report_the_same_impacts(method, motion):
 def test_a_start_at_another_time_is_respected(method, motion):
     """Mirroring the state and moving the clock by half a period is a symmetry of (10.2)."""
     system, state, cycles, _ = motion("periodic")
-    for name in ("heyoka", "DOP853", "Moreau-Jean", "penalty", "power law", "Ivanov", "Ivanov, events"):
+    for name in ("modal scan", "heyoka", "RK4, compiled", "DOP853", "Moreau-Jean", "penalty", "power law", "Ivanov"):
         rival = method(name)
         setting = rival.ladder[-2]
         one = rival.run(system, state, cycles, 0.0, setting).final

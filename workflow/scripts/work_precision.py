@@ -7,7 +7,7 @@ from vibroimpact.accuracy.work_precision import Problem, measure
 from vibroimpact.figures import work_precision as figure
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
-from vibroimpact.integrators import METHODS
+from vibroimpact.integrators import TIMED
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
@@ -16,7 +16,7 @@ with running(snakemake) as out:
     rows = []
     for name, problem in snakemake.params.problems.items():
         start = Problem(name, System(**problem["system"]), tuple(problem["initial_state"]), problem["cycles"])
-        rows += measure(start, METHODS, snakemake.params.seconds, snakemake.params.short)
+        rows += measure(start, TIMED, snakemake.params.seconds, snakemake.params.short)
     tables.write(pd.DataFrame(rows), out.csv)
     made = provenance.record(snakemake)
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())

@@ -5,13 +5,15 @@ from string import ascii_lowercase
 
 import numpy as np
 
-from vibroimpact.accuracy.reference.run import proven_run, reference_run
-from vibroimpact.accuracy.timing import shortest_time
-from vibroimpact.accuracy.work_precision import Problem, climb
-from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.accuracy.reference.run import reference_run
+from vibroimpact.accuracy.work_precision import Problem
+from vibroimpact.accuracy.work_precision import measure as work_precision
 
-OURS, TAYLOR, EXPLICIT = "this engine", "heyoka", "DOP853"
-EXPLICIT_ACCURACY = 1e-8
+DIGITS = 40
+OURS, CERTIFIED, MODAL, TAYLOR = "this engine", "this engine, certified", "modal scan", "heyoka"
+RUNGE_KUTTA, SCIPY = "RK4, compiled", "DOP853"
+COARSE = 1e-6
+"""The error that the methods of general purpose are asked for."""
 PANELS = {"error_state": "final state", "error_time": "impact times"}
 """Rows of the work-precision chart."""
 ACCURATE, USEFUL = 1e-6, 1e-3
@@ -25,28 +27,14 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     Args:
         seconds: how long each setting is repeated, as in `work_precision.measure`.
     """
-    reference = proven_run(problem.system, problem.state, problem.cycles).run
-    per_impact = 1e6 * problem.cycles / len(reference.events)
-    available = [method for method in methods if not method.available()]
-    rows = [
-        {**row, "us_per_impact": row["seconds_per_cycle"] * per_impact}
-        for method in available
-        for row in climb(problem, method, method.ladder, reference, seconds)
-    ]
+    impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS).events)
+    rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
+    rows = [{**row, "us_per_impact": 1e6 * row["seconds_per_cycle"] * problem.cycles / impacts} for row in rows]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
     return [{**{name: row[name] for name in SHOWN}, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
-def certificate_cost(problem: Problem, seconds: float) -> float:
-    """Time that the certificate of a run takes, flights flown once more, over that of the run itself."""
-    start = np.array([float(value) for value in problem.state])
-    _ = simulate(problem.system, start, problem.cycles).certificate  # compiled, and the tables built
-    alone = shortest_time(lambda: simulate(problem.system, start, problem.cycles), seconds)
-    both = shortest_time(lambda: simulate(problem.system, start, problem.cycles).certificate, seconds)
-    return (both - alone) / alone
-
-
-def unavoidable_error(problem: Problem, digits: int = 40) -> float:
+def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
     """Error that rounding the state to float64 once per forcing cycle causes, all else being exact.
 
     The largest difference of a coordinate, at any whole cycle, between the motion and the one whose state is rounded
@@ -69,12 +57,17 @@ def _after_one_cycle(system, state, digits):
 def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
     """The rows of `measure` in a few numbers, by name; those of integrators that are not there are left out."""
     ours = _fastest(rows, OURS, np.inf)
-    taylor = min(_of(rows, TAYLOR), key=lambda row: row["error_state"], default=None)
-    explicit = _fastest(rows, EXPLICIT, EXPLICIT_ACCURACY)
-    times = {"heyoka at its most accurate": taylor, f"DOP853 at {EXPLICIT_ACCURACY:g}": explicit}
+    times = {
+        "with its certificate": _fastest(rows, CERTIFIED, np.inf),
+        "modal closed form, scan and Newton": _fastest(rows, MODAL, COARSE),
+        f"RK4 and Newton, compiled, at {COARSE:g}": _fastest(rows, RUNGE_KUTTA, COARSE),
+        f"heyoka at {COARSE:g}": _fastest(rows, TAYLOR, COARSE),
+        "heyoka at its most accurate": min(_of(rows, TAYLOR), key=lambda row: row["error_state"], default=None),
+        f"SciPy's DOP853 at {COARSE:g}, in Python": _fastest(rows, SCIPY, COARSE),
+    }
     return {
         "us per impact": ours["us_per_impact"],
-        **{f"times faster than {rival}": row["ratio"] for rival, row in times.items() if row},
+        **{f"times this engine alone, {method}": row["ratio"] for method, row in times.items() if row},
         f"error over the unavoidable {unavoidable:.2g}": ours["error_state"] / unavoidable,
     }
 

@@ -1,64 +1,69 @@
-"""Speed and memory of very many runs: what an ensemble costs beside the runs themselves."""
+"""Speed of very many runs: ensembles beside single runs and beside heyoka's batches, and on all cores."""
 
-import re
-from pathlib import Path
+from functools import partial
 
 import numpy as np
 
-from vibroimpact.accuracy.timing import shortest_time
+from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.exact.engine.all_cores import at_most, cores
 from vibroimpact.exact.engine.ensemble import ensemble
-from vibroimpact.exact.engine.simulation import simulate, simulate_many
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.integrators.heyoka_batch import LANES, HeyokaBatch
+from vibroimpact.integrators.heyoka_taylor import heyoka
 from vibroimpact.system import System
 from vibroimpact.system.state import BALLS, BOXES
 
-SHORT, LONG = 10, 1000
-FEW = 1000
-"""Starts that are run for LONG cycles, or one by one."""
-SECONDS = 2.0
-"""How long a timing is repeated."""
+NEAR, CYCLES = 1e-4, 100
+"""Starts of the settled motion are that near to each other; they are run for so many cycles."""
+RANDOM, SHORT = 20_000, 10
+"""Random starts, and their cycles."""
+TOLERANCES = 1e-6, 1e-12
 
 
-def throughput(system: System, starts: int) -> dict[str, float]:
-    """Times per impact [us] of random starts, and what they are to each other; bytes of memory per start. By name.
+def throughput(system: System, settled, seconds: float) -> list[dict]:
+    """Rows of what is run, "ns per impact", and "ratio" to single runs of the settled motion; all timed in turn.
 
-    What an ensemble costs beside its runs is told against `simulate` over 1000 cycles, where what Python adds to a run
-    does not count; both on one core.
+    Args:
+        settled: state (8,) of a motion without sticking, from which LANES^2 starts are run.
+        seconds: how long each is repeated.
     """
-    states = np.random.default_rng(0).uniform(-0.5, 0.5, (starts, 8))
-    states[:, BALLS[:2]] += states[:, BOXES[:2]]
-    few, more = states[:FEW], states[: 20 * FEW]
-    ensemble(system, few, 1), ensemble(system, few, 1, settle=1), simulate_many(system, few, 1)
-    before = _most_memory(anew=True)
-    seconds, impacts = shortest_time(lambda: ensemble(system, states, SHORT), 0.0), _impacts(system, states, SHORT)
-    kilobytes = _most_memory() - before
-    all_cores = shortest_time(lambda: ensemble(system, more, SHORT), SECONDS) / len(more)
-    single = shortest_time(lambda: simulate_many(system, few, SHORT), SECONDS) / len(few)
-    count = cores()
-    with at_most(1):
-        one_core = shortest_time(lambda: ensemble(system, more, SHORT), SECONDS) / len(more)
-        own = shortest_time(lambda: [simulate(system, state, LONG) for state in few], SECONDS)
-        plain = shortest_time(lambda: ensemble(system, few, LONG, settle=LONG), SECONDS)
-        observed = shortest_time(lambda: ensemble(system, few, LONG), SECONDS)
-    return {
-        "us per impact of long runs": 1e6 * own / _impacts(system, few, LONG),
-        "times as much in an ensemble": plain / own,
-        "times as much in an ensemble that is observed": observed / own,
-        f"us per impact of {starts:,} starts over {SHORT} cycles": 1e6 * seconds / impacts,
-        f"times faster on {count} core(s) than on one": one_core / all_cores,
-        "times faster than simulate_many": single / all_cores,
-        "bytes of memory per start": 1024 * kilobytes / starts,
+    near = np.asarray(settled, dtype=float) + np.linspace(0.0, NEAR, LANES**2)[:, np.newaxis]
+    spread = np.random.default_rng(0).uniform(-0.5, 0.5, (RANDOM, 8))
+    spread[:, BALLS[:2]] += spread[:, BOXES[:2]]
+    random = partial(ensemble, system, spread, SHORT)
+    one_core = {
+        "simulate, one start after another": lambda: [simulate(system, start, CYCLES) and None for start in near],
+        "ensemble": partial(ensemble, system, near, CYCLES, settle=CYCLES),
+        "ensemble, observed": partial(ensemble, system, near, CYCLES),
+        f"ensemble, {RANDOM:,} random starts over {SHORT} cycles": partial(random, settle=SHORT),
+        "ensemble, random starts, observed": random,
     }
+    if heyoka:
+        for tolerance in TOLERANCES:
+            batch = HeyokaBatch(system, tolerance)
+            one_core[f"heyoka, batches of {LANES} at {tolerance:g}"] = partial(_in_batches, batch, near)
+    all_cores = {f"ensemble, random starts on {cores()} core(s), wall time": partial(random, settle=SHORT)}
+    impacts = {len(near): _impacts(system, near, CYCLES), len(spread): _impacts(system, spread, SHORT)}
+    with at_most(1):
+        found = _timed(one_core, seconds)
+    found |= _timed(all_cores, seconds)
+    rows = []
+    for name, time in found.items():
+        count = impacts[len(spread) if "random" in name else len(near)]
+        rows.append({"run": name, "ns per impact": 1e9 * time / count})
+    return [row | {"ratio": row["ns per impact"] / rows[0]["ns per impact"]} for row in rows]
 
 
-def _most_memory(anew=False):
-    """The most memory that this process has had [kB], from now on if asked anew; nan where the system does not tell."""
-    status = Path("/proc/self/status")
-    if not status.exists():
-        return float("nan")
-    if anew:
-        Path("/proc/self/clear_refs").write_text("5")
-    return float(re.search(r"VmHWM:\s+(\d+)", status.read_text())[1])
+def _timed(works, seconds):
+    """Seconds of the fastest call of each, after a first one."""
+    for work in works.values():
+        work()
+    return dict(zip(works, (time for _, time in interleaved(list(works.values()), seconds)), strict=True))
+
+
+def _in_batches(batch, starts):
+    for first in range(0, len(starts), LANES):
+        batch.run(starts[first : first + LANES].T, CYCLES)
 
 
 def _impacts(system, states, cycles):

@@ -7,24 +7,28 @@ from importlib.metadata import PackageNotFoundError, version
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
-def timed(work, seconds: float, most: int = 5000) -> tuple:
-    """What `work` gives, and the seconds of the fastest of several calls of it.
+def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
+    """Call each of several functions again and again, in turn, so that a disturbance of the machine meets all of them.
 
-    There are as many as fit in `seconds`, at least one and at most `most`. Whatever is done only once (compilation,
-    tables) must have been done by a call before.
+    Each is called as often as fits in `seconds`, at least once and at most `most` times. Whatever is done only once
+    (compilation, tables) must have been done by a call before. Returns for each what it gives, and the seconds of its
+    fastest call.
     """
-    best, spent, calls = float("inf"), 0.0, 0
-    while calls == 0 or (spent < seconds and calls < most):
-        start = time.perf_counter()
-        given = work()
-        elapsed = time.perf_counter() - start
-        best, spent, calls = min(best, elapsed), spent + elapsed, calls + 1
-    return given, best
+    given, best = [None] * len(works), [float("inf")] * len(works)
+    spent, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
+    while left:
+        for n in left:
+            start = time.perf_counter()
+            given[n] = works[n]()
+            elapsed = time.perf_counter() - start
+            best[n], spent[n], calls[n] = min(best[n], elapsed), spent[n] + elapsed, calls[n] + 1
+        left = [n for n in left if spent[n] < seconds and calls[n] < most]
+    return list(zip(given, best, strict=True))
 
 
 def shortest_time(work, seconds: float, most: int = 5000) -> float:
-    """The seconds of `timed`."""
-    return timed(work, seconds, most)[1]
+    """The seconds of the fastest of several calls (see `interleaved`)."""
+    return interleaved([work], seconds, most)[0][1]
 
 
 def versions() -> dict[str, str]:

@@ -1,12 +1,13 @@
 """Work against precision: what each method's error is, and what it costs, over its ladder of settings."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.reference.run import proven_run
-from vibroimpact.accuracy.timing import timed
+from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.integrators.protocol import Method, MethodRun
 from vibroimpact.system import System
 
@@ -28,48 +29,56 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
     """One row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
 
     Args:
-        seconds: how long each setting is repeated, after what is compiled at a first call has been compiled.
+        seconds: how long each setting is repeated, all of them in turn, after a first call of each that compiles.
         short: every second setting of each ladder only.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles).run
-    rows = []
-    for method in methods:
-        ladder = method.ladder[::-2][::-1] if short else method.ladder
-        rows += climb(problem, method, ladder, reference, seconds)
-    return rows
+    missing = [method for method in methods if method.available()]
+    settings = [
+        (method, setting)
+        for method in methods
+        if method not in missing
+        for setting in (method.ladder[::-2][::-1] if short else method.ladder)
+    ]
+    for n, (method, setting) in enumerate(settings):
+        if method.compiles_settings or n == 0 or settings[n - 1][0] is not method:
+            _run(problem, method, setting)
+    timed = interleaved([partial(_run, problem, method, setting) for method, setting in settings], seconds)
+    rows = [
+        _row(problem, method, setting, **_measured(problem, run, time, reference))
+        for (method, setting), (run, time) in zip(settings, timed, strict=True)
+    ]
+    orders = {method.name: _order(method, settings, timed, rows) for method in methods if method.order}
+    rows = [{**row, "order": orders.get(row["method"])} for row in rows]
+    unavailable = [_row(problem, method, None, outcome="unavailable", reason=method.available()) for method in missing]
+    places = {method.name: n for n, method in enumerate(methods)}
+    return sorted(rows + unavailable, key=lambda row: places[row["method"]])
 
 
-def climb(problem: Problem, method: Method, ladder, reference, seconds: float) -> list[dict]:
-    """The rows of one method, one per setting of the ladder, against the reference run of the problem."""
-    missing = method.available()
-    if missing:
-        return [_row(problem, method, None, outcome="unavailable", reason=missing)]
-    for setting in ladder if method.compiles_settings else ladder[:1]:
-        _run(problem, method, setting)
-    rows, points = [], []
-    for setting in ladder:
-        run, time = timed(lambda setting=setting: _run(problem, method, setting), seconds)
-        errors = compare(run, reference, problem.system.period)
-        if run.failure is None and errors.missed == errors.spurious == 0:
-            points.append((method.scale(setting, run), errors.final))
-        rows.append(
-            _row(
-                problem,
-                method,
-                setting,
-                error_state=errors.final,
-                error_time=errors.times,
-                missed=errors.missed,
-                spurious=errors.spurious,
-                seconds_per_cycle=time / problem.cycles,
-                steps=run.steps,
-                evaluations=run.evaluations,
-                outcome=run.failure.kind if run.failure else "finished",
-                reason=run.failure.reason if run.failure else (run.doubt() or ""),
-            )
-        )
-    order = fitted_order(points) if method.order else None
-    return [{**row, "order": order} for row in rows]
+def _measured(problem, run, time, reference):
+    """What a run is like: errors, time and steps."""
+    errors = compare(run, reference, problem.system.period)
+    return {
+        "error_state": errors.final,
+        "error_time": errors.times,
+        "missed": errors.missed,
+        "spurious": errors.spurious,
+        "seconds_per_cycle": time / problem.cycles,
+        "steps": run.steps,
+        "evaluations": run.evaluations,
+        "outcome": run.failure.kind if run.failure else "finished",
+        "reason": run.failure.reason if run.failure else (run.doubt() or ""),
+    }
+
+
+def _order(method, settings, timed, rows):
+    """The order of convergence of a method from its runs with the right impacts."""
+    points = [
+        (method.scale(setting, run), row["error_state"])
+        for (one, setting), (run, _), row in zip(settings, timed, rows, strict=True)
+        if one is method and run.failure is None and row["missed"] == row["spurious"] == 0
+    ]
+    return fitted_order(points)
 
 
 def _run(problem, method, setting) -> MethodRun:

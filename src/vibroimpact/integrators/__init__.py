@@ -1,12 +1,26 @@
 """Other integrators of the same system behind one small protocol, to be measured against the engine."""
 
-from vibroimpact.integrators.event_driven import Engine
+from vibroimpact.integrators.event_driven import CertifiedEngine, Engine
 from vibroimpact.integrators.heyoka_taylor import HeyokaTaylor
 from vibroimpact.integrators.ivanov import variants as transformed
 from vibroimpact.integrators.leading_order import LeadingOrder
+from vibroimpact.integrators.modal import Modal
 from vibroimpact.integrators.moreau_jean import MoreauJean
 from vibroimpact.integrators.penalty import variants as compliant
+from vibroimpact.integrators.runge_kutta import RungeKutta4
 from vibroimpact.integrators.solve_ivp import integrators
 
-METHODS = [Engine(), HeyokaTaylor(), *integrators(), MoreauJean(), *compliant(), *transformed(), LeadingOrder()]
+METHODS = [
+    Engine(),
+    Modal(),
+    HeyokaTaylor(),
+    RungeKutta4(),
+    *integrators(),
+    MoreauJean(),
+    *compliant(),
+    *transformed(),
+    LeadingOrder(),
+]
 """Every method, in the order of tables and legends."""
+TIMED = [METHODS[0], CertifiedEngine(), *METHODS[1:]]
+"""The same, and the engine with the certificate of each run."""

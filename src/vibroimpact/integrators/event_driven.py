@@ -23,6 +23,17 @@ class Engine(Method):
         return MethodRun(run.final, partial(_impacts, run), len(run.rows) + 1, doubt=partial(_doubt, run))
 
 
+class CertifiedEngine(Engine):
+    """The same with the certificate of the run, which the others do not have."""
+
+    name = "this engine, certified"
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        run = super().run(system, state, cycles, tau0, setting, limit)
+        run.doubt()
+        return run
+
+
 def _impacts(run):
     """The impacts of a run, without its sticks and releases."""
     rows = run.rows[run.rows[:, KIND] == IMPACT]

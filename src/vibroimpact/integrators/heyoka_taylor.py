@@ -55,6 +55,25 @@ class HeyokaTaylor(Method):
             contacts.resolve(tau, s, [flight.module])
 
 
+def right_hand_side(numbers, stuck=(False, False)):
+    """The state variables, the accelerations of the boxes, and all equations, with the sine and cosine of the phase.
+
+    numbers: those of `coefficients`, as floats or parameters of heyoka.
+    """
+    s, (sine, cosine) = heyoka.make_vars(*STATE), heyoka.make_vars("sine", "cosine")
+    q = dict(zip(NAMES, numbers, strict=True))
+    force = [
+        q["f1"] * sine - q["k11"] * s[0] - q["k12"] * s[2] - q["c11"] * s[4] - q["c12"] * s[6],
+        q["f2"] * sine - q["k12"] * s[0] - q["k22"] * s[2] - q["c12"] * s[4] - q["c22"] * s[6],
+    ]
+    acceleration = [f / (1.0 + q["epsilon"]) if held else f for f, held in zip(force, stuck, strict=True)]
+    equations = [(s[k], s[4 + k]) for k in range(4)]
+    for i in range(2):
+        equations.append((s[4 + BOXES[i]], acceleration[i]))
+        equations.append((s[4 + BALLS[i]], acceleration[i] if stuck[i] else heyoka.expression(0.0)))
+    return s, acceleration, [*equations, (sine, q["omega"] * cosine), (cosine, -q["omega"] * sine)]
+
+
 class _Flight:
     """Where an integrator stopped; module: whose event stopped it, or None at the end; failure: outcome or None."""
 
@@ -72,19 +91,7 @@ class _Integrator:
 
     def __init__(self, tolerance, stuck):
         self.stuck = stuck
-        s = heyoka.make_vars(*STATE)
-        sine, cosine = heyoka.make_vars("sine", "cosine")
-        q = dict(zip(NAMES, (heyoka.par[k] for k in range(len(NAMES))), strict=True))
-        force = [
-            q["f1"] * sine - q["k11"] * s[0] - q["k12"] * s[2] - q["c11"] * s[4] - q["c12"] * s[6],
-            q["f2"] * sine - q["k12"] * s[0] - q["k22"] * s[2] - q["c12"] * s[4] - q["c22"] * s[6],
-        ]
-        acceleration = [f / (1.0 + q["epsilon"]) if held else f for f, held in zip(force, stuck, strict=True)]
-        equations = [(s[k], s[4 + k]) for k in range(4)]
-        for i in range(2):
-            equations.append((s[4 + BOXES[i]], acceleration[i]))
-            equations.append((s[4 + BALLS[i]], acceleration[i] if stuck[i] else heyoka.expression(0.0)))
-        equations += [(sine, q["omega"] * cosine), (cosine, -q["omega"] * sine)]
+        s, acceleration, equations = right_hand_side([heyoka.par[k] for k in range(len(NAMES))], stuck)
         events = [event for i in range(2) for event in self._events(i, s[BOXES[i]] - s[BALLS[i]], acceleration[i])]
         self._taylor = heyoka.taylor_adaptive(equations, [0.0] * 9 + [1.0], tol=tolerance, t_events=events)
         self._state = self._taylor.state  # a view: the integrator's own memory

@@ -6,7 +6,7 @@ from itertools import cycle
 _OKABE_ITO = "#000000", "#D55E00", "#56B4E9", "#0072B2", "#009E73", "#CC79A7", "#E69F00"
 _TOL = "#8C6D31", "#882255", "#999933", "#44AA99", "#332288", "#AA4499", "#7F7F7F"
 _COLOURS = *_OKABE_ITO, *_TOL
-_MARKERS = "*", "D", "o", "s", "^", "v", "P", "X", "<", ">", "d", "p", "H", "8"
+_MARKERS = "*", "D", "o", "s", "^", "v", "P", "X", "<", ">", "d", "p", "H", "8", "h"
 
 
 def looks(methods) -> dict[str, dict]:

@@ -1,0 +1,213 @@
+"""The exact flow between impacts as a sum of modes of the boxes; impacts by a scan and Newton's method, compiled.
+
+The strongest simple method: as exact in flight as the engine, without a proof that nothing happens between two looks.
+"""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.integrators.compiled_contact import (
+    ROOM,
+    acceleration,
+    first_look,
+    guard,
+    inlined,
+    newton_or_middle,
+    resolve,
+)
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import coefficients
+from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
+
+WORST = 1e8
+"""Condition number of the eigenvectors from which on the modes have lost half of their digits."""
+TRIES, NEAR = 60, 3e-8
+"""Steps of Newton's method for an event at most, and the last one, whose square is below rounding."""
+
+
+class Modal(Method):
+    """Setting: looks at the gaps per cycle."""
+
+    name, family, knob = "modal scan", "exact flow", "looks per cycle"
+    ladder = (8, 16, 32, 64, 128, 256)
+    careful = 256
+    limit = 10_000_000
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        tables, condition = modes(system)
+        if not condition < WORST:
+            return failed(REFUSED, f"the boxes' eigenvectors have condition number {condition:.1g}", 0)
+        start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
+        final, rows, looks, tau = _march(coefficients(system), *tables, start, tau0, end, step, limit or self.limit)
+        if tau < end:
+            return failed(UNFINISHED, f"{looks} looks reach tau = {tau:.6g}", looks, noted=rows)
+        return MethodRun(final, rows, looks)
+
+
+@lru_cache(maxsize=64)
+def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
+    """Tables of the four contact states, and the largest condition number of their eigenvectors.
+
+    Tables: numbers of modes, (4,), of which the last is the forcing; their rates, (4, 2, 5), real and imaginary parts;
+    what of [X1, X2, X1', X2'] a mode of amplitude 1 is the real part of, doubled if it stands for a pair, (4, 2, 4, 5);
+    amplitudes of the other modes per free part of these, (4, 2, 4, 4).
+    """
+    counts, worst = np.zeros(4, np.intp), 0.0
+    rates, shapes, inverses = (np.zeros((4, *shape), complex) for shape in ((5,), (4, 5), (4, 4)))
+    for m in range(4):
+        stuck = bool(m & 1), bool(m & 2)
+        values, vectors = np.linalg.eig(rate_matrix(system, stuck)[:4, :4])
+        worst = max(worst, np.linalg.cond(vectors))
+        ours = np.flatnonzero(values.imag >= 0.0)
+        n, counts[m] = len(ours), len(ours) + 1
+        rates[m, : n + 1] = *values[ours], 1j * system.Omega
+        response = np.linalg.solve(dynamic_stiffness(system, stuck), system.forcing) / 1j
+        shapes[m, :, :n] = np.where(values[ours].imag > 0.0, 2.0, 1.0) * vectors[:, ours]
+        shapes[m, :, n] = *response, *(1j * system.Omega * response)
+        inverses[m, :n] = np.linalg.pinv(vectors)[ours]
+    parts = (np.ascontiguousarray(np.stack([table.real, table.imag], axis=1)) for table in (rates, shapes, inverses))
+    return (counts, *parts), worst
+
+
+@inlined()
+def _turn(rates, count, t, turns):
+    """Write what multiplies the amplitudes over a time t, real and imaginary parts (2, 5)."""
+    for k in range(count):
+        size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
+        turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
+
+
+@inlined()
+def _carry(turns, count, amplitudes, later):
+    """Write the amplitudes (2, 5) after a time."""
+    for k in range(count):
+        re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
+        later[0, k], later[1, k] = re * c - im * s, re * s + im * c
+
+
+@inlined()
+def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
+    """Write the amplitudes of the modes and of the forcing in the state s (8,) at tau."""
+    n = count - 1
+    c, d = math.cos(omega * tau), math.sin(omega * tau)
+    amplitudes[0, n], amplitudes[1, n] = c, d
+    for k in range(n):
+        amplitudes[0, k] = amplitudes[1, k] = 0.0
+    for j in range(4):
+        free = s[2 * j] - (shape[0, j, n] * c - shape[1, j, n] * d)
+        for k in range(n):
+            amplitudes[0, k] += inverse[0, k, j] * free
+            amplitudes[1, k] += inverse[1, k, j] * free
+
+
+@inlined()
+def _state(s, walls, count, shape, amplitudes, t, there):
+    """Write the state (8,) a time t after the start s of a flight, with the amplitudes of that time."""
+    for j in range(4):
+        total = 0.0
+        for k in range(count):
+            total += shape[0, j, k] * amplitudes[0, k] - shape[1, j, k] * amplitudes[1, k]
+        there[2 * j] = total
+    for i in range(2):
+        x = 2 * i
+        there[x + 1] = there[x] - walls[i] if walls[i] != 0.0 else s[x + 1] + t * s[x + 5]
+        there[x + 5] = there[x + 4] if walls[i] != 0.0 else s[x + 5]
+
+
+@inlined()
+def _guess(before, there, i, low, high):
+    """The zero of the cubic that has the gap and its slope of module i in two states, by two steps from a secant."""
+    x = 2 * i
+    wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
+    h = high - low
+    a, b = wall * (before[x] - before[x + 1]) - 1.0, wall * (there[x] - there[x + 1]) - 1.0
+    p, q = h * wall * (before[x + 4] - before[x + 5]), h * wall * (there[x + 4] - there[x + 5])
+    c3, c2 = 2.0 * (a - b) + p + q, 3.0 * (b - a) - 2.0 * p - q
+    u = 1.0 - b / q if q > b else 0.5
+    for _ in range(3):
+        slope = p + u * (2.0 * c2 + 3.0 * u * c3)
+        after = u - (a + u * (p + u * (c2 + u * c3))) / slope if slope > 0.0 else 0.5
+        u = after if 0.0 < after < 1.0 else 0.5 * (u + 1.0)
+    return low + u * h
+
+
+@kept(error_model="numpy", fastmath={"contract"})
+def _march(q, counts, all_rates, all_shapes, inverses, s, tau, end, step, limit):
+    """Run in at most `limit` looks: final state, rows [time, module, wall, speed] of impacts, looks, time reached."""
+    walls, ahead = np.zeros(2), np.empty((4, 2, 5))
+    amplitudes, now, trial, turns = np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5))
+    before, there, event, found = np.empty(8), np.empty(8), np.empty(8), np.empty(8)
+    for m in range(4):
+        _turn(all_rates[m], counts[m], step, ahead[m])
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0)
+    looks = 0
+    while tau < end and looks < limit:
+        m = (1 if walls[0] != 0.0 else 0) + (2 if walls[1] != 0.0 else 0)
+        count, rates, shape = counts[m], all_rates[m], all_shapes[m]
+        _amplitudes(s, tau, q[8], count, inverses[m], shape, amplitudes)
+        flight = s, walls, count, shape, rates, amplitudes
+        low, high, due, first = 0.0, first_look(tau, s, q, walls, step), -1, 0.0
+        before[:] = s
+        regular = False
+        while looks < limit:
+            looks += 1
+            last = high >= end - tau
+            if last or not regular:
+                high = end - tau if last else high
+                _turn(rates, count, high, turns)
+                _carry(turns, count, amplitudes, now)
+            else:
+                _carry(ahead[m], count, now, now)
+            _state(s, walls, count, shape, now, high, there)
+            for i in range(2):
+                if guard(tau + high, there, q, walls, i) < 0.0:
+                    t = _event(q, flight, tau, i, (low, high), (before, there), (turns, trial), event)
+                    if due < 0 or t < first:
+                        due, first = i, t
+                        found[:] = event
+            if due >= 0 or last:
+                break
+            low, high, regular = high, high + step, True
+            before[:] = there
+        if due >= 0:
+            s[:] = found
+            tau += first
+            rows, noted = resolve(tau, s, q, walls, due, rows, noted)
+        else:
+            s[:] = there
+            tau = end if last else tau + high
+    return s, rows[:noted], looks, tau
+
+
+@inlined()
+def _event(q, flight, tau, i, times, states, memory, event):
+    """The time between two looks at which the guard of module i falls through zero, and the state then in `event`.
+
+    Newton's method from the zero of a cubic through both looks; halving where that fails.
+    """
+    (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
+    (low, high), (before, there) = times, states
+    t = _guess(before, there, i, low, high) if walls[i] == 0.0 else 0.5 * (low + high)
+    for _ in range(TRIES):
+        _turn(rates, count, t, turns)
+        _carry(turns, count, amplitudes, trial)
+        _state(s, walls, count, shape, trial, t, event)
+        value = guard(tau + t, event, q, walls, i)
+        low, high = (t, high) if value >= 0.0 else (low, t)
+        x, slope = 2 * i, 0.0
+        if walls[i] == 0.0:
+            slope = event[x + 5] - event[x + 4] if event[x] > event[x + 1] else event[x + 4] - event[x + 5]
+        moved, t = t, newton_or_middle(t, value, slope, low, high)
+        if abs(t - moved) <= NEAR:
+            break
+    for k in range(2):
+        box, ball = 4 + 2 * k, 5 + 2 * k
+        rate = acceleration(tau + moved, event, q, walls, k)
+        for j in (box - 4, ball - 4):
+            event[j] += (t - moved) * event[j + 4]
+        event[box] += (t - moved) * rate
+        event[ball] += (t - moved) * rate if walls[k] != 0.0 else 0.0
+    return t

@@ -1,0 +1,107 @@
+"""The classical Runge-Kutta method of fourth order with fixed steps; impacts by Newton's method, all compiled.
+
+What a careful programmer would write by hand, without the interpreter that a call of SciPy spends its time in.
+"""
+
+import math
+
+import numpy as np
+
+from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.integrators.compiled_contact import (
+    ROOM,
+    accelerations,
+    first_look,
+    guard,
+    inlined,
+    newton_or_middle,
+    resolve,
+)
+from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import coefficients
+
+TRIES, NEAR = 60, 1e-14
+"""Steps of Newton's method for an event at most, and the last one."""
+
+
+class RungeKutta4(Method):
+    """Setting: steps per cycle."""
+
+    name, family, knob = "RK4, compiled", "Runge-Kutta", "steps per cycle"
+    ladder = (16, 32, 64, 128, 256, 512, 1024, 2048)
+    careful = 2048
+    limit, order = 10_000_000, 4.0
+
+    def run(self, system, state, cycles, tau0, setting, limit=None):
+        start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
+        final, rows, steps, tau = _march(coefficients(system), start, tau0, end, step, limit or self.limit)
+        if tau < end:
+            return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, noted=rows)
+        return MethodRun(final, rows, steps, 4 * steps)
+
+
+@inlined()
+def _rates(sine, s, q, walls, d):
+    """Write the derivative of the state s (8,)."""
+    a1, a2 = accelerations(sine, s, q, walls)
+    for k in range(4):
+        d[k] = s[4 + k]
+    d[4], d[5] = a1, a1 if walls[0] != 0.0 else 0.0
+    d[6], d[7] = a2, a2 if walls[1] != 0.0 else 0.0
+
+
+@inlined()
+def _step(tau, s, q, walls, h, slopes, there):
+    """Write the state after one step of length h; slopes (4, 8) is memory for the stages."""
+    omega = q[8]
+    middle = math.sin(omega * (tau + 0.5 * h))
+    _rates(math.sin(omega * tau), s, q, walls, slopes[0])
+    for stage in range(1, 4):
+        part = h if stage == 3 else 0.5 * h
+        for k in range(8):
+            there[k] = s[k] + part * slopes[stage - 1, k]
+        _rates(math.sin(omega * (tau + h)) if stage == 3 else middle, there, q, walls, slopes[stage])
+    for k in range(8):
+        there[k] = s[k] + h / 6.0 * (slopes[0, k] + 2.0 * (slopes[1, k] + slopes[2, k]) + slopes[3, k])
+
+
+@inlined()
+def _event(tau, s, q, walls, i, high, slopes, event):
+    """The length of the step at whose end the guard of module i vanishes, below high, and the state then in `event`."""
+    low, t, x = 0.0, 0.5 * high, 2 * i
+    for _ in range(TRIES):
+        _step(tau, s, q, walls, t, slopes, event)
+        value, slope = guard(tau + t, event, q, walls, i), 0.0
+        low, high = (t, high) if value >= 0.0 else (low, t)
+        if walls[i] == 0.0:
+            slope = event[x + 5] - event[x + 4] if event[x] > event[x + 1] else event[x + 4] - event[x + 5]
+        before, t = t, newton_or_middle(t, value, slope, low, high)
+        if abs(t - before) <= NEAR:
+            break
+    return before
+
+
+@kept(error_model="numpy", fastmath={"contract"})
+def _march(q, s, tau, end, step, limit):
+    """The state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
+    walls, slopes = np.zeros(2), np.empty((4, 8))
+    there, event, found = np.empty(8), np.empty(8), np.empty(8)
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0)
+    steps = 0
+    while tau < end and steps < limit:
+        steps += 1
+        h = min(first_look(tau, s, q, walls, step), end - tau)
+        _step(tau, s, q, walls, h, slopes, there)
+        due, first = -1, h
+        for i in range(2):
+            if guard(tau + h, there, q, walls, i) < 0.0:
+                t = _event(tau, s, q, walls, i, h, slopes, event)
+                if due < 0 or t < first:
+                    due, first = i, t
+                    found[:] = event
+        last = due < 0 and h >= end - tau
+        s[:] = found if due >= 0 else there
+        tau = end if last else tau + first
+        if due >= 0:
+            rows, noted = resolve(tau, s, q, walls, due, rows, noted)
+    return s, rows[:noted], steps, tau
