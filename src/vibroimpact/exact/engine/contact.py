@@ -177,9 +177,12 @@ def _meet(flow, motion, i, moment, log):
     wall = 1 if relative > 0.0 else -1
     if i != moment.due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
         return motion, False
+    slow = RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i]))
+    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # it leaves, from where it is
+        return with_contacts(motion, i, 0, wall), False
     balls = with_position(balls, i, boxes[i] - wall)
     motion = with_contacts(with_boxes_and_balls(motion, boxes, balls), i, 0, wall)
-    if abs(velocity) <= RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i])):
+    if abs(velocity) <= slow:
         return with_boxes_and_balls(motion, boxes, with_velocity(balls, i, boxes[2 + i])), False
     if not wall * velocity > 0.0:
         return motion, False
