@@ -74,6 +74,7 @@ function Link(link)
   local name, anchor = link.target:match("^([%w_]+)%.md(#?.*)$")
   if not name then name, anchor = link.target:match("^([%w_]+)%.html(#?.*)$") end
   if not name then return nil end
+  if name == "findings" then name = "index" end
   -- In the repository a document is called by its file, in the report by its title.
   if titles[name] and pandoc.utils.stringify(link.content) == name .. ".md" then
     link.content = pandoc.Inlines(titles[name])

@@ -154,18 +154,6 @@ def test_models_are_told_in_words(site):
         assert told in table
 
 
-def test_each_number_of_the_overview_leads_to_the_claim_that_it_decides(site):
-    claims = {claim["id"]: claim for claim in json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))}
-    html = (site / "claims.html").read_text(encoding="utf-8")
-    assert all(html.count(f'id="{name}"') == 1 for name in claims)
-    overview = (site / "index.html").read_text(encoding="utf-8")
-    told = re.findall(r'<a\s+href="claims.html#([\w-]+)">([\d.]+)</a>', overview)
-    assert len(told) >= 9
-    for name, number in told:
-        values = [value for entry in claims[name]["numbers"].values() for value in np.ravel(entry)]
-        assert any(f"{value:.3g}" == number for value in values), (name, number)
-
-
 def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
     """And every letter in italics too, as which browsers draw it."""
     signs = set(map(chr, TTFont(FONT).getBestCmap()))

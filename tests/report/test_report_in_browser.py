@@ -327,7 +327,7 @@ def test_a_wall_lights_up_when_it_is_hit(browser, site):
 
 
 def test_motions_lie_over_each_other_and_each_can_be_taken_away(browser, site):
-    browser.open(address(site, "index"))
+    browser.open(address(site, "motion"))
     lines = "[...document.querySelectorAll('[data-layers] polyline')]"
     shown = f"{lines}.filter(line => line.getAttribute('visibility') == 'visible')"
     names = f"{shown}.map(line => line.dataset.name)"
@@ -346,7 +346,7 @@ def test_motions_lie_over_each_other_and_each_can_be_taken_away(browser, site):
 
 
 def test_a_number_of_the_findings_tells_its_source_by_keyboard(browser, site):
-    browser.open(address(site, "findings"))
+    browser.open(address(site, "index"))
     assert browser.run("document.querySelectorAll('.sourced').length") > 25
     browser.run("document.querySelector('.sourced').focus()")
     open_ones = "[...document.querySelectorAll('.source:popover-open')].map(source => source.textContent)"

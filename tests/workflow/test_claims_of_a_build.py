@@ -12,8 +12,8 @@ from vibroimpact_pipeline.report.results import Results
 
 EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
-LADDER = (ROOT / "docs/ladder.md").read_text(encoding="utf-8")
-SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", FINDINGS + LADDER)
+DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md")))
+SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", DOCUMENTS)
 """Numbers of documents with the place in a build that each is from."""
 CHAOTIC = tuple(
     f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
@@ -100,15 +100,20 @@ def test_long_runs_are_among_the_sources():
 
 
 def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_findings(built):
-    bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", FINDINGS).groups()
+    bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", DOCUMENTS).groups()
     place = "regimes/spectra.csv", 'case == "weak" and start == "spread" and quantity == "Kaplan-Yorke dimension"'
     mean, error = (Results(built / "results").value(*place, column) for column in ("mean", "uncertainty"))
     assert float(bounds[0]) < mean - 5 * error < mean + 5 * error < float(bounds[1])
 
 
-def test_the_findings_list_what_does_not_hold():
-    listed = dict(re.findall(r"^\| `(\S+)` \| ([^|]+) \|", FINDINGS, flags=re.MULTILINE))
-    assert listed == {name: verdict for name, verdict in EXPECTED.items() if verdict != "holds"}
+def test_the_matrix_of_criteria_is_that_of_the_results(built):
+    points = pd.read_csv(built / "results/fixed_points.csv").set_index(["case", "label"])
+    both = points[["masri_derived", "slow_flow"]].eq("stable").all(axis=1).map({True: "stable", False: "unstable"})
+    points = points.assign(both=both)[["printed_10_26", "masri_derived", "both", "floquet"]]
+    told = re.findall(r"^\| (\w+) ([a-c]) \| (\w+) \| (\w+) \| (\w+) \| (\w+) \|$", FINDINGS, flags=re.MULTILINE)
+    assert {(case, label): verdicts for case, label, *verdicts in told} == dict(
+        zip(points.index, points.to_numpy().tolist(), strict=True)
+    )
 
 
 def test_the_findings_quote_numbers_and_show_figures_that_exist(built):

@@ -48,7 +48,7 @@ SPEC = {
             "peak of the balls measured again, or the linear system", "values": ["balls", "one ball", "lowest peak",
             "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
         "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
-            "compared": "algebra"},
+            "compared": {"lowest peak": "extremes", "others": "algebra"}},
         "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls also of "
             "all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
             "one ball": "extremes", "lowest peak": "extremes", "others": "algebra"}},

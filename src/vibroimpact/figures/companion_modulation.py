@@ -68,8 +68,8 @@ SPEC = {
             "unit": "forcing periods", "compared": {"window": "algebra", "others": "sample"}},
         "longer": {"meaning": "part of the bursts, of all strongly modulated spread starts of the case, that are at "
             "least this long", "unit": "share", "compared": "sample"},
-        "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods", "compared": "algebra"
-            },
+        "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods",
+            "compared": "cycles left out"},
         "estimate": {"meaning": "the exponent after so many cycles, mean over the strongly modulated spread starts",
             "unit": "per forcing period", "compared": "running means"},
         "spread": {"meaning": "the standard error that the bootstrap expects of it", "unit": "per forcing period",

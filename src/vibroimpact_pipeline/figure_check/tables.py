@@ -141,7 +141,10 @@ def _middle_of_decades(old, new, scales):
 
 def _part_of_rows(old, new, scales):
     numbers = pd.api.types.is_numeric_dtype(old)
-    differs = _shares(old, new, scales) > SAME if numbers else (old.fillna("") != new.fillna("")).to_numpy()
+    if numbers:
+        differs = _shares(old, new, scales) > SAME
+    else:  # as arrays: rows after a sample of another size have other numbers
+        differs = old.fillna("").to_numpy() != new.fillna("").to_numpy()
     return differs.mean(), int(differs.argmax())
 
 

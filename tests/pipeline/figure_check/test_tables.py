@@ -81,6 +81,19 @@ def test_outcomes_are_texts_that_may_differ_and_others_may_not(monkeypatch):
     assert compare(old, new, VALUE)[0] == ["a, s, one: 2 rows instead of 1", "a, s, two: 2 rows instead of 3"]
 
 
+def test_outcomes_after_a_sample_of_another_size_are_compared(monkeypatch):
+    monkeypatch.setitem(tables.KINDS, "outcome", {"limits": {"part of rows": 0.3}})
+    monkeypatch.setitem(tables.KINDS, "some", {"limits": {"distribution": 9.0}})
+    columns = {"value": {"compared": {"dots": "some"}}, "label": {"compared": {"ends": "outcome"}}}
+    old, new = (
+        join([curve("a", "dots", value=np.arange(size)), curve("a", "ends", label=["one", "two", "two", last])])
+        for size, last in ((3.0, "two"), (5.0, "one"))
+    )
+    reasons, found = compare(old, new, columns)
+    assert reasons == []
+    assert [one["distance"] for one in found if one["column"] == "label"] == [0.25]
+
+
 def test_a_series_has_a_kind_of_its_own(monkeypatch):
     monkeypatch.setitem(tables.KINDS, "some", {"limits": {"distribution": 1.0}})
     monkeypatch.setitem(tables.KINDS, "kind", {"limits": {"largest": 1.0}})
