@@ -7,7 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from vibroimpact.theory import penetration
+from vibroimpact.theory import manifold as penetration
 
 kappas = st.floats(0.001, 0.999)
 

@@ -8,7 +8,7 @@ from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes.slow_variables import measure
-from vibroimpact.theory.power import mean_power
+from vibroimpact.theory.response import mean_power
 
 PLACES = np.linspace(0.05, 0.4, 8)
 

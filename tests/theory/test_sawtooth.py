@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.manifold import sawtooth
 
 angle = st.floats(-50, 50)
 amplitude = st.floats(-5, 5)

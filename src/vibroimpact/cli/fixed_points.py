@@ -2,8 +2,7 @@
 
 from vibroimpact.cli.table import Table
 from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 HELP = "all fixed points of the slow flow, with what the criteria of stability say"
 COLUMNS = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA, "theory")

@@ -15,8 +15,7 @@ from vibroimpact.figures.kit.tables import join
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 SPEC = {
     "title": "Fixed points over the second force",

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from vibroimpact.theory.asymmetric import branch
-from vibroimpact.theory.asymmetric.charts import ASYMMETRIC, charts
+from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, charts
 
 v, kappa, u, J, B, C, P, Q = sp.symbols("v kappa u J B C P Q", positive=True)
 x, a, b = sp.symbols("x a b", real=True)

@@ -10,9 +10,8 @@ from scipy.optimize import root
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory import manifold
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import search
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.fixed_points.search import labels, search, search_radius
+from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import rates
 
 CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
@@ -131,7 +130,7 @@ def test_powers_balance_and_exchanged_modules_have_exchanged_points(system):
     f = np.array([system.f10_hat, system.f20_hat])
     ours = found.points + found.outside
     for point in ours:
-        assert np.linalg.norm(point.C) <= found.radius
+        assert np.linalg.norm(point.C) <= search_radius(system)
         b = point.B * np.exp(-1j * point.psi)
         dampers = np.array([system.gamma1_hat, system.gamma2_hat]) @ point.B**2
         dampers += system.gamma12_hat * abs(b[0] - b[1]) ** 2
