@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
 from vibroimpact.theory.manifold import stays_within_walls

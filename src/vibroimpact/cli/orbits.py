@@ -1,7 +1,7 @@
 """vibroimpact orbits"""
 
 from vibroimpact.cli.table import Table
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import orbits
 
 HELP = "all periodic responses of the exact system with two impacts per cycle and module"

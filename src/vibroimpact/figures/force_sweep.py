@@ -7,7 +7,7 @@ from scipy.optimize import linear_sum_assignment
 
 from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.claims.verdict_table import NO_ORBIT
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
