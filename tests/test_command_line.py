@@ -10,9 +10,9 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from vibroimpact.cli.commands import Table
 from vibroimpact.cli.parser import main
 from vibroimpact.cli.plots import curves
-from vibroimpact.cli.table import Table
 
 
 def table(capsys, *arguments):

@@ -1,3 +1,6 @@
+from vibroimpact.absorbers.decay import decay_time as decay_time
+from vibroimpact.absorbers.references import Tuning as Tuning
+from vibroimpact.absorbers.references import tuned as tuned
 from vibroimpact.exact.engine.certificate import Certificate as Certificate
 from vibroimpact.exact.engine.energy import ENERGY as ENERGY
 from vibroimpact.exact.engine.energy import Energy as Energy
@@ -9,6 +12,12 @@ from vibroimpact.exact.engine.simulation import simulate as simulate
 from vibroimpact.exact.engine.simulation import simulate_many as simulate_many
 from vibroimpact.exact.orbits.search import Orbit as Orbit
 from vibroimpact.exact.orbits.search import orbits as orbits
+from vibroimpact.exact.orbits.search import prove as prove
+from vibroimpact.frames import to_frame as to_frame
+from vibroimpact.studies import best_tuning as best_tuning
+from vibroimpact.studies import branches as branches
+from vibroimpact.studies import sweep as sweep
+from vibroimpact.studies import textbook_tuning as textbook_tuning
 from vibroimpact.system import PhysicalSystem as PhysicalSystem
 from vibroimpact.system import System as System
 from vibroimpact.system.state import EVENT as EVENT

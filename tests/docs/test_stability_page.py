@@ -13,8 +13,8 @@ from pipeline_trees import ROOT
 from verdict_tables import verdicts_of
 from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.theory.manifold import largest_C
 from vibroimpact.theory.masri import impact_multipliers
-from vibroimpact.theory.penetration import largest_C
 
 PAGE = (ROOT / "docs/stability.md").read_text(encoding="utf-8")
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}

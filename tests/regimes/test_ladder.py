@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq, fsolve
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits.harmonics import HarmonicResponse
+from vibroimpact.exact.orbits.impulse_response import HarmonicResponse
 from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes import two_terms

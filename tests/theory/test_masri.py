@@ -14,7 +14,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import masri
-from vibroimpact.theory.masri_printed import limit_with_squares, printed_limit
+from vibroimpact.theory.masri import limit_with_squares, printed_limit
 
 kappas = st.floats(0.05, 0.95)
 FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)

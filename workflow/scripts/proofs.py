@@ -10,23 +10,22 @@ import json
 from pathlib import Path
 
 from vibroimpact.claims.orbit_proofs import counts
-from vibroimpact.exact.orbits import certify as symmetric_orbits
+from vibroimpact.exact.orbits.certify import certify as certify_orbits
 from vibroimpact.figures.kit import tables
 from vibroimpact.system import System
-from vibroimpact.theory.asymmetric import certify as asymmetric_points
-from vibroimpact.theory.fixed_points import certify as fixed_points
+from vibroimpact.theory.certify import certify, certify_asymmetric
 from vibroimpact_pipeline.jobs import running
 
 CERTIFIED = {
-    "fixed_points": fixed_points,
-    "asymmetric_fixed_points": asymmetric_points,
-    "symmetric_orbits": symmetric_orbits,
+    "fixed_points": certify,
+    "asymmetric_fixed_points": certify_asymmetric,
+    "symmetric_orbits": certify_orbits,
 }
 
 
 def proofs_of(system, table, search) -> dict:
     """Return the proofs on one case; for asymmetric orbits, the search effort."""
-    proofs = {name: module.certify(system) for name, module in CERTIFIED.items()}
+    proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},
         "asymmetric_orbits": json.loads(Path(search).read_text(encoding="utf-8")),

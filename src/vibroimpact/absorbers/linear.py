@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import eigvals, expm
 from scipy.optimize import brentq, minimize_scalar
 
-from vibroimpact.system.arguments import real, whole
+from vibroimpact.system.arguments import pair, real, whole
 
 POINTS = 400
 """Frequencies looked at in a band, the natural ones besides; every hump among them is searched for its peak."""
@@ -137,7 +137,7 @@ def checked_band(band) -> tuple[float, float]:
     Raises:
         ValueError: they are not.
     """
-    low, high = (real("band", end) for end in band)
+    low, high = pair("band", band)
     if not 0 < low < high:
         raise ValueError(f"band: ({low}, {high}) is no band of frequencies; needs 0 < low < high")
     return low, high

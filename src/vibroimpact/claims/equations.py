@@ -6,8 +6,7 @@ from scipy.integrate import quad
 from vibroimpact.claims.finding import Finding, as_printed
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
-from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_phase, rho
-from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_phase, rho, sawtooth
 
 CHECKS = (
     "small_balls",

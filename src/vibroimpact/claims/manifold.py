@@ -6,11 +6,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, rho
-from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
-from vibroimpact.theory.masri_printed import limit_with_squares, printed_limit
-from vibroimpact.theory.penetration import largest_C
-from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
+from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
 
 CHECKS = (
     "fold_of_the_manifold",

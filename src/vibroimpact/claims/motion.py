@@ -13,7 +13,7 @@ from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.fixed_points.search import fixed_points
-from vibroimpact.theory.penetration import stays_within_walls
+from vibroimpact.theory.manifold import stays_within_walls
 
 CHECKS = (
     "steady_two_impacts",

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from vibroimpact.exact.orbits.proof.orbit import prove
-from vibroimpact.exact.orbits.proof.walls import NOT_PROVED
+from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
 
 
 def proof_rows(orbits) -> pd.DataFrame:

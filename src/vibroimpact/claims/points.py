@@ -8,10 +8,8 @@ from scipy.optimize import brentq
 from vibroimpact.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.criteria import fast_and_slow
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.polynomials import Balance
-from vibroimpact.theory.fixed_points.search import fixed_points, search
-from vibroimpact.theory.fixed_points.singular_points import determinant, singular_points
+from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import rates
 

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from vibroimpact.claims.verdict_table import NO_ORBIT, partners
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
 from vibroimpact.regimes.cells import plane_of_forces

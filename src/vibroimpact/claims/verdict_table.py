@@ -3,10 +3,10 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
-from vibroimpact.theory.penetration import stays_within_walls
+from vibroimpact.theory.manifold import stays_within_walls
 
 CRITERIA = (*criteria.CRITERIA, "floquet")
 NO_ORBIT = "no orbit"

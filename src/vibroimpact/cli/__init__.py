@@ -1,1 +1,1 @@
-"""The command line: one sub-command per file, each with its options and the table it computes; plots beside them."""
+"""The command line: the commands and their tables, the pictures beside them, the parser."""

@@ -8,10 +8,8 @@ from importlib import import_module
 from pathlib import Path
 
 import vibroimpact
-from vibroimpact.cli import fixed_points, orbits, response, simulate, system_options
-from vibroimpact.cli.table import Table
+from vibroimpact.cli.commands import COMMANDS, Table, add_system_options, system_of
 
-COMMANDS = {"fixed-points": fixed_points, "orbits": orbits, "simulate": simulate, "response": response}
 PICTURES = (".png", ".pdf", ".svg")
 
 
@@ -38,11 +36,11 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
-        own = commands.add_parser(name, help=command.HELP, description=command.HELP + ", as CSV")
+        own = commands.add_parser(name, help=command.help, description=command.help + ", as CSV")
         command.add_options(own)
         own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV there instead of standard output")
         own.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
-        system_options.add(own)
+        add_system_options(own)
         own.set_defaults(run=_tell, command=name, parser=own)
     words = "compile the simulation beforehand, once for a machine"
     commands.add_parser("compile", help=words, description=words).set_defaults(run=_compile)
@@ -59,7 +57,7 @@ def _tell(options) -> int:
     try:
         plots = _plots(options)
         _check_folders(options)
-        table = COMMANDS[options.command].compute(system_options.system_of(options), options)
+        table = COMMANDS[options.command].compute(system_of(options), options)
         if plots:
             plots.DRAW[options.command](table).savefig(options.plot)
         _put(table, options.output)

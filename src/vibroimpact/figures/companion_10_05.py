@@ -6,10 +6,8 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, UNSTABLE, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.theory.manifold import rho
-from vibroimpact.theory.masri import lower_limit, upper_limit
-from vibroimpact.theory.masri_printed import printed_limit
-from vibroimpact.theory.penetration import largest_C
+from vibroimpact.theory.manifold import largest_C, rho
+from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "Stability regions as derived",

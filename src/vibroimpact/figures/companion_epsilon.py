@@ -20,8 +20,7 @@ from vibroimpact.figures.kit.style import (
 )
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 SPEC = {
     "title": "How the error of the theory falls with epsilon",

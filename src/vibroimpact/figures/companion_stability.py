@@ -22,8 +22,7 @@ from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.manifold import rho
-from vibroimpact.theory.masri import lower_limit, upper_limit
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "Four criteria side by side",

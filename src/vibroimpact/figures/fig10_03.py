@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.manifold import sawtooth
 
 SPEC = {
     "title": "The saw-tooth function",

@@ -8,8 +8,7 @@ from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
-from vibroimpact.theory.masri import impact_multipliers, lower_limit, upper_limit
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "The slow invariant manifold",

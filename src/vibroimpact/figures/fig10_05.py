@@ -8,8 +8,7 @@ from vibroimpact.figures.kit.markdown import EXACTLY
 from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
-from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers, printed_limit
 
 SPEC = {
     "title": "Stability regions as printed",

@@ -8,7 +8,7 @@ from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.manifold import branches, draw_branches
 from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.theory.fixed_points.singular_points import singular_points
+from vibroimpact.theory.fixed_points.balance import singular_points
 
 SPEC = {
     "title": "Fixed points for equal forces",

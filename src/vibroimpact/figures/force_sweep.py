@@ -7,7 +7,7 @@ from scipy.optimize import linear_sum_assignment
 
 from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.claims.verdict_table import NO_ORBIT
-from vibroimpact.exact.orbits.floquet_verdict import floquet
+from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.kit.manifold import branches
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
@@ -15,8 +15,7 @@ from vibroimpact.figures.kit.tables import join
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 SPEC = {
     "title": "Fixed points over the second force",

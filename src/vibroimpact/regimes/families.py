@@ -186,7 +186,7 @@ class FixedPoints:
         """The FixedPoint that a root stands for."""
         C, psi = x[0::2], x[1::2]
         values = slow_eigenvalues(system, psi, C)
-        return FixedPoint(C=C, B=B_of_C(C, rho(system.kappa)), psi=psi, slow_eigenvalues=values, multiple=False)
+        return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:

@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.orbits.floquet_verdict import floquet
-from vibroimpact.exact.orbits.harmonics import HarmonicResponse
-from vibroimpact.exact.orbits.impulse_response import impulse_response
+from vibroimpact.exact.orbits.floquet import floquet
+from vibroimpact.exact.orbits.impulse_response import HarmonicResponse, impulse_response
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes import two_terms

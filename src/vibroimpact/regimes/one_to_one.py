@@ -7,8 +7,7 @@ import numpy as np
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.regimes.families import FixedPoints, SymmetricOrbits
 from vibroimpact.theory.fixed_points.search import search
-from vibroimpact.theory.power import mean_power
-from vibroimpact.theory.response import leading_order
+from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512
 """Of half a period: a largest value between two of them is larger by 5e-6 of itself at most."""

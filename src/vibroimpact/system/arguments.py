@@ -12,9 +12,11 @@ def instance(name: str, value, kind: type):
     """The value, if it is of a kind.
 
     Raises:
-        ValueError: it is not.
+        ValueError: it is not; where it would be after `dimensionless()`, the message says so.
     """
     if not isinstance(value, kind):
+        if hasattr(value, "dimensionless"):
+            raise ValueError(f"{name}: a {type(value).__name__} is not a {kind.__name__}; call .dimensionless()")
         raise ValueError(f"{name}: {shown(value)} is not a {kind.__name__}")
     return value
 
@@ -34,6 +36,19 @@ def real(name: str, value) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{name}: {shown(value)} is not finite")
     return number
+
+
+def pair(name: str, values) -> tuple[float, float]:
+    """Two finite real numbers, of a list, a tuple or an array.
+
+    Raises:
+        ValueError: they are not.
+    """
+    try:
+        one, two = values
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: {shown(values)} is not a pair of numbers") from None
+    return real(name, one), real(name, two)
 
 
 def whole(name: str, value, least: int, most: int) -> int:

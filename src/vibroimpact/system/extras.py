@@ -12,6 +12,6 @@ def need(extra: str, *packages: str) -> None:
     missing = [package for package in packages if find_spec(package) is None]
     if missing:
         raise ModuleNotFoundError(
-            f"this part of vibroimpact needs {' and '.join(missing)}: pip install 'vibroimpact[{extra}]'",
+            f"this part of vibroimpact needs {' and '.join(missing)}: pip install '.[{extra}]'",
             name=missing[0],
         )

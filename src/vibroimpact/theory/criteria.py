@@ -4,18 +4,35 @@ Each answers "stable", "unstable" or "undecided"; undecided only where its value
 threshold. Both modules must be stable.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.linalg import eig
 
 from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
-from vibroimpact.theory.manifold import B_of_C, impact_phase, rho
-from vibroimpact.theory.masri_printed import printed_limit
-from vibroimpact.theory.slow_flow import linearisation, rates
+from vibroimpact.theory.manifold import impact_phase, rho
+from vibroimpact.theory.masri import printed_limit
+from vibroimpact.theory.slow_flow import equations, linearisation
 
 CRITERIA = ("printed_10_26", "masri_derived", "slow_flow")
 _STEP = 1e-6
 _ULPS = 16 * np.finfo(float).eps
+
+
+class Stability(NamedTuple):
+    """Verdicts on a motion, "stable", "unstable" or "undecided": of impacts at B and phi held, and of the slow flow."""
+
+    fast: str
+    slow: str
+
+    @property
+    def both(self) -> str:
+        """The verdict of both together."""
+        return all_stable(self)
+
+    def __str__(self) -> str:
+        return f"{self.both} (fast {self.fast}, slow {self.slow})"
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
@@ -56,7 +73,7 @@ def of_orbit(orbit) -> dict[str, str]:
 
 def fast_and_slow(says) -> str:
     """The theory's verdict on both time scales, from verdicts by criterion: Masri's analysis and the slow flow."""
-    return all_stable(says[name] for name in ("masri_derived", "slow_flow"))
+    return Stability(says["masri_derived"], says["slow_flow"]).both
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
@@ -76,8 +93,7 @@ def fixed_point_error(system, point) -> float:
     """
     if point.multiple:
         return np.inf
-    J, _ = linearisation(system, point.psi, point.C)
-    residual = np.ravel(rates(system, B_of_C(point.C, rho(system.kappa)), point.psi, point.C), order="F")
+    residual, J = equations(system, point.psi, point.C)
     noise = _ULPS * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * np.abs(np.column_stack([point.C, point.psi]).ravel()))
     return float((np.abs(np.linalg.inv(J)) @ (np.abs(residual) + noise)).max())
 

@@ -1,6 +1,6 @@
 """Masri's perturbation analysis of two impacts per cycle, B and phi held: multipliers, limits, verdict.
 
-What the chapter prints of it, (10.26), is in masri_printed.py and does not agree.
+What the chapter prints of it, (10.26), does not agree: see `printed_limit`.
 
 Derived in docs/stability.md. Perturbations of impact time and ball speed pass from each impact to the next by a map
 with determinant kappa^2 and trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), seen mirrored. A multiplier leaves the
@@ -68,3 +68,13 @@ def stable(C: float, kappa: float, error: float = 0.0) -> str:
     """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))
+
+
+def printed_limit(rho):
+    """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho), shape of rho."""
+    return 4 / (4 + np.pi * rho)
+
+
+def limit_with_squares(rho):
+    """(10.26) if its squares were lost in print: 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2))."""
+    return 4 / (4 + (np.pi * rho) ** 2)

@@ -47,6 +47,16 @@ def rates_from_phasors(system, B, cosine, sine, C):
     return dB, dpsi
 
 
+def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
+    """D_1 of (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and its derivative by (C_1, psi_1, C_2, psi_2), (4, 4).
+
+    Args:
+        psi, C: phases [rad] and saw-tooth amplitudes, each shape (2,).
+    """
+    rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
+    return rest, linearisation(system, psi, C)[0]
+
+
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
 

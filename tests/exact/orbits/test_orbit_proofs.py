@@ -13,10 +13,9 @@ from attacks import random_system  # noqa: E402
 from chapter import FORCES, PARAMETERS  # noqa: E402
 from stroboscope import ORDER, Stroboscope  # noqa: E402
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions  # noqa: E402
-from vibroimpact.exact.orbits.floquet_verdict import floquet  # noqa: E402
+from vibroimpact.exact.orbits.floquet import floquet  # noqa: E402
 from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions  # noqa: E402
-from vibroimpact.exact.orbits.proof.krawczyk import krawczyk  # noqa: E402
-from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
+from vibroimpact.exact.orbits.proof.orbit import krawczyk, prove  # noqa: E402
 from vibroimpact.exact.orbits.search import symmetric_orbit  # noqa: E402
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions  # noqa: E402
 

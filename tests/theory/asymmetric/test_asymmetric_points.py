@@ -8,11 +8,11 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.theory.asymmetric import branch, certify
-from vibroimpact.theory.asymmetric.charts import ASYMMETRIC, charts
+from vibroimpact.theory import certify
+from vibroimpact.theory.asymmetric import branch
+from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, charts
 from vibroimpact.theory.asymmetric.search import fixed_points, search
-from vibroimpact.theory.manifold import B_of_C, impact_phase, rho
-from vibroimpact.theory.sawtooth import sawtooth
+from vibroimpact.theory.manifold import B_of_C, impact_phase, rho, sawtooth
 from vibroimpact.theory.slow_flow import impedances
 
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -29,7 +29,7 @@ def points(case):
 
 @functools.cache
 def proof(case):
-    return certify.certify(SYSTEMS[case])
+    return certify.certify_asymmetric(SYSTEMS[case])
 
 
 def harmonic(system, skewed, squared, C):
@@ -100,8 +100,8 @@ def test_none_is_missed(case):
 def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
     listed = points("equal")
     for spoilt in (listed[1:], [*listed, listed[0]]):
-        monkeypatch.setattr(certify, "search", lambda system, spoilt=spoilt: spoilt)
-        assert not certify.certify(SYSTEMS["equal"]).complete
+        monkeypatch.setattr(certify.asymmetric, "search", lambda system, spoilt=spoilt: spoilt)
+        assert not certify.certify_asymmetric(SYSTEMS["equal"]).complete
 
 
 def test_without_coupling_each_module_is_on_its_own():

@@ -25,7 +25,9 @@ def checked_state(state) -> np.ndarray:
     """
     state = reals("state", state)
     values = state.tolist()
-    if state.shape != (8,) or not all(map(math.isfinite, values)):
+    if state.shape != (8,):
+        raise ValueError(f"state: needs shape (8,), got {state.shape}")
+    if not all(map(math.isfinite, values)):
         raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
     x1, y1, x2, y2 = values[:4]
     if abs(x1 - y1) > 1.0 or abs(x2 - y2) > 1.0:

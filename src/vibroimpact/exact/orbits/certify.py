@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.orbits.proof.boxes import SteadyBoxes
+from vibroimpact.exact.orbits.proof.conditions import SteadyBoxes
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system.extras import need
 

@@ -2,21 +2,22 @@
 
 import numpy as np
 
-_STALLED = 1e-8  # steps near a double root come to rest at about the root of rounding
+_STEPS = 30
+_SETTLED, _STALLED = 1e-12, 1e-8  # the second, the root of rounding, near a double root where all steps are used up
 
 
-def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5, tolerance: float = 1e-12):
+def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """Roots reached from `starts`, shape (n, d), in no particular order and with repetitions.
 
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
-    `reach` in every component. A start has converged once its step is below `tolerance` (1 + |x|), or, if all steps are
-    used up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
+    `reach` in every component. A start has converged once its step is below 1e-12 (1 + |x|), or, if all steps are used
+    up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
 
     What starts have beyond the d unknowns stays as it is, for the equations to use.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
-    for count in range(1, steps + 1):
+    for limit in [_SETTLED] * (_STEPS - 1) + [_STALLED]:
         if not len(x):
             break
         residual, jacobian = equations(x)
@@ -26,7 +27,6 @@ def newton(equations, starts: np.ndarray, *, steps: int = 30, reach: float = 0.5
         size = np.abs(step).max(axis=1, initial=0.0)
         x, unknowns = x[regular], slice(step.shape[1])
         x[:, unknowns] += step * np.minimum(1.0, reach / np.maximum(size, reach))[:, None]
-        limit = tolerance if count < steps else _STALLED
         done = size < limit * (1.0 + np.abs(x[:, unknowns]).max(axis=1, initial=0.0))
         found.append(x[done])
         x = x[~done]

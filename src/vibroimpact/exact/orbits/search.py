@@ -1,13 +1,13 @@
 """All 1:1 responses of the exact system (10.2) with two impacts per forcing cycle and module, one at each wall."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import expm
 
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
-from vibroimpact.exact.orbits.floquet import Passage, follow, impact_sequence, multipliers
+from vibroimpact.exact.orbits.floquet import Passage, floquet, follow, impact_sequence, multipliers
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
@@ -16,6 +16,7 @@ from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
 _SAMPLES = 4096  # of each flight at a time, so that memory does not grow with the period
@@ -38,6 +39,7 @@ class Orbit(Glance):
     excursion: the largest |W_i| at its extrema between impacts, at a wall 1; 0 if no flight has an extremum.
     admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
     residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
+    proof: what is proved of it, see `with_proof`; None so far.
     """
 
     system: System
@@ -50,11 +52,52 @@ class Orbit(Glance):
     excursion: float
     admissible: bool
     residual: float
+    proof: object = None
+
+    @property
+    def stability(self) -> str:
+        """ "stable", "unstable" or "undecided": as proved, else by the computed multipliers and their errors."""
+        return self.proof.stability if self.proved else floquet(self)
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether it is stable; None where that is undecided."""
+        return {STABLE: True, UNSTABLE: False}.get(self.stability)
+
+    @property
+    def proved(self) -> bool:
+        """Whether the stability is proved in interval arithmetic, not only computed."""
+        return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
+
+    def with_proof(self) -> "Orbit":
+        """The same orbit with `proof` of its existence, its motion between the walls and its stability.
+
+        Raises:
+            ModuleNotFoundError: python-flint is missing; the extra `reference` brings it.
+        """
+        return replace(self, proof=prove(self))
+
+    def row(self) -> dict:
+        """Numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
+        sides = ("1_plus", "1_minus", "2_plus", "2_minus")
+        names = [f"{what}{side}" for what in ("phase", "speed") for side in sides]
+        numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
+        return {
+            "symmetric": self.symmetric,
+            "admissible": self.admissible,
+            **dict(zip(("C1", "C2"), self.C.tolist(), strict=True)),
+            **dict(zip(names, numbers, strict=True)),
+            "largest_multiplier": float(abs(self.multipliers[0])),
+            "residual": self.residual,
+            "stability": self.stability,
+            "proved": self.proved,
+        }
 
     def _glance(self):
         return {
             "symmetric": str(self.symmetric),
             "admissible": str(self.admissible),
+            "stable": f"{self.stable} ({'proved' if self.proved else 'computed'})",
             "C": brief(self.C),
             "multipliers": f"moduli up to {brief(abs(self.multipliers[0]))}",
         }
@@ -111,6 +154,18 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
     asymmetric = [asymmetric_orbit(system, root) for root in roots]
     fewest = int(hits.min()) if len(hits) else 0
     return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
+
+
+def prove(orbit: Orbit):
+    """What can be proved of an orbit in interval arithmetic, an `OrbitProof`: existence, motion, multipliers.
+
+    Raises:
+        ValueError: orbit is no Orbit; undamped boxes in resonance with the impacts.
+        ModuleNotFoundError: python-flint is missing; the extra `reference` brings it.
+    """
+    from vibroimpact.exact.orbits.proof import orbit as proofs
+
+    return proofs.prove(instance("orbit", orbit, Orbit))
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:

@@ -37,7 +37,7 @@ class SymmetricConditions:
 
     Args:
         forced: the boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
-        response: of the boxes to the kicks; the exact one, or another with its `between` (see `harmonics`).
+        response: of the boxes to the kicks; the exact one, or another with its `between` (see `HarmonicResponse`).
 
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).

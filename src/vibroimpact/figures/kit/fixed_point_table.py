@@ -6,10 +6,9 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.system.verdict import all_stable
-from vibroimpact.theory.fixed_points.labels import labels
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.search import fixed_points, labels
 from vibroimpact.theory.manifold import C_min, overshoot, rho
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.masri import printed_limit
 
 COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 

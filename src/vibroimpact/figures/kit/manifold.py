@@ -6,7 +6,7 @@ import pandas as pd
 from vibroimpact.figures.kit.style import STABLE, UNSTABLE
 from vibroimpact.figures.kit.tables import curve, select
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
-from vibroimpact.theory.masri_printed import printed_limit
+from vibroimpact.theory.masri import printed_limit
 
 BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 

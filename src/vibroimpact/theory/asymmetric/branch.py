@@ -1,22 +1,80 @@
-"""The asymmetric branch of the manifold, B and phi held: where it is, when the ball strikes, whether that is stable.
+"""The manifold, symmetric and asymmetric, as three charts of one real parameter x in [-1, 1], all of them polynomials.
 
-A flight from wall +1 takes the fraction u of the cycle, the one back 1 - u; v = 1 - 2 u is their difference. Everything
-but the instants of impact is a function of v^2, since a motion and its mirror image have opposite v. Derived in
-docs/derivation.md, section 11.
+A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta, so
+the describing function of the ball is N = n / z. C = path / beta. With c = cos(pi v / 2), s = 2 sin(pi v / 2) / (pi v),
+which are entire functions of v^2 (docs/derivation.md, section 11):
+
+    chart         x      z                          n          beta                            path
+    small C       C      1 - (1 + i rho) x          mu x       1                               x
+    large C       1 / C  x - (1 + i rho)            mu         x                               1
+    asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
+
+On the asymmetric branch a flight from wall +1 takes the fraction u of the cycle, the one back 1 - u; v = 1 - 2 u is
+their difference. Everything but the instants of impact is a function of v^2, since a motion and its mirror image have
+opposite v. Stability on the branch is that at B and phi held.
 """
 
+import functools
+import math
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.polynomial import Polynomial
 from scipy.optimize import brentq
 
 from vibroimpact.system.verdict import verdict
-from vibroimpact.theory.asymmetric.charts import ASYMMETRIC, charts
 from vibroimpact.theory.manifold import rho
+from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
+SMALL, LARGE, ASYMMETRIC = "small C", "large C", "asymmetric"
+_TERMS = 16  # pi^2 / 4 to this power is below rounding against 32!
 _ROUNDING = 1e-12  # of a trace
 
 
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """The polynomials of one chart."""
+
+    z: Polynomial
+    n: Polynomial
+    beta: Polynomial
+    path: Polynomial
+
+    def amplitudes(self, x):
+        """C and B at x."""
+        beta = self.beta(x)
+        return self.path(x) / beta, np.abs(self.z(x) / beta)
+
+    def ball(self, x):
+        """B, N B and their derivatives by x."""
+        z, n, beta = self.z(x), self.n(x), self.beta(x)
+        z_x, n_x, beta_x = (part.deriv()(x) for part in (self.z, self.n, self.beta))
+        B, N = np.abs(z / beta), n / z
+        B_x = B * (z_x / z - beta_x / beta).real
+        return B, N * B, B_x, (n_x * z - n * z_x) / z**2 * B + N * B_x
+
+
+def series(terms, pi=math.pi):
+    """Coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
+    power = [(-pi * pi / 4) ** k for k in range(terms)]
+    return tuple([p / math.factorial(2 * k + odd) for k, p in enumerate(power)] for odd in (0, 1))
+
+
+@functools.lru_cache(maxsize=8)
+def charts(kappa: float) -> dict[str, Chart]:
+    """The charts for a restitution coefficient, by name."""
+    r, one, x = rho(kappa), Polynomial([1.0]), Polynomial([0.0, 1.0])
+    c, s = map(Polynomial, series(_TERMS))
+    gap = (1 - x) * s - 4 / np.pi**2 * c
+    return {
+        SMALL: Chart(1 - (1 + 1j * r) * x, FIRST_HARMONIC * x, one, x),
+        LARGE: Chart(x - (1 + 1j * r), FIRST_HARMONIC * one, x, one),
+        ASYMMETRIC: Chart(-(4 / np.pi**2 * c + 1j * r * s), FIRST_HARMONIC * c * c * s, gap * c, (1 - x) * s * c),
+    }
+
+
 def amplitudes(squared, kappa):
-    """C and B of the branch at v^2 in [0, 1), shape of v^2; C does not depend on kappa.
+    """C and B of the asymmetric branch at v^2 in [0, 1), shape of v^2; C does not depend on kappa.
 
     Both grow from where symmetry breaks, C = pi^2 / (pi^2 - 4), C up to 2, B without bound.
     """
@@ -26,8 +84,8 @@ def amplitudes(squared, kappa):
 def impact_phases(v, kappa):
     """Phases of U at the impacts with W = +1 and, later, W = -1 [rad]; -1 < v < 1."""
     chart, v = charts(kappa)[ASYMMETRIC], np.asarray(v, dtype=float)
-    middle = np.angle(-chart.z(v**2) / chart.beta(v**2))
-    return middle - np.pi * (1 - v) / 2, middle + np.pi * (1 - v) / 2
+    middle, half = np.angle(-chart.z(v**2) / chart.beta(v**2)), np.pi * (1 - v) / 2
+    return middle - half, middle + half
 
 
 def first_harmonic(v, kappa):
@@ -38,15 +96,13 @@ def first_harmonic(v, kappa):
 
 def slope_change(v, kappa):
     """By how much an impact changes the slope of Z: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
-    C, _ = amplitudes(np.square(v), kappa)
-    return 4 * C / (np.pi * (1 - np.square(v)))
+    return 4 * amplitudes(np.square(v), kappa)[0] / (np.pi * (1 - np.square(v)))
 
 
 def trace(squared, kappa):
     """Trace of the map of small changes over one cycle (two impacts); its determinant is kappa^4."""
     squared = np.asarray(squared, dtype=float)
-    chart = charts(kappa)[ASYMMETRIC]
-    G = 1 - squared - (1 - squared) / chart.amplitudes(squared)[0]  # (2 v / pi) cot(pi v / 2)
+    G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
     return (
         2 * kappa**2
@@ -74,10 +130,9 @@ def overshoot(v: float, kappa: float) -> float:
     """Largest |W_0| - 1 over a cycle; 0 where the ball stays between the walls. Flights turn where W_0' = 0."""
     _, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)
-    change = slope_change(v, kappa)
     excess = 0.0
     for wall, start, fraction in ((1, a, (1 - v) / 2), (-1, b, (1 + v) / 2)):
-        slope = -wall * change * (1 - fraction)
+        slope = -wall * slope_change(v, kappa) * (1 - fraction)
         turn = np.arccos(np.clip(-slope / B, -1, 1))
         since = np.remainder(np.array([turn, -turn]) - start, 2 * np.pi)
         W = wall + B * (np.sin(start + since) - np.sin(start)) + slope * since

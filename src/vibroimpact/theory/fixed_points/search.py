@@ -1,17 +1,32 @@
-"""All fixed points of the slow flow: the real solutions of (10.16), (10.23)."""
+"""All fixed points of the slow flow: the real solutions of (10.16), (10.23).
 
-from dataclasses import dataclass
+The zeros of the polynomials in C_1, C_2 are refined in amplitudes and phases at once, which restores the digits lost by
+squaring. Without dissipation the slow flow is reversible: to a fixed point belongs another with the same C and mirrored
+phases, and Delta of the balance vanishes there. Close to this limit two well separated fixed points have amplitudes
+that rounding cannot tell apart; their phases tell them apart.
+"""
+
+from dataclasses import dataclass, replace
+from string import ascii_lowercase
+from typing import NamedTuple
 
 import numpy as np
 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
 from vibroimpact.system.glance import Glance, brief
-from vibroimpact.theory.fixed_points.polynomials import Balance
+from vibroimpact.theory.criteria import Stability, of_fixed_point
+from vibroimpact.theory.fixed_points.balance import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
-from vibroimpact.theory.fixed_points.refinement import mirrored_pair, refine, same
 from vibroimpact.theory.manifold import B_of_C, rho
-from vibroimpact.theory.slow_flow import FIRST_HARMONIC, slow_eigenvalues
+from vibroimpact.theory.masri import printed_limit
+from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
+
+_STEPS = 30
+_SETTLED = 1e-12  # a Newton step this small leaves the state exact to rounding
+_SAME = 1e-9
+_NEAR = 1e-3  # a fixed point this far from where the search left off belongs to another zero
+_REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -19,41 +34,56 @@ class FixedPoint(Glance):
     """A periodic response with two impacts per cycle and module, (10.23).
 
     Attributes:
+        system: the system it belongs to.
         C, B: saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
         psi: phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
         slow_eigenvalues: of the slow flow, per unit of tau_1, shape (4,), complex; infinite at a fold of the manifold.
         multiple: rounding leaves open whether several fixed points coincide here (a fold or branch point in the
             parameters); C and psi are then known to about the square root of rounding.
+        label: "a", "b", ... as in the figures (see `labels`); "" outside a list of all fixed points with C >= 0.
     """
 
+    system: System
     C: np.ndarray
     B: np.ndarray
     psi: np.ndarray
     slow_eigenvalues: np.ndarray
     multiple: bool
+    label: str = ""
+
+    @property
+    def stability(self) -> Stability:
+        """Verdicts of the theory: fast (Masri's analysis, derived anew), slow (the slow flow), and both together."""
+        says = of_fixed_point(self.system, self)
+        return Stability(says["masri_derived"], says["slow_flow"])
+
+    def row(self) -> dict:
+        """Numbers and verdicts by name, as `to_frame` tells them."""
+        numbers = {f"{name}{i}": float(x) for name in ("C", "B", "psi") for i, x in enumerate(getattr(self, name), 1)}
+        fast, slow = stability = self.stability
+        growth = float(self.slow_eigenvalues.real.max())
+        verdicts = {"fast": fast, "slow": slow, "both": stability.both}
+        return {"label": self.label, **numbers, **verdicts, "slow_growth": growth, "multiple": self.multiple}
 
     def _glance(self):
         numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
-        return {**numbers, "slow_eigenvalues": f"real parts up to {brief(self.slow_eigenvalues.real.max())}"}
+        growth = f"real parts up to {brief(self.slow_eigenvalues.real.max())}"
+        return {"label": self.label, "stability": str(self.stability), **numbers, "slow_eigenvalues": growth}
 
 
-@dataclass(frozen=True, eq=False)
-class FixedPointSearch:
-    """Every real solution: `points` with C_1, C_2 >= 0, `outside` with some C_i < 0 (both ascending in C_1).
-
-    The search covers the square |C_i| <= radius; no solution lies outside it.
-    """
+class FixedPointSearch(NamedTuple):
+    """Every real solution: `points` with C_1, C_2 >= 0, `outside` with some C_i < 0, both ascending in C_1."""
 
     points: list[FixedPoint]
     outside: list[FixedPoint]
-    radius: float
 
 
 def fixed_points(system: System) -> list[FixedPoint]:
     """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
     Returns:
-        A list of FixedPoint, ascending in C_1; `certify` proves that none is missing.
+        A list of FixedPoint, ascending in C_1, which is not the order of their labels; `theory.certify` proves that
+        none is missing.
 
     Raises:
         ValueError: system is not a System; else as `search`.
@@ -70,18 +100,14 @@ def search(system: System) -> FixedPointSearch:
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
-    radius = search_radius(system)
     zeros, multiple = np.empty((0, 2)), np.empty(0, bool)
     if not system.has_undriven_module:  # what its ball dissipates would leave it no fixed point
-        zeros, multiple = real_zeros(*balance.polynomials(), radius)
+        zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
     points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
     points.sort(key=lambda point: tuple(point.C))
-    inside = [bool(np.all(point.C >= 0)) for point in points]
-    return FixedPointSearch(
-        points=[point for point, ok in zip(points, inside, strict=True) if ok],
-        outside=[point for point, ok in zip(points, inside, strict=True) if not ok],
-        radius=radius,
-    )
+    inside = [point for point in points if (point.C >= 0).all()]
+    named = [replace(point, label=label) for point, label in zip(inside, labels(system, inside), strict=True)]
+    return FixedPointSearch(named, [point for point in points if not (point.C >= 0).all()])
 
 
 def search_radius(system) -> float:
@@ -97,32 +123,17 @@ def search_radius(system) -> float:
     return float((grow + np.sqrt(grow**2 + 4 * lose * f.sum())) / (2 * lose))
 
 
-def _solutions(system, balance, zeros, multiple):
-    """(C, psi, multiple) of every fixed point."""
-    simple = [(C, _phases(balance, C)) for C in zeros[~multiple]]
-    simple = [refine(system, *solution) or solution for solution in simple]
-    unresolved = []
-    for C in zeros[multiple]:
-        pair = mirrored_pair(system, balance, C)
-        # Two zeros that rounding blurs can lead to the same pair.
-        simple += [solution for solution in pair if not any(same(solution, known) for known in simple)]
-        unresolved += [] if pair else [(C, _phases(balance, C))]
-    return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
+def labels(system, points) -> list[str]:
+    """A label (a), (b), (c), ... per fixed point, which the chapter gives in pictures only: from the least stable on.
 
-
-def _phases(balance, C):
-    numerators, denominator = balance.solve(C)
-    return -np.angle(balance.at(C)[0] * numerators / denominator)
-
-
-def _fixed_point(system, C, psi, multiple):
-    return FixedPoint(
-        C=C,
-        B=B_of_C(C, rho(system.kappa)),
-        psi=psi,
-        slow_eigenvalues=slow_eigenvalues(system, psi, C),
-        multiple=multiple,
-    )
+    First the points that (10.26) calls unstable, then by falling growth rate of the slow flow (largest real part of its
+    eigenvalues). Of the orders one could think of, it is the one under which most sentences of section 10.4 hold,
+    that on Figs. 10.7 and 10.8 included; docs/errata.md lists sentence by sentence.
+    """
+    limit = printed_limit(rho(system.kappa))
+    keys = [(bool(point.C.min() > limit), -point.slow_eigenvalues.real.max()) for point in points]
+    order = sorted(range(len(points)), key=keys.__getitem__)
+    return [ascii_lowercase[order.index(k)] for k in range(len(points))]
 
 
 def refuse_free_motion(system) -> None:
@@ -140,3 +151,63 @@ def refuse_free_motion(system) -> None:
             f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at a resonance that the forces do not "
             "load, so that fixed points need not be isolated; add damping or change the frequency"
         )
+
+
+def _fixed_point(system, C, psi, multiple):
+    return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, slow_eigenvalues(system, psi, C), multiple)
+
+
+def _solutions(system, balance, zeros, multiple):
+    """(C, psi, multiple) of every fixed point."""
+    simple = [(C, balance.phases(C)) for C in zeros[~multiple]]
+    simple = [_refined(system, *solution) or solution for solution in simple]
+    unresolved = []
+    for C in zeros[multiple]:
+        pair = _mirrored_pair(system, balance, C)
+        # Two zeros that rounding blurs can lead to the same pair.
+        simple += [solution for solution in pair if not any(_same(solution, known) for known in simple)]
+        unresolved += [] if pair else [(C, balance.phases(C))]
+    return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
+
+
+def _mirrored_pair(system, balance, C):
+    """(C, psi) of the two regular fixed points with amplitudes close to C; empty where there is no such pair.
+
+    C: a zero of the polynomials, known to the square root of rounding at best. The starts are both pairs of unit
+    phasors with p_1 u_1 - K z_2 u_2 = f_1, for sides that allow a triangle.
+    """
+    z, q = balance.at(C)
+    p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
+    if p == 0 or k == 0 or f == 0:
+        return []
+    cosine = (abs(p) ** 2 + f**2 - abs(k) ** 2) / (2 * abs(p) * f)
+    opening = np.arccos(np.clip(cosine, -1, 1))
+    first = np.exp(1j * (np.array([opening, -opening]) - np.angle(p)))
+    starts = -np.angle(z * np.stack([first, (p * first - f) / k], axis=1))
+    found = [one for psi in starts if (one := _refined(system, C, psi)) is not None]
+    return found if len(found) == 2 and not _same(*found) else []
+
+
+def _refined(system, C, psi):
+    """(C, psi) after Newton's method in both at once; None unless it ends at a regular fixed point near C."""
+    state = np.column_stack([C, psi])
+    for _ in range(_STEPS):
+        residual, J = equations(system, state[:, 1], state[:, 0])
+        if not np.linalg.cond(J) < _REGULAR:
+            return None
+        step = np.linalg.solve(J, residual).reshape(2, 2)
+        state = state - step
+        if not np.abs(state[:, 0] - C).max() < _NEAR * (1 + np.abs(C).max()):
+            return None
+        if np.abs(step).max() < _SETTLED * (1 + np.abs(state).max()):
+            break
+    if np.abs(step).max() > _SAME:
+        return None
+    return state[:, 0], np.angle(np.exp(1j * state[:, 1]))
+
+
+def _same(one, other) -> bool:
+    """Return True if two refined solutions (C, psi) are the same fixed point."""
+    far = np.abs(one[0] - other[0]).max() / (1 + np.abs(one[0]).max())
+    turned = np.abs(np.exp(1j * one[1]) - np.exp(1j * other[1])).max()
+    return bool(max(far, turned) < _SAME)

@@ -1,24 +1,25 @@
 """Proofs on single orbits in interval arithmetic: existence, motion between the walls, multipliers.
 
-Krawczyk's test on the six conditions of asymmetric.py shows that near the listed numbers there is one root and no
-other. It is symmetric if its mirror image is as near, so that both must be the same; asymmetric if a flight fraction
-is not 1/2. From its enclosure follow those of the state at the impacts, of the monodromy matrix and of its eigenvalues
-(flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
+Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six conditions of asymmetric.py shows that near the listed numbers
+there is one root and no other. It is symmetric if its mirror image is as near, so that both must be the same;
+asymmetric if a flight fraction is not 1/2. From its enclosure follow those of the state at the impacts, of the
+monodromy matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
 """
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from flint import acb, acb_mat, ctx
+from flint import acb, acb_mat, arb, arb_mat, ctx
 
 from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions
-from vibroimpact.exact.orbits.proof.krawczyk import krawczyk
-from vibroimpact.exact.orbits.proof.passage import EnclosedPassage
-from vibroimpact.exact.orbits.proof.walls import NOT_PROVED, between_walls
+from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, between_walls
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _BITS = 128
+_WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths that are tried
+_TIGHT = 2.0**-90
+_STEPS = 20  # at most, to narrow a box: quadratic, but for the first ones
 
 
 @dataclass(frozen=True)
@@ -98,3 +99,44 @@ def _distance(enclosures, listed):
     """Upper bound, rounded up, of the distance of numbers from those enclosed."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
+
+
+def krawczyk(equations, approximate: np.ndarray):
+    """Enclosure of the only root near a float64 one, and a half-width within which there is no other; or None, 0.0.
+
+    By Krawczyk's interval form of Newton's method. equations(x) returns residual (n, 1) and Jacobian (n, n) over
+    intervals x, a list of n numbers, or None where it is
+    not defined on all of them. The widest box that the test accepts is kept, its image narrowed to working precision.
+    """
+    centre = [arb(value) for value in approximate.tolist()]
+    for exponent in range(_WIDEST, _NARROWEST, -1):
+        radius = 2.0**exponent
+        box = [arb(value.mid(), radius) for value in centre]
+        image = _image(equations, box)
+        if image is not None and all(wide.contains_interior(narrow) for wide, narrow in zip(box, image, strict=True)):
+            return _narrowed(equations, image), radius
+    return None, 0.0
+
+
+def _image(equations, box):
+    """Krawczyk's operator: every root in the box is in its image."""
+    found, at = equations(box), equations([value.mid() for value in box])
+    if found is None or at is None:
+        return None
+    try:
+        inverse = at[1].mid().inv().mid()
+    except ZeroDivisionError:
+        return None
+    size = len(box)
+    contraction = arb_mat(np.eye(size).tolist()) - inverse * found[1]
+    offsets = arb_mat([[value - value.mid()] for value in box])
+    moved = contraction * offsets - inverse * at[0]
+    return [value.mid() + moved[k, 0] for k, value in enumerate(box)]
+
+
+def _narrowed(equations, box):
+    for _ in range(_STEPS):
+        if all(value.rad() < _TIGHT for value in box):
+            break
+        box = [old.intersection(new) for old, new in zip(box, _image(equations, box), strict=True)]
+    return box

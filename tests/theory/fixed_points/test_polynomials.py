@@ -1,4 +1,4 @@
-"""Singular points against the elimination done by computer algebra, and their number in all its cases."""
+"""Common zeros known by construction; singular points of (10.24) by computer algebra."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,82 @@ import sympy as sp
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory import manifold
-from vibroimpact.theory.fixed_points.singular_points import determinant, singular_everywhere, singular_points
+from vibroimpact.theory.fixed_points.balance import determinant, singular_points
+from vibroimpact.theory.fixed_points.real_zeros import real_zeros
+
+
+def product(in_x, in_y):
+    return np.outer(in_x, in_y)
+
+
+def from_roots(a, b):
+    """(x - a)(x - b), constant first."""
+    return np.array([a * b, -(a + b), 1.0])
+
+
+ONE = np.array([1.0, 0.0, 0.0])
+CIRCLE = product([0, 0, 1.0], ONE) + product(ONE, [0, 0, 1.0]) - product(ONE, ONE)  # x^2 + y^2 = 1
+
+
+def line(slope, offset):
+    """y - slope x - offset."""
+    return product(ONE, [0, 1.0, 0]) - slope * product([0, 1.0, 0], ONE) - offset * product(ONE, ONE)
+
+
+def solve(*polynomials, radius=10.0):
+    coefficients = np.array(polynomials)
+    return real_zeros(coefficients, np.abs(coefficients), radius)
+
+
+@pytest.mark.parametrize(
+    "roots",
+    [
+        ((0, 1), (0, -1)),  # on the lines where the square is divided
+        ((0.3, 0.3 + 1e-5), (-7, 9.999)),  # close together, close to the edge
+        ((-2.5, 5), (1.25, -0.625)),
+    ],
+)
+def test_a_grid_of_zeros(roots):
+    in_x, in_y = roots
+    zeros, multiple = solve(product(from_roots(*in_x), ONE), product(ONE, from_roots(*in_y)))
+    expected = sorted((x, y) for x in in_x for y in in_y)
+    assert np.array(zeros) == pytest.approx(np.array(expected), abs=1e-10)
+    assert not multiple.any()
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.5, 1.0, 1.3, 1.4142])
+def test_circle_and_line(offset):
+    zeros, multiple = solve(CIRCLE, line(1.0, offset))
+    x = np.roots([2, 2 * offset, offset**2 - 1])
+    expected = np.sort(x.real)
+    assert zeros[:, 0] == pytest.approx(expected, abs=1e-9)
+    assert zeros[:, 1] == pytest.approx(expected + offset, abs=1e-9)
+    assert not multiple.any()
+
+
+def test_a_tangent_gives_one_multiple_zero():
+    zeros, multiple = solve(CIRCLE, line(0.0, 1.0))
+    assert zeros == pytest.approx(np.array([[0.0, 1.0]]), abs=1e-6)
+    assert multiple.tolist() == [True]
+
+
+def test_a_double_zero_beside_a_simple_one_is_neither_dropped_nor_doubled():
+    """(x - 1) y^2 against x = y: double at the origin, simple at (1, 1)."""
+    zeros, multiple = solve(product([-1.0, 1.0, 0], [0, 0, 1.0]), line(1.0, 0.0))
+    assert zeros == pytest.approx(np.array([[0.0, 0.0], [1.0, 1.0]]), abs=1e-6)
+    assert multiple.tolist() == [True, False]
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-10])
+def test_a_near_miss_has_no_zero(gap):
+    zeros, _ = solve(CIRCLE, line(0.0, 1.0 + gap))
+    assert len(zeros) == 0
+
+
+def test_no_isolated_zeros():
+    with pytest.raises(ArithmeticError):
+        solve(CIRCLE, CIRCLE)
+
 
 CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.15), f10_hat=1.0, f20_hat=1.0)
 
@@ -97,8 +172,6 @@ def test_all_singular_points_are_found(f20_hat, module):
 
 def test_uncoupled_modules_are_singular_everywhere():
     uncoupled = CHAPTER.with_(alpha12_hat=0.0, gamma12_hat=0.0)
-    assert singular_everywhere(uncoupled)
-    assert not singular_everywhere(CHAPTER)
     (point,) = vi.fixed_points(uncoupled)
     assert singular_points(uncoupled, point, 1).shape == (0, 2)
     assert derived(uncoupled, (0.3, 0.4)) == 0

@@ -1,0 +1,172 @@
+"""The commands: each with its options and the table it computes from a system."""
+
+import csv
+import sys
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact import studies
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.frames import branch_rows
+from vibroimpact.system import System
+from vibroimpact.system.arguments import real, whole
+from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact.system.state import KINDS
+from vibroimpact.system.state import NAMES as STATE
+from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
+from vibroimpact.theory.fixed_points.search import fixed_points
+
+NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
+"""Every parameter with its usual value, or None where the case says it."""
+_MOST_SAMPLES = 10_000_000
+_SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
+
+
+class Table(NamedTuple):
+    """Names of the columns, and rows of numbers, words and truth values."""
+
+    columns: tuple[str, ...]
+    rows: list[tuple]
+
+    def write(self, file) -> None:
+        """Write CSV to an open text file, every number with as many digits as tell it apart."""
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(self.rows)
+
+
+class Command(NamedTuple):
+    """What a command is for, its own options, and the table it computes from a system and the options."""
+
+    help: str
+    add_options: Callable
+    compute: Callable[..., Table]
+
+
+def add_system_options(parser) -> None:
+    """Give a parser an option for every parameter, and one for the forces of a case."""
+    group = parser.add_argument_group(
+        "system", "dimensionless parameters of (10.4)-(10.6), those of section 10.4 unless told otherwise"
+    )
+    group.add_argument("--case", choices=CASES, default="equal", help="forces of the chapter's case (default: equal)")
+    for name, value in NAMES.items():
+        usual = "that of the case" if value is None else value
+        group.add_argument(f"--{name.replace('_', '-')}", type=float, metavar="X", help=f"default: {usual}")
+
+
+def system_of(options) -> System:
+    """The system that the options ask for.
+
+    Raises:
+        ValueError: there is none, see System.
+    """
+    given = {name: value for name in NAMES if (value := getattr(options, name)) is not None}
+    return System(**{**PARAMETERS, **CASES[options.case], **given})
+
+
+def _no_options(parser):
+    """None but those of the system."""
+
+
+def _fixed_points(system, options):
+    """A row per fixed point; theory: the verdict of Masri's analysis and of the slow flow together."""
+    rows = []
+    for point in fixed_points(system):
+        says = of_fixed_point(system, point)
+        numbers = np.ravel([point.C, point.B, point.psi]).tolist()
+        rows.append((point.label, *numbers, *says.values(), fast_and_slow(says)))
+    return Table(("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA, "theory"), rows)
+
+
+def _orbits(system, options):
+    """A row per orbit that is a motion; phases in periods, at wall +1 and -1; the modulus of the largest multiplier."""
+    measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
+    columns = ("symmetric", "C1", "C2", *measures, "largest_multiplier", "residual", "floquet")
+    rows = [orbit.row() for orbit in orbits(system) if orbit.admissible]
+    return Table(columns, [tuple(({**row, "floquet": row["stability"]})[name] for name in columns) for row in rows])
+
+
+def _simulate_options(parser):
+    """The start, the length, and what to write."""
+    parser.add_argument(
+        "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="the start (default: at rest)"
+    )
+    parser.add_argument("--cycles", type=int, default=100, metavar="N", help="forcing cycles to run (default: 100)")
+    parser.add_argument("--tau0", type=float, default=0.0, metavar="TAU", help="time of the start (default: 0)")
+    parser.add_argument(
+        "--samples-per-cycle", type=int, default=32, metavar="N", help="rows per forcing cycle (default: 32)"
+    )
+    parser.add_argument("--events", action="store_true", help="write the impacts, sticks and releases instead")
+
+
+def _simulate(system, options):
+    """A row per sample, tau and the state; or per event, with the state just after it."""
+    if options.events and options.plot:
+        raise ValueError("plot: it draws samples, not events")
+    cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
+    if options.events:
+        events = simulate(system, options.state, cycles, options.tau0).events.tolist()
+        rows = [(tau, module, wall, KINDS[kind], *state.tolist()) for tau, module, wall, kind, state in events]
+        return Table(("tau", "module", "wall", "kind", *STATE), rows)
+    count = cycles * whole("samples-per-cycle", options.samples_per_cycle, 1, _MOST_SAMPLES)
+    whole("cycles times samples-per-cycle", count, 0, _MOST_SAMPLES)
+    times = options.tau0 + np.linspace(0.0, cycles * system.period, count + 1)
+    run = simulate(system, options.state, cycles, options.tau0, times)
+    return Table(("tau", *STATE), np.column_stack([times, run.samples]).tolist())
+
+
+def _response_options(parser):
+    """The path through the parameters."""
+    parser.add_argument(
+        "--along", nargs="+", choices=NAMES, metavar="PARAMETER", default=["f20_hat"],
+        help="the parameter, or several that move together (default: f20_hat)",
+    )  # fmt: skip
+    parser.add_argument("--from", dest="low", type=float, default=0.2, metavar="P", help="first value (default: 0.2)")
+    parser.add_argument("--to", dest="high", type=float, default=1.2, metavar="P", help="last value (default: 1.2)")
+    parser.add_argument(
+        "--of", choices=studies.FAMILIES, default="both",
+        help="fixed points, exact orbits (which take longer), or both (default)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--seeds", type=int, default=5, metavar="N", help="values at which branches are looked for (default: 5)"
+    )
+
+
+def _response(system, options):
+    """Rows in their order along each piece of a branch; the last step of a branch may go beyond the range."""
+    low, high = real("from", options.low), real("to", options.high)
+    if not low < high:
+        raise ValueError(f"to: {high} is not above {low}, where the path begins")
+    try:
+        found = studies.branches(system, options.along, (low, high), options.of, options.seeds, notice=_notice)
+    except ValueError as error:
+        raise ValueError(str(error).replace("between:", "from, to:", 1)) from None
+    kept = [row for k, branch in enumerate(found) for row in branch_rows(branch, k) if low <= row["p"] <= high]
+    moved = " = ".join(options.along)
+    columns = ("family", "branch", "piece", moved, "C1", "C2", "stable", "admissible", "special")
+    return Table(columns, [tuple(row.values()) for row in kept])
+
+
+def _notice(family):
+    print(f"looking for every {family} ...", file=sys.stderr)
+
+
+COMMANDS = {
+    "fixed-points": Command(
+        "all fixed points of the slow flow, with what the criteria of stability say", _no_options, _fixed_points
+    ),
+    "orbits": Command(
+        "all periodic responses of the exact system with two impacts per cycle and module", _no_options, _orbits
+    ),
+    "simulate": Command(
+        "integrate the exact system from a start, impacts, chatter and sticking included", _simulate_options, _simulate
+    ),
+    "response": Command(
+        "C over a parameter: all branches of fixed points and of exact orbits, with stability and special points",
+        _response_options,
+        _response,
+    ),
+}

@@ -1,0 +1,122 @@
+"""Results as pandas data frames; a run as a picture, and the times of its Poincare section.
+
+Neither pandas nor Matplotlib is imported before it is needed.
+"""
+
+import numpy as np
+
+from vibroimpact.system.extras import need
+from vibroimpact.system.state import KINDS, NAMES
+
+_PER_CYCLE, _MOST = 64, 20_000  # points of a picture
+
+
+def to_frame(result):
+    """A pandas DataFrame of a run (its events), an ensemble, or a list of fixed points, orbits, branches or rows.
+
+    Raises:
+        ValueError: the result is none of these.
+        ModuleNotFoundError: pandas is missing; the extra `figures` brings it.
+    """
+    if hasattr(result, "events"):
+        return of_run(result)
+    if isinstance(result, np.ndarray) and result.dtype.names:
+        return _pandas().DataFrame(_columns(result.ravel()))
+    if isinstance(result, list | tuple) and all(map(_has_rows, result)):
+        return _pandas().DataFrame([row for number, one in enumerate(result) for row in _rows(one, number)])
+    kind = type(result).__name__
+    raise ValueError(f"result: a {kind} is no run, no ensemble and no list of fixed points, orbits, branches or rows")
+
+
+def of_run(run):
+    """The events of a Run, a row each: tau, module, wall, kind in words, and the state just after it."""
+    table = _pandas().DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
+    table["kind"] = [KINDS[kind] for kind in run.events["kind"].tolist()]
+    table[list(NAMES)] = run.events["state"]
+    return table
+
+
+def branch_rows(branch, number: int = 0) -> list[dict]:
+    """A row per node of a Branch, along its pieces between special points, which belong to the pieces they join."""
+    return [
+        {
+            "family": branch.family.name,
+            "branch": number,
+            "piece": piece,
+            "p": node.p,
+            "C1": float(node.amplitudes[0]),
+            "C2": float(node.amplitudes[1]),
+            "stable": inner.stable,
+            "admissible": inner.admissible,
+            "special": node.kind,
+        }
+        for piece, (inner, nodes) in enumerate(branch.pieces())
+        for node in nodes
+    ]
+
+
+def section_times(run, phase: float = 0.0) -> np.ndarray:
+    """Times within a Run at which the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
+
+    The states there are its stroboscopic Poincare section.
+    """
+    Omega, period = run.system.Omega, run.system.period
+    first = np.remainder(phase - Omega * run.tau0, 2 * np.pi) / Omega
+    first = 0.0 if period - first < 1e-9 * period else first  # the start itself, but for rounding
+    times = run.tau0 + first + period * np.arange(run.cycles + 1)
+    return times[times <= run.tau0 + run.cycles * period]
+
+
+def plot_times(run) -> np.ndarray:
+    """Times for a picture of a Run: 64 in a cycle, or fewer in a long run."""
+    count = min(_PER_CYCLE * run.cycles, _MOST)
+    return run.tau0 + np.linspace(0.0, run.cycles * run.system.period, count + 1)
+
+
+def plot(system, times, samples):
+    """A Matplotlib Figure of states (n, 8) at times tau: X_i of both boxes, and W_i = X_i - Y_i between its walls."""
+    need("figures", "matplotlib")
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.0, 4.0), layout="constrained")
+    for i, axes in enumerate(figure.subplots(2, 1, sharex=True)):
+        X, Y = samples[:, 2 * i], samples[:, 2 * i + 1]
+        axes.plot(times / system.period, X - Y, color="0.6", label=f"$W_{i + 1}$")
+        axes.plot(times / system.period, X, color="black", label=f"$X_{i + 1}$")
+        axes.legend(loc="upper right", ncols=2)
+    axes.set_xlabel("forcing periods")
+    return figure
+
+
+def _has_rows(one):
+    return isinstance(one, dict) or hasattr(one, "pieces") or hasattr(one, "row")
+
+
+def _rows(one, number):
+    """Rows of one member of a list."""
+    if isinstance(one, dict):
+        return [one]
+    return branch_rows(one, number) if hasattr(one, "pieces") else [one.row()]
+
+
+def _columns(table):
+    """Columns of a structured array (n,), those of fields with several numbers numbered from 1, or named as states."""
+    columns = {}
+    for name in table.dtype.names:
+        field = table[name]
+        if field.dtype.names:
+            columns |= {f"{name}_{part}": values for part, values in _columns(field).items()}
+        elif field.ndim == 1:
+            columns[name] = field
+        else:
+            width = field.shape[1]
+            parts = NAMES if width == len(NAMES) else [f"{name}{k}" for k in range(1, width + 1)]
+            columns |= dict(zip(parts, field.T, strict=True))
+    return columns
+
+
+def _pandas():
+    need("figures", "pandas")
+    import pandas
+
+    return pandas

@@ -1,0 +1,124 @@
+"""The fixed-point conditions (10.23) as polynomials in C_1 and C_2, free of phases: roots of (10.24) without its poles.
+
+On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
+linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):
+    q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i.
+The singular points of (10.24) itself are here too (docs/derivation.md, section 8).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """The linear functions of C_i in the balance, constant first: z (shape (2,)), q (shape (2, 2)); K; forcing (2,)."""
+
+    z: np.ndarray
+    q: np.ndarray
+    K: complex
+    forcing: np.ndarray
+
+    @classmethod
+    def of(cls, system) -> "Balance":
+        """The balance of a system."""
+        e, K = impedances(system)
+        z = np.array([1, -1 - 1j * rho(system.kappa)])
+        q = np.outer(e, z) + np.array([0, FIRST_HARMONIC])
+        return cls(z=z, q=q, K=K, forcing=np.array([system.f10_hat, system.f20_hat]))
+
+    def at(self, C) -> tuple[np.ndarray, np.ndarray]:
+        """z_i and q_i, each shape (2,), at C."""
+        C = np.asarray(C, dtype=float)
+        return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
+
+    def solve(self, C) -> tuple[np.ndarray, complex]:
+        """Numerators, shape (2,), and denominator Delta of the phasors u_i at C (Cramer's rule)."""
+        z, q = self.at(C)
+        numerators = self.forcing * q[::-1] + self.forcing.sum() * self.K * z[::-1]
+        return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
+
+    def phases(self, C) -> np.ndarray:
+        """psi (2,) at a common zero C of the polynomials."""
+        numerators, denominator = self.solve(C)
+        return -np.angle(self.at(C)[0] * numerators / denominator)
+
+    def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
+        """What stands for (10.24): |u_1| = |u_2| = 1 without denominators, and with moduli throughout, each (2, 3, 3).
+
+        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, where u_i = n_i / Delta: n_1 depends on C_2 alone and n_2 on C_1
+        alone. Entry [:, j, k] belongs to C_1^j C_2^k.
+        """
+        parts = self.z, self.q, self.K, self.forcing
+        delta, one, two = map(_modulus_squared, _solution(*parts))
+        most, first, second = map(_modulus_squared, _solution(*map(np.abs, parts)))
+        return np.array([two - one, delta - one]), np.array([second + first, most + first])
+
+
+def _solution(z, q, K, forcing):
+    """Coefficients of Delta, n_1 and n_2 in C_1 (first axis) and C_2 (second axis)."""
+    delta = np.outer(q[0], q[1]) + K * (np.outer(z, q[1]) + np.outer(q[0], z))
+    total = forcing.sum() * K * z
+    return delta, (forcing[0] * q[1] + total)[None, :], (forcing[1] * q[0] + total)[:, None]
+
+
+def _modulus_squared(polynomial):
+    """Coefficients (3, 3) of |polynomial|^2, from those of a polynomial of degree at most 1 in each variable."""
+    square = np.zeros((3, 3))
+    for (j, k), value in np.ndenumerate(polynomial):
+        square[j : j + polynomial.shape[0], k : k + polynomial.shape[1]] += (value * polynomial.conj()).real
+    return square
+
+
+def determinant(system, C) -> float:
+    """Im(p_1 p_2 conj(z_1 z_2 K^2)): the common denominator of h_1 and h_2 in (10.24), up to a factor 4 f-free.
+
+    sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations linear in cos and sin of psi_2 - psi_1; four times
+    this is their determinant. Zero for all C when the modules are uncoupled, and else not: as a quadratic in C_1 it
+    vanishes identically only with p_2 = 0, and a ball that dissipates keeps p_2 from 0.
+    """
+    balance = Balance.of(system)
+    z, q = balance.at(C)
+    return float((np.prod((q + balance.K * z) * z.conj()) * balance.K.conjugate() ** 2).imag)
+
+
+def singular_points(system, point, module) -> np.ndarray:
+    """Isolated points S of one module's manifold where h_1 and h_2 of (10.24) are singular.
+
+    Args:
+        point: the fixed point at which the other module is held.
+        module: 1 or 2, the module whose plane is asked for.
+
+    Returns:
+        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. Uncoupled modules have none
+        isolated: the whole manifold is singular.
+
+    Raises:
+        ValueError: module is neither 1 nor 2.
+    """
+    if module not in (1, 2):
+        raise ValueError(f"module: {module!r} is neither 1 nor 2")
+    own, other = module - 1, 2 - module
+    balance = Balance.of(system)
+    z, q = balance.at(point.C)
+    held = (q[other] + balance.K * z[other]) * (z[other] * balance.K**2).conjugate()
+    C = _real_roots((held * np.convolve(balance.q[own] + balance.K * balance.z, balance.z.conj())).imag)
+    C = np.unique(C[C >= 0])
+    return np.column_stack([C, B_of_C(C, rho(system.kappa))])
+
+
+def _real_roots(coefficients):
+    """Real roots of c + b x + a x^2; a pair that rounding cannot tell from a double root counts as one."""
+    c, b, a = coefficients
+    discriminant = b * b - 4 * a * c
+    if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):
+        discriminant = 0.0
+    if discriminant < 0:
+        return np.empty(0)
+    # The larger of b +- root keeps its digits; the other root follows from the product c / a.
+    q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
+    return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

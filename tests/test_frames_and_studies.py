@@ -1,0 +1,147 @@
+"""Results as frames, pictures and sections; branches, sweeps, proofs and absorbers by their public names."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact import frames
+
+SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
+RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)
+
+
+def test_fixed_points_bear_the_labels_of_the_figures_and_their_stability():
+    """In the order of C_1 the labels are a, c, b; a is lost by its impacts, b by the slow flow."""
+    points = vi.fixed_points(SYSTEM.with_(f20_hat=1.0))
+    assert [point.label for point in points] == ["a", "c", "b"]
+    assert [point.stability for point in points] == [
+        ("unstable", "stable"), ("stable", "stable"), ("stable", "unstable")
+    ]  # fmt: skip
+    assert [point.stability.both for point in points] == ["unstable", "stable", "unstable"]
+    assert "label=c, stability=stable (fast stable, slow stable)" in repr(points[1])
+    frame = vi.to_frame(points)
+    assert frame["label"].tolist() == ["a", "c", "b"]
+    np.testing.assert_array_equal(frame[["C1", "C2"]], [point.C for point in points])
+    assert (frame["slow_growth"] < 0).tolist() == [point.stability.slow == "stable" for point in points]
+
+
+def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
+    found = [orbit for orbit in vi.orbits(SYSTEM) if orbit.symmetric]
+    for orbit in found:
+        assert orbit.stable == (np.abs(np.linalg.eigvals(orbit.passage.jacobian)).max() < 1)
+        assert not orbit.proved
+        proved = orbit.with_proof()
+        assert proved.proved
+        assert proved.stable == orbit.stable
+        assert f"stable={orbit.stable} (computed)" in repr(orbit)
+        assert f"stable={orbit.stable} (proved)" in repr(proved)
+        assert vi.prove(orbit).stability == proved.stability
+    frame = vi.to_frame(found)
+    np.testing.assert_array_equal(frame["phase2_minus"], [orbit.impact_phases[1, 1] for orbit in found])
+    with pytest.raises(ValueError, match=r"^orbit: .* is not a Orbit"):
+        vi.prove(SYSTEM)
+
+
+def test_a_run_as_a_frame_of_its_events():
+    frame = vi.to_frame(RUN)
+    assert len(frame) == len(RUN.events)
+    assert set(frame["kind"]) == {"impact"}
+    np.testing.assert_array_equal(frame["dY2"], RUN.events["state"][:, 7])
+    relative = frame["X1"] - frame["Y1"]
+    np.testing.assert_allclose(relative[frame["module"] == 1], frame["wall"][frame["module"] == 1], atol=1e-12)
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.0, 2.0 * SYSTEM.Omega, -7.0])
+def test_a_section_is_taken_at_one_phase_of_the_forcing(phase):
+    times = frames.section_times(RUN, phase)
+    away = np.angle(np.exp(1j * (SYSTEM.Omega * times - phase)))
+    assert np.abs(away).max() < 1e-12 * times.max()
+    assert len(times) in (RUN.cycles, RUN.cycles + 1)
+    assert (len(times) == RUN.cycles + 1) == (phase == 2.0 * SYSTEM.Omega)  # from the start to the end
+
+
+def test_the_section_of_an_orbit_is_one_point():
+    orbit = min((o for o in vi.orbits(SYSTEM) if o.admissible), key=lambda o: abs(o.multipliers[0]))
+    times = frames.section_times(vi.simulate(SYSTEM, orbit.state, 3))
+    samples = vi.simulate(SYSTEM, orbit.state, 3, sample_times=times).samples
+    np.testing.assert_allclose(samples, [orbit.state] * 4, atol=1e-9)
+
+
+def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
+    times = frames.plot_times(RUN)
+    samples = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
+    figure = frames.plot(SYSTEM, times, samples)
+    for i, axes in enumerate(figure.axes):
+        W, X = (line.get_ydata() for line in axes.get_lines())
+        np.testing.assert_array_equal(W, samples[:, 2 * i] - samples[:, 2 * i + 1])
+        np.testing.assert_array_equal(X, samples[:, 2 * i])
+        assert np.abs(W).max() <= 1 + 1e-9
+
+
+def test_an_ensemble_as_a_frame():
+    outcome = vi.ensemble(SYSTEM, np.zeros((3, 8)), 20, settle=10, energy=True)
+    frame = vi.to_frame(outcome)
+    np.testing.assert_array_equal(frame["largest2"], outcome["largest"][:, 1])
+    np.testing.assert_array_equal(frame["dY1"], outcome["final"][:, 5])
+    np.testing.assert_array_equal(frame["energy_work1"], outcome["energy"]["work"][:, 0])
+    for other in (3.0, "runs", [SYSTEM], np.zeros(3)):
+        with pytest.raises(ValueError, match=r"^result: a \w+ is no run"):
+            vi.to_frame(other)
+
+
+def test_branches_pass_the_fixed_points_of_any_value():
+    frame = vi.to_frame(vi.branches(SYSTEM, "f20_hat", (0.85, 0.95), of="theory"))
+    for point in vi.fixed_points(SYSTEM):
+        near = np.abs(frame[["p", "C1", "C2"]] - [0.89, *point.C]).max(axis=1).min()
+        assert near < 0.05  # half a step of 0.01 in the parameter, along curves of slope up to 5
+    for arguments, name in (
+        (("f20", (0.8, 0.9)), "f20"), (("f20_hat", 0.9), "between"), (("f20_hat", (0.9, 0.8)), "between"),
+        (("kappa", (0.5, 1.5)), "between"), (("kappa", (0.5, 0.6), "all"), "of"),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=rf"^{name}:"):
+            vi.branches(SYSTEM, *arguments)
+
+
+def test_a_sweep_counts_the_fixed_points_of_every_system():
+    rows = vi.sweep(SYSTEM, {"f10_hat": [0.5, 1.0], "f20_hat": [0.5, 0.89]}, ["fixed_points"])
+    for row in rows:
+        system = SYSTEM.with_(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])
+        assert row["fixed_points"] == len(vi.fixed_points(system))
+    assert vi.to_frame(rows)["fixed_points"].tolist() == [row["fixed_points"] for row in rows]
+    for axes, observe, name in (({"mass": [1]}, ["orbits"], "mass"), ({"kappa": [0.5]}, ["points"], "observe")):
+        with pytest.raises(ValueError, match=rf"^{name}:"):
+            vi.sweep(SYSTEM, axes, observe)
+
+
+def test_absorbers_by_their_public_names():
+    band = (0.7, 1.4)
+    best, book = vi.best_tuning(SYSTEM, band), vi.textbook_tuning(SYSTEM)
+    assert vi.tuned(SYSTEM, best).peak(band) < vi.tuned(SYSTEM, book).peak(band)
+    with pytest.raises(ValueError, match=r"^band: 1.0 is not a pair of numbers$"):
+        vi.best_tuning(SYSTEM, 1.0)
+
+
+PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
+
+
+@pytest.mark.parametrize(
+    "call", [vi.fixed_points, vi.orbits, vi.textbook_tuning, lambda plant: vi.simulate(plant, [0.0] * 8, 1)]
+)
+def test_a_system_in_newtons_is_told_how_to_lose_its_units(call):
+    with pytest.raises(ValueError, match=r"^system: a PhysicalSystem is not a System; call \.dimensionless\(\)$"):
+        call(PLANT)
+
+
+def test_a_state_of_another_shape_is_told_its_shape():
+    with pytest.raises(ValueError, match=r"^state: needs shape \(8,\), got \(1, 8\)$"):
+        vi.simulate(SYSTEM, np.zeros((1, 8)), 1)
+
+
+@pytest.mark.parametrize(
+    ("call", "package"), [(lambda: vi.to_frame([]), "pandas"), (lambda: frames.plot(None, None, None), "matplotlib")]
+)
+def test_without_pandas_or_matplotlib_the_extra_is_named(monkeypatch, call, package):
+    monkeypatch.setattr("vibroimpact.system.extras.find_spec", lambda name: None)
+    with pytest.raises(ModuleNotFoundError, match=rf"needs {package}: pip install '\.\[figures\]'$"):
+        call()
