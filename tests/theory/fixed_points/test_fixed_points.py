@@ -119,6 +119,28 @@ def test_total_count_is_exact(name):
     assert len(everything(system)) == exact_count(system)
 
 
+NEARLY_ELASTIC = {
+    "weak dampers": dict(
+        kappa=1 - 3.3e-7, gamma1_hat=1.5e-9, gamma2_hat=8.7e-12, alpha12_hat=1.269, sigma20_hat=-1.186,
+        sigma_e_hat=-0.475, f10_hat=1.502, f20_hat=-1.318,
+    ),
+    "weaker": dict(
+        kappa=1 - 2.1e-12, gamma1_hat=3e-12, gamma2_hat=3.6e-12, alpha12_hat=0.888, sigma20_hat=0.305,
+        sigma_e_hat=0.611, f10_hat=-1.397, f20_hat=-1.301,
+    ),
+    "no dampers": UNDAMPED | dict(kappa=1 - 1e-9),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NEARLY_ELASTIC)
+def test_nearly_elastic_systems_list_no_point_where_no_phases_balance_the_forces(name):
+    """Where Delta, n_1 and n_2 all but vanish rounding leaves zeros of the squares open that phases decide."""
+    system = build({"gamma12_hat": 0.0} | NEARLY_ELASTIC[name])
+    found = everything(system)
+    assert not any(point.multiple for point in found)
+    assert len(found) == exact_count(system)
+
+
 ranges = dict(
     kappa=(0.02, 0.99), alpha12_hat=(0.01, 10), gamma1_hat=(0.001, 2), gamma2_hat=(0, 2), gamma12_hat=(0.01, 2),
     sigma20_hat=(-3, 3), sigma_e_hat=(-1, 1), f10_hat=(-3, 3), f20_hat=(-3, 3),

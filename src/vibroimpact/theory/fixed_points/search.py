@@ -26,6 +26,7 @@ _STEPS = 30
 _SETTLED = 1e-12  # a Newton step this small leaves the state exact to rounding
 _SAME = 1e-9
 _NEAR = 1e-3  # a fixed point this far from where the search left off belongs to another zero
+_OPEN = 1e-3  # by this share of its perimeter a triangle stays open at every C that rounding confuses with a zero
 _REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
 
 
@@ -166,7 +167,7 @@ def _solutions(system, balance, zeros, multiple):
         pair = _mirrored_pair(system, balance, C)
         # Two zeros that rounding blurs can lead to the same pair.
         simple += [solution for solution in pair if not any(_same(solution, known) for known in simple)]
-        unresolved += [] if pair else [(C, balance.phases(C))]
+        unresolved += [(C, balance.phases(C))] if not pair and _may_close(balance, C) else []
     return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
 
 
@@ -186,6 +187,17 @@ def _mirrored_pair(system, balance, C):
     starts = -np.angle(z * np.stack([first, (p * first - f) / k], axis=1))
     found = [one for psi in starts if (one := _refined(system, C, psi)) is not None]
     return found if len(found) == 2 and not _same(*found) else []
+
+
+def _may_close(balance, C):
+    """Return False where no phases balance the forces anywhere near C, so that the zero is one of its squares alone.
+
+    Without dissipation Delta, n_1 and n_2 vanish at once at such a place. Phases need f_i = p_i u_i - K z_j u_j, a
+    triangle with the sides |f_i|, |p_i|, |K z_j|, of both modules.
+    """
+    z, q = balance.at(C)
+    sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])
+    return bool((2 * sides.max(axis=0) <= (1 + _OPEN) * sides.sum(axis=0)).all())
 
 
 def _refined(system, C, psi):
