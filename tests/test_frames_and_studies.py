@@ -44,7 +44,8 @@ def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
 
 
 def test_a_run_as_a_frame_of_its_events():
-    frame = vi.to_frame(RUN)
+    frame = RUN.to_frame()
+    assert frame.equals(vi.to_frame(RUN))
     assert len(frame) == len(RUN.events)
     assert set(frame["kind"]) == {"impact"}
     np.testing.assert_array_equal(frame["dY2"], RUN.events["state"][:, 7])
@@ -63,15 +64,14 @@ def test_a_section_is_taken_at_one_phase_of_the_forcing(phase):
 
 def test_the_section_of_an_orbit_is_one_point():
     orbit = min((o for o in vi.orbits(SYSTEM) if o.admissible), key=lambda o: abs(o.multipliers[0]))
-    times = frames.section_times(vi.simulate(SYSTEM, orbit.state, 3))
-    samples = vi.simulate(SYSTEM, orbit.state, 3, sample_times=times).samples
+    samples = vi.simulate(SYSTEM, orbit.state, 3).section()
     np.testing.assert_allclose(samples, [orbit.state] * 4, atol=1e-9)
 
 
 def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
     times = frames.plot_times(RUN)
     samples = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
-    figure = frames.plot(SYSTEM, times, samples)
+    figure = RUN.plot()
     for i, axes in enumerate(figure.axes):
         W, X = (line.get_ydata() for line in axes.get_lines())
         np.testing.assert_array_equal(W, samples[:, 2 * i] - samples[:, 2 * i + 1])

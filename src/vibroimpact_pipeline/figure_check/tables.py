@@ -141,10 +141,9 @@ def _middle_of_decades(old, new, scales):
 
 def _part_of_rows(old, new, scales):
     numbers = pd.api.types.is_numeric_dtype(old)
-    if numbers:
-        differs = _shares(old, new, scales) > SAME
-    else:  # as arrays: rows after a sample of another size have other numbers
-        differs = old.fillna("").to_numpy() != new.fillna("").to_numpy()
+    # Texts as arrays: rows after a sample of another size have other numbers.
+    before, after = (None, None) if numbers else (values.fillna("").to_numpy() for values in (old, new))
+    differs = _shares(old, new, scales) > SAME if numbers else before != after
     return differs.mean(), int(differs.argmax())
 
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vibroimpact import frames
 from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
@@ -19,7 +20,7 @@ from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.request import NO_TIMES, checked_state, checked_times, checked_window
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, reals
+from vibroimpact.system.arguments import instance, real, reals
 from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.state import EVENT, KINDS
 
@@ -125,6 +126,25 @@ class Run(Glance):
         begin = self.tau0
         times = checked_times("times", times, begin, begin + self.cycles * self.system.period)
         return errors_at(*self.course, times - begin, KNOWN)
+
+    def to_frame(self):
+        """The events as a pandas DataFrame: tau, module, wall, kind in words, and the state after each."""
+        return frames.of_run(self)
+
+    def section(self, phase: float = 0.0) -> np.ndarray:
+        """States (n, 8) where the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
+
+        A stroboscopic Poincare section; the motion is computed once more.
+        """
+        return self._sampled(frames.section_times(self, real("phase", phase)))
+
+    def plot(self):
+        """A Matplotlib Figure of X_i of both boxes and W_i = X_i - Y_i between its walls; computed once more."""
+        times = frames.plot_times(self)
+        return frames.plot(self.system, times, self._sampled(times))
+
+    def _sampled(self, times):
+        return simulate(self.system, self.start, self.cycles, self.begin, times).samples
 
     @cached_property
     def course(self) -> tuple:
