@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.figures.kit import spectra
-from vibroimpact.regimes import lyapunov
+from vibroimpact.regimes import lyapunov, spectra
 from vibroimpact.regimes.lyapunov import Spectrum, contraction, kaplan_yorke, largest_exponent, spectrum
 from vibroimpact.system.state import RELEASE, STICK
 

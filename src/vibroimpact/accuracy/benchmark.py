@@ -14,8 +14,6 @@ OURS, CERTIFIED, MODAL, TAYLOR = "this engine", "this engine, certified", "modal
 RUNGE_KUTTA, SCIPY = "RK4, compiled", "DOP853"
 COARSE = 1e-6
 """The error that the methods of general purpose are asked for."""
-PANELS = {"error_state": "final state", "error_time": "impact times"}
-"""Rows of the work-precision chart."""
 ACCURATE, USEFUL = 1e-6, 1e-3
 """Errors at which the rival is met in every panel."""
 SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
@@ -75,26 +73,24 @@ def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
 def panels(rows: list[dict]) -> list[dict]:
     """How many times faster than heyoka we are in every panel of the chart, from the rows of `work_precision.measure`.
 
-    heyoka at the coarsest tolerance whose error in the panel is at most ACCURATE, and at its fastest one with an error
-    below USEFUL; nan, with a word on why in "says", where there is none.
+    heyoka at the coarsest tolerance whose error of the final state is at most ACCURATE, and at its fastest one with an
+    error below USEFUL; nan, with a word on why in "says", where there is none.
     """
     problems = dict.fromkeys(row["problem"] for row in rows)
-    places = [(error, problem) for error in PANELS for problem in problems]
     return [
-        {"panel": letter, "problem": problem, "error of": PANELS[error]}
-        | _against_taylor([row for row in rows if row["problem"] == problem], error)
-        for letter, (error, problem) in zip(ascii_lowercase, places, strict=False)
+        {"panel": letter, "problem": problem} | _against_taylor([row for row in rows if row["problem"] == problem])
+        for letter, problem in zip(ascii_lowercase, problems, strict=False)
     ]
 
 
-def _against_taylor(rows, error):
+def _against_taylor(rows):
     """The ratios of one panel, and the tolerances that they are for."""
     (ours,) = (row for row in rows if row["method"] == OURS)
     rivals = [row for row in rows if row["method"] == TAYLOR]
     finished = [row for row in rivals if row["outcome"] == "finished"]
-    useful = [row for row in finished if row[error] < USEFUL]
+    useful = [row for row in finished if row["error_state"] < USEFUL]
     met = {
-        f"at {ACCURATE:g}": next((row for row in finished if row[error] <= ACCURATE), None),
+        f"at {ACCURATE:g}": next((row for row in finished if row["error_state"] <= ACCURATE), None),
         "at its fastest": min(useful, key=lambda row: row["seconds_per_cycle"], default=None),
     }
     found = {"us per cycle": 1e6 * ours["seconds_per_cycle"]}

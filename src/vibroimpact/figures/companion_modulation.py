@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit import spectra
 from vibroimpact.figures.kit.style import (
     BLACK,
     DOUBLE_COLUMN,
@@ -14,10 +13,10 @@ from vibroimpact.figures.kit.style import (
     LEVEL,
     letter_panel,
     new_figure,
-    side_by_side,
     styled,
 )
 from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.regimes import spectra
 from vibroimpact.regimes.classification import CHAOS, REGIMES, STRONGLY_MODULATED
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.modulation import (
@@ -33,18 +32,12 @@ from vibroimpact.regimes.modulation import (
 from vibroimpact.regimes.settling import Observation, settle
 
 SPEC = {
-    "title": "Modulated responses in numbers",
-    "caption": "Modulated responses. a, b: how long resonant bursts last. They are watched over a window (dotted) and "
-        r"cut off at its end: where a line drops there, they last longer. c: Lyapunov exponents :math:`\lambda_1` to "
-        r":math:`\lambda_6` of the motion that every start ends in, with their standard errors; in modulated motions, "
-        r"where a ball sticks at times, the other two are :math:`-\infty`. Cycles in which both balls stick at once "
-        r"are left out: they are a few in a million, and with them :math:`\lambda_5` and :math:`\lambda_6` of the weak "
-        r"case are :math:`-\infty`, too. d: their estimates after more and more cycles, "
-        " means over the modulated starts, within twice the error that the bootstrap expects.",
-    "alt": "Panels of equal axes with the share of resonant bursts that last longer than a given number of cycles, for "
-        "both modules, and a dotted line at the length of the window, at which the line of bursts that last longer "
-        "drops; a panel with groups of dots for six Lyapunov exponents, in the weak case two of them positive and the "
-        "third next to zero; and a panel with six lines that settle within narrowing bands.",
+    "title": "How long resonance lasts",
+    "caption": "How long the balls stay in resonance in the modulated responses: the part of all resonant bursts that "
+        "last at least so long. They are watched over a window (dotted) and cut off at its end.",
+    "alt": "A panel for each case with a modulated response: the share of resonant bursts that last longer than a "
+        "given number of cycles, falling on logarithmic axes, a line for each module, and a dotted line at the length "
+        "of the window.",
     "method": "direct integration of (10.1) from many starts, until it repeats; Lyapunov exponents along the "
         "linearised flow",
     "systems": True,
@@ -53,27 +46,13 @@ SPEC = {
         "block": "regimes.modulation.block", "windows": "regimes.modulation.windows",
         "observation": "regimes.observation"},
     "columns": {
-        "panel": {"values": ["bursts", "exponents", "running"]},
-        "series": {"meaning": "the case, of bursts with the module, else with the number of the exponent; or the "
-            "window that bursts are watched over"},
-        "label": {"meaning": "of exponents: rest or spread, and the regime that the start ends in; blank else",
-            "unit": "text", "compared": "few outcomes"},
-        "number": {"meaning": "number of the exponent, the largest has 1", "unit": "number", "compared": "algebra"},
-        "exponent": {"meaning": r"Lyapunov exponent of the motion that a start ends in; blank where it is $-\infty$",
-            "unit": "per forcing period", "compared": "mean"},
-        "error": {"meaning": "its standard error, by block bootstrap", "unit": "per forcing period", "compared": "mean"
-            },
+        "panel": {"values": ["bursts"]},
+        "series": {"meaning": "the case with the module, or the window that bursts are watched over"},
         "length": {"meaning": "length of a resonant burst: two or more flights in a row that lead to the other wall "
             "and last between a quarter and three quarters of the period; or that of the window",
             "unit": "forcing periods", "compared": {"window": "algebra", "others": "sample"}},
         "longer": {"meaning": "part of the bursts, of all strongly modulated spread starts of the case, that are at "
             "least this long", "unit": "share", "compared": "sample"},
-        "cycles": {"meaning": "so many cycles are behind an estimate", "unit": "forcing periods",
-            "compared": "cycles left out"},
-        "estimate": {"meaning": "the exponent after so many cycles, mean over the strongly modulated spread starts",
-            "unit": "per forcing period", "compared": "running means"},
-        "spread": {"meaning": "the standard error that the bootstrap expects of it", "unit": "per forcing period",
-            "compared": "running means"},
     },
     "tables": {
         "measures": {
@@ -168,9 +147,8 @@ def compute(
     uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
     blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
     spread starts; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see
-    `spectra.rows`); and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, the
-    window that no burst outlasts, the exponents of each start with their standard errors, per period, and running means
-    of those of modulated starts.
+    `spectra.rows`); and "csv", what is drawn: burst lengths [cycles] and the part of bursts longer than that, and
+    the window that no burst outlasts.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
@@ -216,11 +194,9 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
             named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
             rows.append({**key, "starts": count, **named})
         exponents += spectra.rows(key, watched)
-        curves += spectra.curves(case, f"{start}, {name}", watched)
         if (start, name) == ("spread", STRONGLY_MODULATED):
             compared = _windows(case, system, states[:SHOWN], windows)
             curves += [_survival(case, system, states, cycles, module) for module in (1, 2)]
-            curves += spectra.running(case, watched)
     return pd.DataFrame(rows), compared, exponents, curves
 
 
@@ -246,20 +222,14 @@ def _survival(case, system, states, cycles, module):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: bursts of each case that has any, exponents, how those of the last one settle."""
+    """Draw the table of `compute`: a panel for each case that has bursts."""
     table = tables["csv"]
-    exponents = table[table["panel"] == spectra.EXPONENTS]
-    modulated = [case for case in spectra.cases_of(exponents) if len(select(table, "bursts", f"{case}, module 1"))]
-    settling = table[(table["panel"] == spectra.RUNNING) & table["series"].str.startswith(tuple(modulated[-1:]))]
-    panels = [(_bursts, table, case) for case in modulated] + [(spectra.draw_exponents, exponents, "")]
-    panels += [(spectra.draw_running, settling, case) for case in modulated[-1:]]
-    columns, rows = side_by_side(len(panels), 2)
-    figure = new_figure(DOUBLE_COLUMN, 58.0 * rows)
-    grid = figure.subplots(rows, columns, squeeze=False).ravel()
-    for axes in grid[len(panels) :]:
-        axes.set_axis_off()
-    for axes, (drawn, part, case), letter in zip(grid, panels, ascii_lowercase, strict=False):
-        drawn(axes, part, case)
+    cases = list(dict.fromkeys(name.rsplit(", ", 1)[0] for name in table["series"] if ", module " in name))
+    figure = new_figure(DOUBLE_COLUMN, 58.0)
+    for axes, case, letter in zip(
+        figure.subplots(1, max(len(cases), 1), squeeze=False)[0], cases, ascii_lowercase, strict=False
+    ):
+        _bursts(axes, table, case)
         letter_panel(axes, letter)
         axes.set_title(case, loc="right", pad=3)
     return figure

@@ -1,5 +1,7 @@
 """The work-precision chart: error against time per forcing cycle, one column per problem, one curve per method."""
 
+from string import ascii_lowercase
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -13,8 +15,8 @@ SPEC = {
     "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
         "forcing cycle, for every method and setting on three test problems: the nearer to the lower left, the better. "
         "Hollow markers: impacts missed or spurious. In the lane at the right: runs that failed, with their reason.",
-    "alt": "Six panels, one column per test problem, with the error of the final state and of the impact times against "
-        "the time per forcing cycle, both on logarithmic axes, one marked line per method. Runs that failed stand in a "
+    "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
+        "logarithmic axes, one marked line per method. Runs that failed stand in a "
         "lane at the right, numbered.",
     "method": "error against a reference of extended precision, run time as measured",
     "made_by": "work_precision",
@@ -34,7 +36,6 @@ SPEC = {
     },
 }  # fmt: skip
 
-ERRORS = {"error_state": "error of the final state", "error_time": r"error of impact times [$\tau$]"}
 SMALLEST, LARGEST = 1e-16, 30.0
 LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4
 """Errors are drawn between SMALLEST and LARGEST; beyond, around LANE, are the runs that failed."""
@@ -52,36 +53,32 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
             reason, order.
         footer: versions, printed below.
     """
-    figure = new_figure(DOUBLE_COLUMN, 170.0)
+    figure = new_figure(DOUBLE_COLUMN, 125.0)
     problems, look = list(dict.fromkeys(table["problem"])), looks(table["method"])
     failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
     numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.34))
-    grid = upper.subplots(len(ERRORS), len(problems), sharex=True, sharey=True, squeeze=False)
-    for row, (error, label) in enumerate(ERRORS.items()):
-        for column, problem in enumerate(problems):
-            axes = grid[row, column]
-            here = table[table["problem"] == problem]
-            _panel(axes, here, error, look)
-            _lane(axes, here, look, numbers)
-            axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel=label)
-            axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
-            axes.minorticks_off()
-            axes.tick_params(labelbottom=True)
-            _better(axes)
-            letter_panel(axes, "abcdef"[row * len(problems) + column])
-            axes.set_title(problem if row == 0 else "", pad=3)
-        grid[row, 0].set_ylabel("time per cycle [s]")
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.62))
+    panels = upper.subplots(1, len(problems), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
+        here = table[table["problem"] == problem]
+        _panel(axes, here, look)
+        _lane(axes, here, look, numbers)
+        axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state", title=problem)
+        axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
+        axes.minorticks_off()
+        _better(axes)
+        letter_panel(axes, letter)
+    panels[0].set_ylabel("time per cycle [s]")
     _legend(lower, table, look)
     _notes(lower, numbers, table, footer)
     return figure
 
 
-def _panel(axes, here, error, look):
+def _panel(axes, here, look):
     """The curves of one problem."""
     for method, style in look.items():
-        rows = here[(here["method"] == method) & np.isfinite(here[error]) & (here["outcome"] == "finished")]
-        x, y = rows[error].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
+        rows = here[(here["method"] == method) & np.isfinite(here["error_state"]) & (here["outcome"] == "finished")]
+        x, y = rows["error_state"].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
         axes.plot(x, y, linewidth=0.8, **{**style, "marker": ""})
         whole = (rows["missed"] + rows["spurious"]) == 0
         size = 9.0 if style["marker"] == "*" else 4.0

@@ -96,11 +96,6 @@ class Spectrum:
         """Kaplan-Yorke dimension of the attractor in the section at whole cycles, see `kaplan_yorke`."""
         return kaplan_yorke(self.exponents)
 
-    @property
-    def running(self) -> np.ndarray:
-        """(n, 8) exponents as they are known after each cycle."""
-        return np.cumsum(self.growth, axis=0) / np.arange(1, len(self.growth) + 1)[:, None]
-
     def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
         """Standard errors of the exponents, (8,), nan where they are -inf, and of the dimension.
 
