@@ -46,6 +46,9 @@ def test_slow_flow_is_the_sign_of_the_jacobian_s_eigenvalues(name):
         growth = np.linalg.eigvals(jacobian(system, point.psi, point.C)).real.max()
         assert verdicts.of_fixed_point(system, point)["slow_flow"] == ("stable" if growth < 0 else "unstable")
         assert verdicts.fixed_point_error(system, point) < 1e-11
+        says = verdicts.of_fixed_point(system, point)
+        expected = "stable" if growth < 0 and min(point.C) > FOLD and max(point.C) < BREAKING else "unstable"
+        assert point.stability.both == verdicts.fast_and_slow(says) == expected
 
 
 @settings(max_examples=30)

@@ -119,12 +119,3 @@ def stays_within_walls(C: float, kappa: float) -> bool:
         ValueError: kappa is not between 0 and 1.
     """
     return 0 <= C <= largest_C(kappa)
-
-
-def impact_velocities(C, kappa):
-    """W' just before and just after the impact with W = +1: 4 C / (pi (1 + kappa)) and -kappa times it, by (10.17).
-
-    Outward before and inward after exactly for C > 0; for C < 0 the ball would come from beyond the wall.
-    """
-    before = 4 * C / (np.pi * (1 + kappa))
-    return before, -kappa * before

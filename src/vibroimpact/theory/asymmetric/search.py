@@ -98,37 +98,37 @@ class Balance:
     """The two conditions on (x_1, x_2) in one pair of charts."""
 
     def __init__(self, system, one: Chart, two: Chart):
-        self.one, self.two = one, two
-        self.e, self.K = impedances(system)
-        self.forcing = np.array([system.f10_hat, system.f20_hat])
-        self.q = [e * chart.z + chart.n for e, chart in zip(self.e, (one, two), strict=True)]
-        total = self.forcing.sum() * self.K
-        self.numerators = self.forcing[0] * self.q[1] + total * two.z, self.forcing[1] * self.q[0] + total * one.z
-        self._functions = (*self.q, one.z, two.z, *self.numerators, one.beta, two.beta)
-        self._slopes = tuple(function.deriv() for function in self._functions)
+        e, self.K = impedances(system)
+        f1, f2, total = system.f10_hat, system.f20_hat, (system.f10_hat + system.f20_hat) * self.K
+        q1, q2 = e[0] * one.z + one.n, e[1] * two.z + two.n
+        n1, n2 = f1 * q2 + total * two.z, f2 * q1 + total * one.z
+        sides = (q1, 0), (q2, 1), (one.z, 0), (two.z, 1), (n1, 1), (n2, 0), (one.beta, 0), (two.beta, 1)
+        self._functions = [(function, function.deriv(), side) for function, side in sides]
 
     def __call__(self, x):
         """Residuals (n, 2) and Jacobians (n, 2, 2) at x, shape (n, 2)."""
-        sides = (0, 1, 0, 1, 1, 0, 0, 1)
-        q1, q2, z1, z2, n1, n2, b1, b2 = (f(x[:, side]) for f, side in zip(self._functions, sides, strict=True))
-        r1, r2, y1, y2, m1, m2, a1, a2 = (f(x[:, side]) for f, side in zip(self._slopes, sides, strict=True))
-        K = self.K
-        delta = q1 * q2 + K * (z1 * q2 + q1 * z2)
-        by = r1 * q2 + K * (y1 * q2 + r1 * z2), q1 * r2 + K * (z1 * r2 + q1 * y2)
-        size, slopes = np.abs(delta) ** 2, [2 * (delta.conj() * d).real for d in by]
-        first, second = np.abs(b1 * n1) ** 2, np.abs(b2 * n2) ** 2
-        first_x = 2 * b1 * a1 * np.abs(n1) ** 2, 2 * b1**2 * (n1.conj() * m1).real
-        second_x = 2 * b2**2 * (n2.conj() * m2).real, 2 * b2 * a2 * np.abs(n2) ** 2
-        residual = np.stack([size - first, size - second], axis=-1)
-        rows = [[s - f for s, f in zip(slopes, side, strict=True)] for side in (first_x, second_x)]
-        return residual, np.moveaxis(np.array(rows), -1, 0)
+        q1, q2, z1, z2, n1, n2, b1, b2 = (
+            np.array([f(x[:, side]), (1 - side) * slope(x[:, side]), side * slope(x[:, side])])
+            for f, slope, side in self._functions
+        )
+        size = _size(_product(q1, q2) + self.K * (_product(z1, q2) + _product(q1, z2)))
+        residual, *slopes = np.stack([size - _size(_product(b1, n1)), size - _size(_product(b2, n2))], axis=-1)
+        return residual, np.stack(slopes, axis=-1)
 
     def phasors(self, x):
         """b_i = B_i exp(-i psi_i), shape (2,)."""
-        q1, q2 = self.q[0](x[0]), self.q[1](x[1])
-        z = np.array([self.one.z(x[0]), self.two.z(x[1])])
-        delta = q1 * q2 + self.K * (z[0] * q2 + q1 * z[1])
-        return z * np.array([self.numerators[0](x[1]), self.numerators[1](x[0])]) / delta
+        q1, q2, z1, z2, n1, n2, _, _ = (f(x[side]) for f, _, side in self._functions)
+        return np.array([z1 * n1, z2 * n2]) / (q1 * q2 + self.K * (z1 * q2 + q1 * z2))
+
+
+def _product(one, other):
+    """Of two functions of (x_1, x_2), each with its derivatives, (3, n)."""
+    return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
+
+
+def _size(function):
+    """Modulus squared of a function with its derivatives, (3, n)."""
+    return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 
 def fixed_points(system: System) -> list[AsymmetricPoint]:

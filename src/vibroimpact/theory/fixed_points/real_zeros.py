@@ -114,10 +114,18 @@ def _newton(pair, size, points):
 
 def _expanded(pair, size, points):
     """Values (n, 2), Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
-    (x, dx, _), (y, dy, _) = map(_derivatives, points.T[..., None] ** np.arange(3))
-    value, by_x, by_y = (np.einsum("nj,mjk,nk->nm", u, pair, v) for u, v in ((x, y), (dx, y), (x, dy)))
-    noise = np.einsum("nj,mjk,nk->nm", np.abs(x), size, np.abs(y))
-    return value, np.stack([by_x, by_y], -1), _ROUNDING * noise
+    value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
+    return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
+
+
+def _at(points, polynomials):
+    """Values (n, 2) of two polynomials, (2, 3, 3) or less, at points (n, 2)."""
+    return poly.polyval2d(*points.T, polynomials.transpose(1, 2, 0)).T
+
+
+def _derivatives(pair):
+    """Coefficients of the derivatives of the pair by x and by y."""
+    return poly.polyder(pair, axis=1), poly.polyder(pair, axis=2)
 
 
 def _adjugate(matrix):
@@ -132,20 +140,14 @@ def _contract(pair, size, points):
     derivatives, stay within it.
     """
     _, gradient, noise = _expanded(pair, size, points)
-    x, y = map(_derivatives, points.T[..., None] ** np.arange(3))
-    orders = zip((1, 2, 1), x, reversed(y), strict=True)
-    bend = 2 * sum(weight * np.abs(np.einsum("nj,mjk,nk->nm", u, pair, v)) for weight, u, v in orders)
+    by_x, by_y = _derivatives(pair)
+    second = (*_derivatives(by_x), *_derivatives(by_y))
+    bend = 2 * sum(np.abs(_at(points, one)) for one in second)
     with np.errstate(all="ignore"):
         inverse = np.abs(_adjugate(gradient) / np.linalg.det(gradient)[:, None, None])
         shift, change = ((inverse @ each[..., None])[..., 0].max(axis=1) for each in (noise, bend))
     halves = np.multiply.outer(_BOXES, np.maximum(1, np.abs(points).max(axis=1)))
     return (shift + change * halves**2 < halves).any(axis=0)
-
-
-def _derivatives(powers):
-    """1, t, t^2 (n, 3) and their first and second derivatives by t."""
-    zero, one = np.zeros(len(powers)), np.ones(len(powers))
-    return powers, np.stack([zero, one, 2 * powers[:, 1]], -1), np.stack([zero, zero, 2 * one], -1)
 
 
 def _distinct(points, apart):

@@ -73,9 +73,17 @@ class EnclosedConditions:
         lags = self.lags(unknowns)
         if lags is None:
             return None
-        motions = [self.before(m, unknowns, lags) for m in range(4)]
-        rows = [row for i in range(2) for row in self._of_module(i, unknowns, lags, motions)]
-        return arb_mat([row[:1] for row in rows]), arb_mat([row[1:] for row in rows])
+        boxes, one = [self.before(m, unknowns, lags) for m in range(4)], _jet(arb(1))
+        outward, rows = 1 + self.kappa, []
+        for i, (start, end) in enumerate(((0, 1), (2, 3))):
+            u, strength = _jet(self.fraction(i, lags)), _jet(unknowns[4 + i], 4 + i)
+            u[1 + start], u[1 + end] = -1 / self.period, 1 / self.period
+            rows += [
+                outward * boxes[start][2 + i] + _product(strength, outward * u - (1 + self.epsilon) * one),
+                outward * boxes[end][2 + i] + _product(strength, outward * u - (self.kappa - self.epsilon) * one),
+                boxes[start][i] - boxes[end][i] - 2 * one + self.period * _product(strength, _product(u, one - u)),
+            ]
+        return arb_mat([row[:1].tolist() for row in rows]), arb_mat([row[1:].tolist() for row in rows])
 
     def lags(self, unknowns):
         """Time since impact k at impact m, by (m, k), above 0 and below a period; None where impacts may coincide."""
@@ -93,48 +101,29 @@ class EnclosedConditions:
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """State (4, 1) of the boxes just before impact m and its derivatives by the unknowns: rows of length 7."""
+        """State (4,) of the boxes just before impact m with its derivatives by the unknowns, (4, 7)."""
         forced = self.boxes.forced(unknowns[m])
-        columns = [forced, *[0 * forced] * _UNKNOWNS]
-        columns[1 + m] = forced * acb(0, self.boxes.omega)
-        columns = [arb_mat([[entry.imag] for entry in column.entries()]) for column in columns]
+        state = np.full((4, 1 + _UNKNOWNS), arb(0))
+        state[:, 0] = [entry.imag for entry in forced.entries()]
+        state[:, 1 + m] = [(entry * acb(0, self.boxes.omega)).imag for entry in forced.entries()]
         for k in range(4):
-            strength = 5 + k // 2
-            motion = self._response(m, k, lags)
-            columns[0] += motion * unknowns[strength - 1]
-            columns[strength] += motion
+            box, kick = k // 2, _KICKS[k] * self.epsilon
+            motion = self.boxes.start if m == k else self.boxes.free(lags[m, k]) * self.boxes.start
+            motion = arb_mat([[kick * (motion[row, box] - int(m == k and row == 2 + box))] for row in range(4)])
+            response = np.full((4, 1 + _UNKNOWNS), arb(0))
+            response[:, 0] = motion.entries()
             if k != m:
-                moved = self.boxes.rate * motion * unknowns[strength - 1]
-                columns[1 + m] += moved
-                columns[1 + k] -= moved
-        return [[column[row, 0] for column in columns] for row in range(4)]
+                response[:, 1 + m] = (self.boxes.rate * motion).entries()
+                response[:, 1 + k] = -response[:, 1 + m]
+            state = state + [_product(row, _jet(unknowns[4 + box], 4 + box)) for row in response]
+        return state
 
-    def _response(self, m, k, lags):
-        """Motion of the boxes just before impact m under the kicks of impact k, per velocity change of its ball."""
-        box, kick = k // 2, _KICKS[k] * self.epsilon
-        motion = self.boxes.start if m == k else self.boxes.free(lags[m, k]) * self.boxes.start
-        own = [arb(int(m == k and row == 2 + box)) for row in range(4)]
-        return arb_mat([[kick * (motion[row, box] - own[row])] for row in range(4)])
 
-    def _of_module(self, i, unknowns, lags, motions):
-        """The three conditions of a module, each with its derivatives."""
-        start, end, strength = 2 * i, 2 * i + 1, unknowns[4 + i]
-        u, kappa, epsilon = self.fraction(i, lags), self.kappa, self.epsilon
-        first = [(1 + kappa) * term for term in motions[start][2 + i]]
-        second = [(1 + kappa) * term for term in motions[end][2 + i]]
-        path = [a - b for a, b in zip(motions[start][i], motions[end][i], strict=True)]
-        path[0] -= 2
-        # What the equations have besides the motion of the box is strength times a function of u.
-        slope = (1 + kappa) / self.period
-        self._add(first, i, strength, kappa * u - (1 - u) - epsilon, slope)
-        self._add(second, i, strength, u - kappa * (1 - u) + epsilon, slope)
-        self._add(path, i, strength, u * (1 - u) * self.period, 1 - 2 * u)
-        return first, second, path
+def _jet(value, unknown=None):
+    """A number with its derivatives by the unknowns, (7,): a constant, or an unknown itself."""
+    return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
-    @staticmethod
-    def _add(row, i, strength, factor, slope):
-        """Add strength times factor, whose derivative by the later impact time of module i is slope."""
-        row[0] += strength * factor
-        row[5 + i] += factor
-        row[2 + 2 * i] += strength * slope
-        row[1 + 2 * i] -= strength * slope
+
+def _product(one, other):
+    """The product of two numbers with their derivatives."""
+    return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
