@@ -339,7 +339,7 @@ def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
 
 def test_a_fold_stays_open_and_its_neighbours_do_not():
     proof = certify(build(dict(f20_hat=FOLD)))
-    assert any(point.multiple for point in fixed_points(build(dict(f20_hat=FOLD))))
+    assert any(point.multiple for point in vi.fixed_points(build(dict(f20_hat=FOLD))))
     assert not proof.complete
     assert proof.undecided
     for box in proof.undecided:
