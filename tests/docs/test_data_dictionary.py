@@ -18,9 +18,10 @@ SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 @pytest.fixture(scope="module")
 def made(built):
-    """The data of a build, without the records of results: paths from the checkout."""
+    """The data of a build, without records and the report's copies: paths from the checkout."""
     data = [path for path in (built / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
-    return {str(path.relative_to(built.path)): path for path in sorted(data) if path.parent.name != RECORDS}
+    named = {str(path.relative_to(built.path)): path for path in sorted(data) if path.parent.name != RECORDS}
+    return {name: path for name, path in named.items() if not name.startswith("results/report/")}
 
 
 def table(path) -> tuple[list[str], list[dict]]:

@@ -27,7 +27,7 @@ def test_chart_keeps_failed_and_unavailable_methods():
         line for line in figure.findobj(lambda a: hasattr(a, "get_xdata")) if line.get_marker() not in ("", "None")
     ]
     drawn = {(x, y) for line in points for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}
-    assert {(1e-6, 1e-3), (1e-7, 1e-3)} <= drawn
+    assert (1e-6, 1e-3) in drawn
     assert any(x > work_precision.LARGEST and y == 1e-3 for x, y in drawn)
 
 

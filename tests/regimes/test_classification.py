@@ -84,7 +84,7 @@ def test_without_impacts_the_boxes_follow_the_linear_response(chapter, observati
 def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(chapter):
     """It will, however slow: at 1e-5 it takes more than 10 000 cycles."""
     system = chapter(0.05, 0.05)
-    settled = vi.simulate(system, np.zeros(8), 300).final
+    settled = vi.simulate(system, np.zeros(8), 300).final.copy()
     assert observe(system, settled, 24, 0.02).name == NO_IMPACTS
     settled[5] = 1e-5
     drifting = observe(system, settled, 24, 0.02)

@@ -20,6 +20,8 @@ from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
+PICTURE = re.compile(r"^!\[.*?\]\(\.\./results/\w+/(?P<name>\w+)\.png\)$", re.MULTILINE)
+"""A picture of a document; left out where the config does not make the figure."""
 SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?P<percent>percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
 """A number of a document, in a comment behind it the file that it comes from and the place there, and what ends it."""
 SOURCE = (
@@ -49,6 +51,7 @@ class Pages:
     def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=(), departures=()):
         self.root, self.results, self.settings, self.config = Path(root), results, settings, config
         self.departures = departures
+        self.pictures = {figure for group in shown.values() for figure in group}
         self.about = figure_texts(self.root, config)
         self.environment = jinja2.Environment(
             loader=jinja2.FileSystemLoader(self.root),
@@ -81,6 +84,7 @@ class Pages:
             text = self.environment.get_template(page["source"]).render(target=target)
         else:
             text = (self.root / page["source"]).read_text(encoding="utf-8")
+            text = PICTURE.sub(lambda picture: picture[0] if picture["name"] in self.pictures else "", text)
             if target == "html" and self.results.judged:
                 numbers = count(1)
                 text = SOURCED.sub(lambda found: self._with_source(found, next(numbers)), text)
