@@ -48,8 +48,10 @@ def test_fit_for_print(figure):
         assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.499, text.get_text()
     hues = {matplotlib.colors.to_rgb(line.get_color()) for line in figure.findobj(Line2D)}
     hues = {hue for hue in hues if len(set(hue)) > 1}
-    assert all(np.diff(sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)})) > 15)
-    assert hues <= {matplotlib.colors.to_rgb(text.get_color()) for text in figure.findobj(Text)}
+    apart = np.diff(sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)}))
+    assert all(apart > 15), f"colours that look alike in grey print: {hues}"
+    unlabelled = hues - {matplotlib.colors.to_rgb(text.get_color()) for text in figure.findobj(Text)}
+    assert not unlabelled, f"a line of colour {unlabelled} needs a label in its colour: no colour speaks alone"
 
 
 def test_same_bytes_again_whatever_the_user_has_set_and_no_date(tmp_path):

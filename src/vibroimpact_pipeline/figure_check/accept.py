@@ -34,14 +34,14 @@ def changed(verdicts: list[dict], figures=()) -> list[dict]:
     return [v for v in verdicts if (v["figure"] in figures if figures else v["status"] != PASSED)]
 
 
-def summary(verdict: dict) -> list[str]:
-    """Return lines on the changes in one figure: numbers before and after, distances, other reasons."""
+def summary(verdict: dict, pictures_only: bool = False) -> list[str]:
+    """Return lines on the changes in one figure: numbers before and after unless these are kept, other reasons."""
     reasons = verdict["reasons"]
     said = [
         f"  {one['table']}, {one['column']}: before {one['reference']}, after {one['new']}, "
         f"difference {one['distance']} {UNITS[one['measure']]} ({one['where']})"
         for one in verdict["tables"]
-        if one["distance"] != 0
+        if one["distance"] != 0 and not pictures_only
     ]
     said += [f"  {reason}" for reason in reasons[:SHOWN]] + [f"  and {len(reasons) - SHOWN} more"] * (
         len(reasons) > SHOWN
@@ -122,7 +122,7 @@ def main(arguments=None) -> int:
         if not found:
             print("Nothing to accept: every figure agrees with its reference.")
             return 0
-        print(*(line for verdict in found for line in summary(verdict)), sep="\n")
+        print(*(line for verdict in found for line in summary(verdict, given.pictures)), sep="\n")
         print(f"Before, difference and after as pictures: {check / 'index.html'}")
         reason = given.reason if given.reason.strip() or not sys.stdin.isatty() else input("Reason: ")
         accept(found, given.build, given.reference, reason, datetime.date.today(), given.pictures)
