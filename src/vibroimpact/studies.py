@@ -10,7 +10,7 @@ from vibroimpact.absorbers.tuning import best, den_hartog
 from vibroimpact.regimes import branches as continuation
 from vibroimpact.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.sweeps.observations import COLUMNS
-from vibroimpact.sweeps.request import understood
+from vibroimpact.sweeps.request import parsed
 from vibroimpact.sweeps.rows import rows
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
@@ -75,7 +75,7 @@ def sweep(system: System, axes: Mapping[str, Iterable[float]], observe: Sequence
         if name not in COLUMNS:
             raise ValueError(f"observe: {name!r} is none of {', '.join(COLUMNS)}")
     listed = [{"along": [name], "listed": list(values)} for name, values in axes.items()]
-    grid, wanted = understood({"system": asdict(system), "axes": listed, "asked": {"observe": observe, **asked}})
+    grid, wanted = parsed({"system": asdict(system), "axes": listed, "asked": {"observe": observe, **asked}})
     return list(rows(grid, wanted, range(len(grid))))
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from chapter import PARAMETERS
 from vibroimpact.sweeps.cost import MOST_TILES, core_seconds, points, tiles
-from vibroimpact.sweeps.request import understood
+from vibroimpact.sweeps.request import parsed
 
 SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 ASKED = {"observe": ["amplitudes"], "starts": 2, "seed": 1, "cycles": 4000, "settle": 10}
@@ -16,7 +16,7 @@ def request(values, **asked):
 
 
 def test_points_are_those_of_the_grid():
-    grid, _ = understood(request(3))
+    grid, _ = parsed(request(3))
     assert points(request(3)["axes"]) == len(grid) == 6
 
 

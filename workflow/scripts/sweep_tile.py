@@ -4,11 +4,11 @@ import pandas as pd
 
 from vibroimpact.exact.engine.all_cores import at_most
 from vibroimpact.figures.kit import tables
-from vibroimpact.sweeps.request import understood
+from vibroimpact.sweeps.request import parsed
 from vibroimpact.sweeps.rows import columns, rows
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out, at_most(snakemake.threads):
-    grid, asked = understood(snakemake.params.request)
+    grid, asked = parsed(snakemake.params.request)
     number, tiles = map(int, snakemake.wildcards.scatteritem.split("-of-"))
     tables.write(pd.DataFrame(rows(grid, asked, grid.tile(number, tiles)), columns=columns(grid, asked)), out.csv)

@@ -9,7 +9,7 @@ from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.system import System
 
 
-def understood(request: Mapping) -> tuple[Grid, Asked]:
+def parsed(request: Mapping) -> tuple[Grid, Asked]:
     """The grid and what is observed there.
 
     Args:

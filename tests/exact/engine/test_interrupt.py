@@ -10,6 +10,7 @@ import os, signal, sys, threading, time
 import vibroimpact as vi
 from chapter import PARAMETERS
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background has its commands ignore it
 system, start, call = vi.System(**PARAMETERS, f10_hat=1, f20_hat=1), [0, 0, 0, 0, 0, 0.5, 0, 0.5], sys.argv[1]
 long = {
     "simulate": lambda cycles: vi.simulate(system, start, cycles),
@@ -33,10 +34,11 @@ except KeyboardInterrupt:
 """
 
 IN_A_THREAD = """
-import _thread, threading, time
+import _thread, signal, threading, time
 import vibroimpact as vi
 from chapter import PARAMETERS
 
+signal.signal(signal.SIGINT, signal.default_int_handler)
 system, start, runs = vi.System(**PARAMETERS, f10_hat=1, f20_hat=1), [0, 0, 0, 0, 0, 0.5, 0, 0.5], []
 vi.simulate(system, start, 1)
 thread = threading.Thread(target=lambda: runs.append(vi.simulate(system, start, 500_000)))
