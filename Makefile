@@ -63,7 +63,7 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 		|| { echo "The same examples again: $$again"; exit 1; }
 
 lock: set-up  ## pin every package anew into environment.lock, what a cluster needs beside them into cluster.lock
-	$(PIN) --upgrade --all-extras --excludes <(echo snakemake-executor-plugin-slurm) pyproject.toml -o environment.lock
+	$(PIN) --upgrade --all-extras --excludes <(printf '%s\n' snakemake-executor-plugin-slurm jupyterlab) pyproject.toml -o environment.lock
 	$(PIN) --upgrade --extra cluster --constraint environment.lock \
 		$$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock) pyproject.toml -o cluster.lock
 

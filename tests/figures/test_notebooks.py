@@ -1,23 +1,40 @@
 """The notebooks as they lie in the repository: valid, stripped, with the parameters that the pipeline sets."""
 
 import ast
+import tomllib
 
 import nbformat
 import pytest
 
 from pipeline_trees import ROOT
 
-NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+OF_FIGURES = ["closed_form", "drawings", "fixed_points", "physical_units", "simulation", "theoretical_response"]
+NOTEBOOKS = sorted([*OF_FIGURES, "play"])
 
 
-def test_there_is_one_notebook_per_kind_of_figure():
-    names = ["closed_form", "drawings", "fixed_points", "physical_units", "simulation", "theoretical_response"]
-    assert [path.stem for path in NOTEBOOKS] == names
+def opened(name):
+    return nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=nbformat.NO_CONVERT)
 
 
-@pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
+def code(notebook, tag=None):
+    """Sources of the code cells, or of those with a tag, without the lines for IPython alone."""
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    chosen = [cell for cell in cells if tag is None or tag in cell.metadata.get("tags", [])]
+    return ["\n".join(line for line in cell.source.splitlines() if not line.startswith("%")) for cell in chosen]
+
+
+def test_there_is_one_notebook_per_kind_of_figure_and_one_to_play_with():
+    assert sorted(path.stem for path in (ROOT / "notebooks").glob("*.ipynb")) == NOTEBOOKS
+
+
+@pytest.fixture(params=NOTEBOOKS)
 def notebook(request):
-    return nbformat.read(request.param, as_version=nbformat.NO_CONVERT)
+    return opened(request.param)
+
+
+@pytest.fixture(params=OF_FIGURES)
+def of_a_figure(request):
+    return opened(request.param)
 
 
 def test_valid_with_readable_cell_ids(notebook):
@@ -33,9 +50,9 @@ def test_stripped(notebook):
             assert cell.execution_count is None
 
 
-def test_parameters_are_those_that_the_pipeline_sets(notebook):
-    (cell,) = (cell for cell in notebook.cells if "parameters" in cell.metadata.get("tags", []))
-    assignments = ast.parse(cell.source).body
+def test_parameters_are_those_that_the_pipeline_sets(of_a_figure):
+    (source,) = code(of_a_figure, "parameters")
+    assignments = ast.parse(source).body
     assert [statement.targets[0].id for statement in assignments] == [
         "figure",
         "alt",
@@ -55,9 +72,26 @@ def test_begins_with_the_question_and_its_equations(notebook):
     assert "$$" in equations.source
 
 
-def test_defines_no_functions(notebook):
-    """Whatever computes belongs to the library, where it is tested."""
-    for cell in notebook.cells:
-        if cell.cell_type == "code":
-            tree = ast.parse(cell.source)
-            assert not any(isinstance(node, (ast.FunctionDef, ast.ClassDef)) for node in ast.walk(tree))
+def test_defines_no_functions_but_those_of_a_solution_by_hand(of_a_figure):
+    """Whatever else computes belongs to the library, where it is tested."""
+    by_hand = code(of_a_figure, "by-hand")
+    for source in code(of_a_figure):
+        tree = ast.parse(source)
+        defines = any(isinstance(node, (ast.FunctionDef, ast.ClassDef)) for node in ast.walk(tree))
+        assert not defines or source in by_hand
+
+
+def test_the_one_to_play_with_needs_what_its_extra_installs():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    assert {"vibroimpact[figures]", "ipykernel>=6.29"} < set(extras["notebooks"])
+    assert any(line.startswith("jupyterlab>=") for line in extras["notebooks"])
+    imports = [node for source in code(opened("play")) for node in ast.walk(ast.parse(source))]
+    names = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
+    brought = {"vibroimpact", "numpy", "scipy", "matplotlib", "IPython"}  # by the library, Matplotlib and the kernel
+    assert {name.split(".")[0] for name in names} == brought
+
+
+def test_a_root_and_an_impact_are_solved_by_hand():
+    assert "fsolve(" in code(opened("fixed_points"), "by-hand")[0]
+    assert "brentq(" in code(opened("simulation"), "by-hand")[0]

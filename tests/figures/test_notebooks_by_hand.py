@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from PIL import Image
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
@@ -22,7 +23,13 @@ RUNS = {
     "drawing": ("drawings", {'"fig10_01"': '"fig10_02"'}),
     "machines": ("physical_units", {'"k12": 100.0': '"k12": 300.0', '"values": 13': '"values": 3'}),
 }
-NUMBER = r"([\d.]+(?:e-?\d+)?)"
+WEAK = {'"f10_hat": 1.0': '"f10_hat": 0.5', '"f20_hat": 1.0': '"f20_hat": 0.5', '"play.gif"': '""'}
+PLAYED = {
+    "play": ("play", {}),
+    "play weak": ("play", WEAK | {"compared = 40": "compared = 60"}),
+    "play light": ("play", {'"epsilon": 0.1': '"epsilon": 0.002', '"play.gif"': '""', "compared = 40": "compared = 5"}),
+}
+NUMBER = r"([\d.]+(?:e[+-]?\d+)?)"
 
 
 def sums(folder):
@@ -180,3 +187,55 @@ def test_machines_swing_as_their_springs_have_it(shown):
 
 def test_every_notebook_shows_its_picture_once(shown):
     assert {key: text.count("<picture>") for key, text in shown.items()} == dict.fromkeys(RUNS, 1)
+
+
+def test_the_root_by_hand_is_that_of_the_table(shown):
+    assert float(re.search(rf"from the table: {NUMBER}", shown["points"])[1]) < 1e-8
+    assert "There is no fixed point to find." in shown["no points"]
+
+
+def test_the_impact_by_hand_is_that_of_the_table(shown):
+    rows = re.findall(rf"^(?:time|velocity of \w+ [12]) +-?{NUMBER} +-?{NUMBER}", shown["motion"], re.MULTILINE)
+    assert len(rows) == 3
+    for by_hand, in_the_table in rows:
+        assert float(by_hand) == pytest.approx(float(in_the_table), abs=1e-8)
+
+
+@pytest.fixture(scope="module")
+def played(tmp_path_factory):
+    """What the notebook to play with shows, and the folder it was started in."""
+    folder = tmp_path_factory.mktemp("play")
+    return printed(PLAYED, folder), folder
+
+
+def test_playing_shows_motion_section_and_comparison_and_writes_the_animation_alone(played):
+    shown, folder = played
+    assert {key: text.count("<picture>") for key, text in shown.items()} == dict.fromkeys(PLAYED, 3)
+    assert [path.name for path in folder.iterdir()] == ["play.gif"]
+    with Image.open(folder / "play.gif") as animation:
+        assert animation.n_frames > 30
+    assert all("IPython.core.display.HTML" in text for text in shown.values())
+
+
+def test_playing_tells_the_truth(played):
+    """Numbers of points and orbits as in the documents; the motion of the equal case repeats, the weak one does not."""
+    equal, weak, light = (played[0][key] for key in PLAYED)
+    assert "Fixed points of the theory: 3. Stable ones: c." in equal
+    assert "Exact orbits of this kind: 7. Stable ones: 2." in equal
+    assert "Fixed points of the theory: 1. Stable ones: none." in weak
+    assert "The motion repeats every period." in equal
+    assert "The motion does not repeat every period, or not yet." in weak
+    assert len(re.findall(r"  symmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)) == 1
+    assert not re.search(r"  asymmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)
+
+
+def test_scipy_written_out_agrees_until_chaos_parts_it(played):
+    def apart(text):
+        return [float(n) for n in re.search(rf"differ by {NUMBER} after one period and by {NUMBER}", text).groups()]
+
+    equal, weak, light = (played[0][key] for key in PLAYED)
+    for text in (equal, light):
+        assert max(apart(text)) < 1e-7
+        assert re.search(r"^(\d+) impacts by SciPy, \1 events by the library", text, re.MULTILINE)
+    assert apart(weak)[0] < 1e-8
+    assert apart(weak)[1] > 0.01
