@@ -1,0 +1,44 @@
+"""docs/reliability.md: its numbers are those of the engine's page and tests, or measured anew.
+
+What it says of proofs is tested with the results of a build, in tests/workflow/test_claims_of_a_build.py.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from pipeline_trees import ROOT
+
+PAGE, ENGINE = ((ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in ("reliability", "engine"))
+ATTACK = (ROOT / "tests/exact/engine/test_attack.py").read_text(encoding="utf-8")
+
+
+def test_the_promised_error_is_that_which_is_attacked():
+    promised = re.search(r"at most ([\d.]+) times this estimate", PAGE)[1]
+    assert promised == re.search(r"^PROMISED = ([\d.]+)", ATTACK, re.MULTILINE)[1]
+    assert f"at most {promised} times the estimate" in ENGINE
+    worst, runs = re.search(r"at worst ([\d.]+) times in ([\d ]+) runs", PAGE).groups()
+    assert runs in ENGINE
+    assert f"{worst})" in ENGINE
+    assert float(worst) < float(promised)
+
+
+def test_the_horizon_of_the_modulated_response():
+    system = vi.System(**PARAMETERS, **dict(zip(("f10_hat", "f20_hat"), FORCES["weak"], strict=True)))
+    random, cycles = np.random.default_rng(1), []
+    for _ in range(15):
+        settled = vi.simulate(system, [0.0] * 4 + random.uniform(-0.5, 0.5, 4).tolist(), 300)
+        run = vi.simulate(system, settled.final, 120, tau0=settled.end)
+        assert not run.certificate.decided
+        cycles.append((run.certificate.horizon - run.tau0) / system.period)
+    said = float(re.search(r"some (\d+) cycles", PAGE)[1])
+    assert np.median(cycles) == pytest.approx(said, rel=0.15)
+
+
+def test_the_fields_it_names_are_there():
+    certificate = vi.simulate(vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0), [0.0] * 8, 5).certificate
+    for name in re.findall(r"`certificate\.(\w+)`", PAGE):
+        assert hasattr(certificate, name)
