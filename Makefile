@@ -12,7 +12,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive benchmark attack test test-all explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up
 .DEFAULT_GOAL := help
 
 # A progress bar in a terminal; plain lines elsewhere, and with V=1 all that Snakemake says.
@@ -46,6 +46,16 @@ benchmark: set-up  ## time per impact of every method, with its error (a minute 
 
 attack: set-up  ## attack what the certificates of runs say, 20 000 runs of each kind (RUNS=20000; a core for a quarter of an hour)
 	.venv/bin/pytest tests/exact/engine/test_attack.py --attack=$(RUNS)
+
+# Tests that need no build of the figures: formulas, orbits, the core of the engine, the config, the map of the repository.
+QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact certificate)) sweeps absorbers \
+	integrators/test_contact_laws.py regimes/test_classification.py figures/test_specs.py figures/test_notebooks.py \
+	pipeline/test_config_reading.py report/test_report_text.py docs/test_map.py
+
+test-quick: set-up  ## lint, import contracts, tests of formulas, orbits, engine and config (under a minute)
+	.venv/bin/ruff check
+	.venv/bin/lint-imports
+	.venv/bin/pytest --numprocesses 2 --dist worksteal $(addprefix tests/,$(QUICK))
 
 test: set-up  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check

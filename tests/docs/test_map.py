@@ -2,6 +2,7 @@
 
 import ast
 import re
+import subprocess
 import tomllib
 
 import pytest
@@ -31,6 +32,15 @@ def test_the_map_names_what_is_there():
     names = [name for room in rooms for name in re.findall(r"`([^`]+)`", room)]
     assert len(names) > 8
     assert [name for name in names if not (ROOT / name).exists()] == []
+
+
+def test_the_quick_tests_are_there():
+    """`make test-quick` as it would run pytest, and the file that tells of it."""
+    told = subprocess.run(["make", "-n", "test-quick"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    paths = re.findall(r" (tests/\S+)", told)
+    assert len(paths) > 10
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+    assert "`make test-quick`" in CONTRIBUTING
 
 
 def docstrings(path) -> dict[str, str]:

@@ -19,8 +19,8 @@ SET_UP = ["make set-up", ". .venv/bin/activate"]
 
 
 def commands() -> list[str]:
-    """What the README says to do in the unpacked folder."""
-    (block,) = re.findall(r"In the unpacked folder .*?```\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    """What docs/running.md says to do in the unpacked folder."""
+    (block,) = re.findall(r"In the unpacked folder .*?```\n(.*?)```", (ROOT / "docs/running.md").read_text(), re.DOTALL)
     lines = block.splitlines()
     assert lines[: len(SET_UP)] == SET_UP
     return lines[len(SET_UP) :]
