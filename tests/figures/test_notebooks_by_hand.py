@@ -24,9 +24,12 @@ RUNS = {
     "machines": ("physical_units", {'"k12": 100.0': '"k12": 300.0', '"values": 13': '"values": 3'}),
 }
 WEAK = {'"f10_hat": 1.0': '"f10_hat": 0.5', '"f20_hat": 1.0': '"f20_hat": 0.5', '"play.gif"': '""'}
+STICKING = {'"kappa": 0.65': '"kappa": 0.3', '"f10_hat": 1.0': '"f10_hat": 6.0', '"f20_hat": 1.0': '"f20_hat": 6.0'}
+STICKING |= {'"play.gif"': '""', "compared = 40": "compared = 5"}
 PLAYED = {
     "play": ("play", {}),
     "play weak": ("play", WEAK | {"compared = 40": "compared = 60"}),
+    "play sticking": ("play", STICKING),
     "play light": ("play", {'"epsilon": 0.1': '"epsilon": 0.002', '"play.gif"': '""', "compared = 40": "compared = 5"}),
 }
 NUMBER = r"([\d.]+(?:e[+-]?\d+)?)"
@@ -219,7 +222,8 @@ def test_playing_shows_motion_section_and_comparison_and_writes_the_animation_al
 
 def test_playing_tells_the_truth(played):
     """Numbers of points and orbits as in the documents; the motion of the equal case repeats, the weak one does not."""
-    equal, weak, light = (played[0][key] for key in PLAYED)
+    equal, weak, sticking, light = (played[0][key] for key in PLAYED)
+    assert "A ball chatters." in sticking
     assert "Fixed points of the theory: 3. Stable ones: c." in equal
     assert "Exact orbits of this kind: 7. Stable ones: 2." in equal
     assert "Fixed points of the theory: 1. Stable ones: none." in weak
@@ -233,7 +237,7 @@ def test_scipy_written_out_agrees_until_chaos_parts_it(played):
     def apart(text):
         return [float(n) for n in re.search(rf"differ by {NUMBER} after one period and by {NUMBER}", text).groups()]
 
-    equal, weak, light = (played[0][key] for key in PLAYED)
+    equal, weak, _, light = (played[0][key] for key in PLAYED)
     for text in (equal, light):
         assert max(apart(text)) < 1e-7
         assert re.search(r"^(\d+) impacts by SciPy, \1 events by the library", text, re.MULTILINE)
