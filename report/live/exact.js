@@ -86,6 +86,12 @@ const VibroImpact = (() => {
       return [X[0], Y[0], X[1], Y[1], V[0], U[0], V[1], U[1]];
     }
 
+    // Go on with other parameters; the frequency of the force stays.
+    change(parameters) {
+      this.system = coefficients(parameters);
+      this.resolve(-1);
+    }
+
     // Power series of X1 and X2 while these balls stick.
     series(stuck) {
       const { e, K, C, f, omega } = this.system, a = [[this.X[0], this.V[0]], [this.X[1], this.V[1]]];

@@ -31,6 +31,7 @@ OWN_SCRIPTS = {
     "motion": ["shape.js", "animation.js"],
     "fixed_points": ["shape.js", "force_sweep.js"],
     "claims": ["filter.js"],
+    "play": ["exact.js", "theory.js", "play.js"],
 }
 DATA = {"type": "application/json"}
 KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
@@ -182,7 +183,9 @@ def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, pa
     assert browser.run("document.title") != "taken"
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
     assert browser.run("getComputedStyle(document.querySelector('.skip')).position") == "absolute"
-    drawn = browser.run("[...document.querySelectorAll('.live svg, .live output')].map(e => e.innerHTML.length)")
+    drawn = browser.run(
+        "[...document.querySelectorAll('.live svg, .live output, #play-machine')].map(e => e.innerHTML.length)"
+    )
     assert all(length > 3 for length in drawn)
     assert bool(drawn) == (page in OWN_SCRIPTS)
 
