@@ -16,18 +16,6 @@ const LOOKS = { // of the regimes, after Paul Tol's schemes for colour-blind rea
   "no impacts": ["N", "#ffffff", ""],
   "unsettled": ["U", "#888888", "not decided"],
 };
-const SVG = "http://www.w3.org/2000/svg";
-
-function mark(parent, kind, name, attributes = {}, text = "") {
-  const made = document.createElementNS(SVG, kind);
-  if (name) made.setAttribute("class", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.textContent = text;
-  parent.append(made);
-  return made;
-}
-
-const set = (element, attributes) => { for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value); };
 const niceAbove = (x) => [0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32].find((end) => end >= x) ?? 2 * x;
 const dark = (colour) => [1, 3, 5].reduce((sum, n, k) => sum + parseInt(colour.slice(n, n + 2), 16) * [0.3, 0.59, 0.11][k], 0) < 128;
 
@@ -73,28 +61,6 @@ class Machine {
     const turns = 14, lead = 0.15 * (right - left), step = (right - left - 2 * lead) / turns;
     const inner = Array.from({ length: turns + 1 }, (_, n) => `${left + lead + n * step},${[0, 0.14, 0, -0.14][n % 4]}`);
     return [`${left},0`, ...inner, `${right},0`].join(" ");
-  }
-}
-
-// A chart whose letters keep their size: its unit is the pixel of the page.
-class Chart {
-  constructor(svg, height) {
-    Object.assign(this, { svg, fixed: height, left: 46, right: 14, top: 8, bottom: 22 });
-    this.back = mark(svg, "g");
-    this.front = mark(svg, "g");
-  }
-
-  layout() {
-    this.width = Math.max(this.svg.clientWidth, 240);
-    this.height = this.fixed || this.width - this.left - this.right + this.top + this.bottom; // a square inside
-    set(this.svg, { viewBox: `0 0 ${this.width} ${this.height}`, height: this.height });
-    this.back.replaceChildren();
-    this.inner = [this.width - this.left - this.right, this.height - this.top - this.bottom];
-    mark(this.back, "rect", "frame", { x: this.left, y: this.top, width: this.inner[0], height: this.inner[1] });
-  }
-
-  text(layer, x, y, words, anchor = "middle") {
-    return mark(layer, "text", "", { x, y, "text-anchor": anchor }, words);
   }
 }
 
@@ -471,4 +437,4 @@ function badge(words, stable) {
   return made;
 }
 
-for (const root of document.querySelectorAll(".play")) new Play(root);
+for (const root of document.querySelectorAll("#play-live")) new Play(root);

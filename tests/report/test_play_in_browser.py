@@ -40,7 +40,7 @@ def page(tmp_path_factory):
     file = tmp_path_factory.mktemp("play") / "play.html"
     text = {path.name: path.read_text(encoding="utf-8") for path in LIVE.iterdir()}
     data = live_data(Cells(), CONFIG, ["companion_regime_map"])
-    scripts = "".join(f"<script>{text[name]}</script>" for name in ("exact.js", "theory.js", "play.js"))
+    scripts = "".join(f"<script>{text[name]}</script>" for name in ("exact.js", "theory.js", "chart.js", "play.js"))
     file.write_text(
         f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><style>{text["play.css"]}</style>{text["play.html"]}'
         f'<script type="application/json" id="play-data">{data}</script>{scripts}</html>',

@@ -317,6 +317,50 @@ def test_the_multipliers_of_the_asymmetric_orbits_cross_the_unit_circle(browser,
     assert browser.run(count.format('circle[data-multiplier=unstable][fill="#fff"]')) >= 3
 
 
+@pytest.mark.parametrize("criterion", ["both", "printed_10_26"])
+def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site, criterion):
+    """As counted in the table; by both time scales means by Masri's analysis and the slow flow."""
+    browser.open(address(site, "fixed_points"))
+    table = pd.read_csv(site.parent / "verdict_grid.csv")
+    table["both"] = table["masri_derived"].where(table["masri_derived"] != "stable", table["slow_flow"])
+    browser.run(f"document.querySelector('[data-criterion={criterion}]').click()")
+    browser.run("document.querySelector('#verdicts-epsilon').focus()")
+    shares = []
+    for epsilon in sorted(table["epsilon"].unique(), reverse=True):
+        called = table[(table["epsilon"] == epsilon) & (table[criterion] == "stable")]
+        right = int((called["floquet"] == "stable").sum())
+        told = browser.run("document.querySelector('#verdicts-count').textContent")
+        assert (
+            told == f"At ε = {epsilon}, {len(called)} points are called stable; of {right} of them the exact orbit is."
+        )
+        assert browser.run("document.querySelectorAll('#verdicts-map [data-stable=true]').length") == right
+        assert browser.run("document.querySelectorAll('#verdicts-map [data-stable]').length") == len(called)
+        shares.append(right / len(called))
+        browser.press("ArrowRight")
+    assert shares == sorted(shares)
+    assert shares[0] < shares[-1]
+
+
+def test_a_figure_opens_large_and_closes_by_keyboard(browser, site):
+    browser.open(address(site, "figures"), width=390)
+    small = browser.run("document.querySelector('figure img').getBoundingClientRect().width")
+    opened = "document.querySelector('dialog.large')?.open"
+    browser.run("document.querySelector('.enlarge button').focus()")
+    browser.press("Enter")
+    assert browser.run(opened)
+    assert browser.run("document.querySelector('.large img').getBoundingClientRect().width") > 2 * small
+    assert browser.run("document.querySelector('.large img').alt") == browser.run(
+        "document.querySelector('figure img').alt"
+    )
+    browser.press("Escape")
+    assert not browser.run(opened)
+    browser.page.locator("figure img").first.click()
+    assert browser.run(opened)
+    browser.page.locator(".large img").click()
+    assert not browser.run(opened)
+    assert browser.problems == []
+
+
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):
     browser.open(address(site, "fixed_points"))
     browser.run("document.querySelectorAll('[data-force-sweep] button')[1].focus()")

@@ -17,7 +17,7 @@ from vibroimpact.claims.finding import VERDICTS
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
-from vibroimpact_pipeline.report.live import live_data
+from vibroimpact_pipeline.report.live import live_data, verdict_data
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
@@ -76,6 +76,7 @@ class Pages:
             "count": Counter,
             "infinity": math.inf,
             "live_data": live_data,
+            "verdict_data": verdict_data,
             "table": markdown_table,
             "verdicts": verdicts,
         }
