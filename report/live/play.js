@@ -253,7 +253,7 @@ class Play {
     this.parameters = { ...data.system, f10_hat: data.cases[data.first][0], f20_hat: data.cases[data.first][1] };
     this.speed = 0.5;
     this.machine = new Machine(parts.machine);
-    this.strips = [new Strip(parts.box, 150, false), new Strip(parts.ball, 200, true)];
+    this.strips = [new Strip(parts.box, 170, false), new Strip(parts.ball, 230, true)];
     this.section = new Section(parts.section);
     this.charts = [...this.strips, this.section];
     parts.regimes.hidden = !data.map;
@@ -350,14 +350,15 @@ class Play {
     }
     const before = this.point?.label;
     this.points = SlowFlow.fixedPoints(parameters);
-    parts.point.replaceChildren(...this.points.map((point) => new Option(`point ${point.label}: the chapter says ${point.printed ? "stable" : "unstable"}`, point.label)), new Option("none", ""));
+    parts.point.replaceChildren(...this.points.map((point) => new Option(`${point.label}: the chapter says ${point.printed ? "stable" : "unstable"}`, point.label)), new Option("none", ""));
     const kept = this.points.find(({ label }) => label === before && before !== this.best) ?? this.points.at(-1);
     this.best = this.points.at(-1)?.label;
     this.choose(kept?.label ?? "");
     const same = Math.abs(kappa - data.system.kappa) < 1e-9;
     if (this.map) {
       this.map.show([f10_hat, f20_hat]);
-      parts.here.textContent = `At ${f10_hat.toFixed(2)}, ${f20_hat.toFixed(2)} most starts end in: ${this.map.regime([f10_hat, f20_hat])}.` + (same ? "" : ` The map is for κ = ${data.system.kappa}.`);
+      const where = same ? `At ${f10_hat.toFixed(2)}, ${f20_hat.toFixed(2)}` : `At these forces, but κ = ${data.system.kappa}, which the map is for,`;
+      parts.here.textContent = `${where} most starts end in: ${this.map.regime([f10_hat, f20_hat])}.`;
     }
     this.show();
   }

@@ -191,7 +191,7 @@ def test_a_click_in_the_map_starts_there(still):
 def test_a_map_of_another_restitution_says_so(still):
     focus(still, "kappa")
     still.press("ArrowLeft")
-    assert text(still, "here").endswith("The map is for κ = 0.65.")
+    assert text(still, "here").startswith("At these forces, but κ = 0.65, which the map is for, most starts end in: ")
 
 
 def test_the_trace_is_the_motion_of_the_library(still):
