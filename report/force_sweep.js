@@ -2,17 +2,18 @@
 // slider stands at.
 "use strict";
 
-const WIDTH = 360, HEIGHT = 270, LEFT = 44, BOTTOM = 38, TOP = 10, RIGHT = 10;
+const WIDTH = 360, HEIGHT = 290, LEFT = 44, BOTTOM = 38, TOP = 30, RIGHT = 10;
 const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
 const ASYMMETRIC = "#1a1a1a", FAR = 1.35;
 const RINGS = { stable: "none", unstable: "3 3", undecided: "1 4" };
 
 const colour = (track) => (track ? COLOURS[(track - 1) % COLOURS.length] : ASYMMETRIC);
 
-function frame(svg) {
+function frame(svg, title) {
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
   svg.setAttribute("font-size", 13);
   svg.setAttribute("font-family", "system-ui, sans-serif");
+  shape(svg, "text", { x: LEFT, y: TOP - 11, "font-weight": 600 }, title);
   shape(svg, "rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
 }
 
@@ -23,7 +24,7 @@ class Plane {
     const ends = [Math.max(...all.map(([C]) => C)), 1.05 * Math.max(...all.map(([, B]) => B))];
     this.x = (C) => LEFT + (C / ends[0]) * (WIDTH - LEFT - RIGHT);
     this.y = (B) => HEIGHT - BOTTOM - (B / ends[1]) * (HEIGHT - BOTTOM - TOP);
-    frame(svg);
+    frame(svg, `Fixed points, module ${module + 1}`);
     for (let C = 0; C <= ends[0]; C += 0.5) shape(svg, "text", { x: this.x(C), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, C);
     for (let B = 0; B <= ends[1]; B += 0.5) shape(svg, "text", { x: LEFT - 6, y: this.y(B) + 4, "text-anchor": "end" }, B);
     shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, `C${"₁₂"[module]}`);
@@ -42,16 +43,16 @@ class Plane {
   show(points, module) {
     this.layer.replaceChildren();
     let last = -Infinity;
-    for (const { label, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
+    for (const { name, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
       const hue = colour(track), [x, y] = [this.x(C[module]), this.y(B[module])];
       const fill = verdicts.fast_and_slow === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
-      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": label });
+      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": name });
       if (verdicts.floquet in RINGS) {
         shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.floquet], "data-exact": verdicts.floquet });
       }
       const below = x - last > 20;
       last = x;
-      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: hue, "font-weight": 600 }, label);
+      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: hue, "font-weight": 600 }, name);
     }
   }
 }
@@ -64,7 +65,7 @@ class Branches {
     this.values = values;
     this.x = (value) => LEFT + ((value - low) / (high - low)) * (WIDTH - LEFT - RIGHT);
     const y = (C) => HEIGHT - BOTTOM - (C / top) * (HEIGHT - BOTTOM - TOP);
-    frame(svg);
+    frame(svg, "Exact orbits over the force");
     for (let value = Math.ceil(5 * low); value <= 5 * high; value++) shape(svg, "text", { x: this.x(value / 5), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, (value / 5).toFixed(1));
     for (let C = 0; C <= top; C += 0.5) shape(svg, "text", { x: LEFT - 6, y: y(C) + 4, "text-anchor": "end" }, C);
     shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, "f̂₂₀");
@@ -81,36 +82,61 @@ class Branches {
   }
 }
 
-// The multipliers of the exact orbits and the unit circle; those far out stand at the edge, their moduli in the corner.
+// The multipliers of the exact orbits and the unit circle; those far out stand at the edge, their moduli beside the picture.
 class Circle {
   constructor(svg, { orbits }) {
     this.orbits = orbits;
-    frame(svg);
-    this.centre = [(LEFT + WIDTH - RIGHT) / 2, (TOP + HEIGHT - BOTTOM) / 2];
+    frame(svg, "Multipliers of the exact orbits");
     this.unit = (HEIGHT - BOTTOM - TOP) / 2 / FAR;
+    this.centre = [LEFT + 8 + FAR * this.unit, (TOP + HEIGHT - BOTTOM) / 2];
     const [cx, cy] = this.centre;
     for (const x of [-1, 0, 1]) shape(svg, "text", { x: cx + x * this.unit, y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, x);
-    shape(svg, "text", { x: LEFT + 8, y: TOP + 18 }, "multipliers");
     shape(svg, "circle", { cx, cy, r: this.unit, fill: "none", stroke: "#1a1a1a", "stroke-width": 1.3 });
     this.layer = shape(svg, "g", {});
   }
 
   show(index, points) {
     this.layer.replaceChildren();
-    const labels = Object.fromEntries(points.map(({ track, label }) => [track, label])), said = [];
+    const names = Object.fromEntries(points.map(({ track, name }) => [track, name])), far = [];
     for (const { track, floquet, multipliers } of this.orbits[index]) {
-      const far = [];
       for (const [real, imaginary] of multipliers) {
         const modulus = Math.hypot(real, imaginary), inside = Math.min(1, (FAR - 0.1) / modulus);
         const [x, y] = [this.centre[0] + real * inside * this.unit, this.centre[1] - imaginary * inside * this.unit];
         const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": floquet };
         if (track) shape(this.layer, "circle", { cx: x, cy: y, r: 3.6, ...style });
         else shape(this.layer, "rect", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
-          if (inside < 1) far.push(modulus.toPrecision(3));
+        if (inside < 1) far.push([`${names[track] ?? "pair"}: ${modulus.toPrecision(3)}`, colour(track)]);
       }
-      if (far.length) said.push([`${labels[track] ?? "asymmetric"}: ${far.join(", ")}`, colour(track)]);
     }
-    said.sort().forEach(([text, fill], n) => shape(this.layer, "text", { x: WIDTH - RIGHT - 6, y: TOP + 18 + 16 * n, "text-anchor": "end", fill }, text));
+    const place = { x: WIDTH - RIGHT - 6, "text-anchor": "end" };
+    if (far.length) shape(this.layer, "text", { ...place, y: TOP + 18 }, "farther out:");
+    far.sort().forEach(([text, fill], n) => shape(this.layer, "text", { ...place, y: TOP + 35 + 16 * n, fill, "data-far": "" }, text));
+  }
+}
+
+// What the chapter says of a branch and what its exact orbit is, in a line each.
+class Badges {
+  constructor(list) { this.list = list; }
+
+  show(points, orbits) {
+    const line = (name, hue, words, verdicts) => {
+      const entry = document.createElement("li"), letter = document.createElement("b");
+      Object.assign(letter, { textContent: name });
+      letter.style.color = hue;
+      entry.append(letter, ` ${words}`);
+      for (const [who, verdict] of verdicts) {
+        const badge = document.createElement("span");
+        badge.className = `badge ${verdict === "stable" ? "yes" : "no"}`;
+        badge.textContent = `${who}: ${verdict}`;
+        entry.append(" ", badge);
+      }
+      return entry;
+    };
+    const pair = orbits.find(({ track }) => !track);
+    const lines = points.map(({ name, label, track, verdicts }) => {
+      return line(name, colour(track), name === label ? "" : `(${label} in the chapter’s order)`, [["the chapter says", verdicts.printed_10_26], ["exact", verdicts.floquet]]);
+    });
+    this.list.replaceChildren(...lines, ...(pair ? [line("pair", ASYMMETRIC, "of asymmetric orbits", [["the chapter says", "nothing"], ["exact", pair.floquet]])] : []));
   }
 }
 
@@ -121,10 +147,12 @@ class ForceSweep {
     this.output = root.querySelector("output");
     this.heads = root.querySelectorAll("th");
     this.rows = root.querySelector("tbody");
-    const [first, second, third, fourth] = root.querySelectorAll("svg");
+    const [first, second, third, fourth] = root.querySelectorAll(".planes svg");
     this.planes = [first, second].map((svg, module) => new Plane(svg, module, this.data.manifold));
     this.branches = new Branches(third, this.data);
     this.circle = new Circle(fourth, this.data);
+    this.badges = new Badges(root.querySelector(".badges"));
+    this.names = this.branchNames(this.nearest(Number(root.dataset.start)));
     this.stations = [...document.querySelectorAll(".station")];
     this.slider.max = this.data.values.length - 1;
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
@@ -139,18 +167,30 @@ class ForceSweep {
     return gaps.indexOf(Math.min(...gaps));
   }
 
+  // A letter for each branch, by its track: that which it has at the start of the page; a branch that is not there has
+  // the next letter that is free.
+  branchNames(start) {
+    const names = new Map(this.data.points[start].map(({ track, label }) => [track, label]));
+    for (const { track } of this.data.points.flat()) {
+      if (!names.has(track)) names.set(track, [..."abcdefghijklmnopqrstuvwxyz"].find((letter) => ![...names.values()].includes(letter)) ?? track);
+    }
+    return names;
+  }
+
   show(index) {
-    const points = this.data.points[index], value = this.data.values[index].toFixed(2);
+    const named = this.data.points[index].map((point) => ({ ...point, name: this.names.get(point.track) }));
+    const points = named.sort((one, other) => (one.name < other.name ? -1 : 1)), value = this.data.values[index].toFixed(2);
     this.slider.value = index;
     this.slider.setAttribute("aria-valuetext", `${value}, ${points.length} fixed points`);
     this.output.textContent = value;
     this.planes.forEach((plane, module) => plane.show(points, module));
     this.branches.show(index);
     this.circle.show(index, points);
-    this.rows.replaceChildren(...points.map(({ label, C, B, verdicts }) => {
+    this.badges.show(points, this.data.orbits[index]);
+    this.rows.replaceChildren(...points.map(({ name, C, B, verdicts }) => {
       const row = document.createElement("tr");
       const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));
-      [label, ...places, ...Object.values(verdicts)].forEach((text, n) => {
+      [name, ...places, ...Object.values(verdicts)].forEach((text, n) => {
         const cell = row.insertCell();
         cell.textContent = text;
         cell.dataset.of = this.heads[n].textContent;

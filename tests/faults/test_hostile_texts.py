@@ -29,8 +29,9 @@ SOURCES = ROOT / "report"
 TITLES = {"site": SETTINGS["title"], "footer": f"Built from {plain(HOSTILE)}."}
 OWN_SCRIPTS = {
     "motion": ["shape.js", "animation.js"],
-    "fixed_points": ["shape.js", "force_sweep.js"],
+    "fixed_points": ["shape.js", "force_sweep.js", "chart.js", "verdicts.js"],
     "claims": ["filter.js"],
+    "play": ["exact.js", "theory.js", "chart.js", "play.js"],
 }
 DATA = {"type": "application/json"}
 KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
@@ -116,7 +117,7 @@ def assert_nothing_is_live(markup, scripts=()):
 def test_a_page_of_the_report_shows_texts_as_texts(site, page):
     html_text = (site / f"{page}.html").read_text(encoding="utf-8")
     markup = Markup(html_text)
-    assert_nothing_is_live(markup, OWN_SCRIPTS.get(page, []))
+    assert_nothing_is_live(markup, [*OWN_SCRIPTS.get(page, []), "enlarge.js"])
     assert one_line(HOSTILE) in markup.text
 
 
@@ -182,7 +183,9 @@ def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, pa
     assert browser.run("document.title") != "taken"
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
     assert browser.run("getComputedStyle(document.querySelector('.skip')).position") == "absolute"
-    drawn = browser.run("[...document.querySelectorAll('.live svg, .live output')].map(e => e.innerHTML.length)")
+    drawn = browser.run(
+        "[...document.querySelectorAll('.live svg, .live output, #play-machine')].map(e => e.innerHTML.length)"
+    )
     assert all(length > 3 for length in drawn)
     assert bool(drawn) == (page in OWN_SCRIPTS)
 

@@ -230,13 +230,65 @@ def test_a_disc_says_what_the_theory_says_and_its_ring_what_is_true(browser, sit
     assert [row[0] for row in rows] == table["label"].tolist() == ["a", "b", "c"]
     assert [row[7] for row in rows] == table["slow_flow"].tolist()
     assert [row[9] for row in rows] == table["floquet"].tolist()
-    plane = "document.querySelector('[data-force-sweep] svg')"
+    plane = "document.querySelector('[data-force-sweep] .planes svg')"
     discs = browser.run(
         f"[...{plane}.querySelectorAll('[data-label]')].map(c => [c.dataset.label, c.getAttribute('fill')])"
     )
     filled = [label for label, fill in discs if fill != "#fff"]
     assert filled == [row[0] for row in rows if row[8] == "stable"] == ["c"]
     assert browser.run(f"[...{plane}.querySelectorAll('[data-exact]')].map(c => c.dataset.exact)") == ["unstable"] * 3
+
+
+PLANE = "document.querySelectorAll('[data-force-sweep] .planes svg')[1]"
+LETTERS = f"""Object.fromEntries([...{PLANE}.querySelectorAll('[data-label]')].map(disc =>
+  [disc.dataset.label, [disc.getAttribute('stroke'), Number(disc.getAttribute('cx'))]]))"""
+
+
+def test_colour_and_letter_stay_with_a_branch(browser, site):
+    """From step to step each letter keeps its colour, and its place but for a little; the others are further away."""
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelector('#f20').focus()")
+    before = start = browser.run(LETTERS)
+    for _ in range(28):
+        browser.press("ArrowLeft")
+        now = browser.run(LETTERS)
+        assert {letter: hue for letter, (hue, _) in now.items()} == {letter: hue for letter, (hue, _) in start.items()}
+        assert all(abs(now[letter][1] - place) < 6 for letter, (_, place) in before.items())
+        before = now
+    assert browser.run(FIXED_POINTS)["value"] == "0.72"
+    assert [row[0] for row in browser.run(FIXED_POINTS)["rows"]] == ["a", "b", "c"]
+
+
+@pytest.mark.parametrize("case", ["equal", "unequal"])
+def test_badges_say_what_the_chapter_says_and_what_is_exact(browser, site, case):
+    """By the chapter's letters of the case, which the badges give where a branch has another."""
+    browser.open(address(site, "fixed_points"))
+    browser.run(f"document.querySelectorAll('[data-force-sweep] button')[{int(case == 'unequal')}].click()")
+    lines = browser.run("[...document.querySelectorAll('.badges li')].map(line => line.textContent)")
+    table = pd.read_csv(site.parent / "fixed_points.csv").query("case == @case").set_index("label")
+    found = {}
+    for line in lines:
+        name, order, chapter, exact = re.fullmatch(
+            r"(\w+) (?:\((\w) in the chapter’s order\)|of asymmetric orbits)? ?the chapter says: (.+) exact: (.+)", line
+        ).groups()
+        found[order or name] = (chapter, exact)
+    assert found.pop("pair") == ("nothing", "stable")
+    assert found == {label: (row["printed_10_26"], row["floquet"]) for label, row in table.iterrows()}
+
+
+@pytest.mark.parametrize("value", [0.72, 0.81, 1.0, 1.2, 1.5])
+def test_texts_of_the_multipliers_clear_the_circle(browser, site, value):
+    browser.open(address(site, "fixed_points"))
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("ArrowLeft" if value < 1 else "ArrowRight", times=round(100 * abs(value - 1)))
+    picture = "[...document.querySelectorAll('[data-force-sweep] .planes svg:nth-child(4) {}')]"
+    boxes = f"{picture}.map(e => e.getBoundingClientRect())"
+    texts = f"{boxes.format('[data-far]')}.map(box => [box.left, box.bottom])"
+    drawn = f"Math.max(...{boxes.format('circle, rect[data-multiplier]')}.map(box => box.right))"
+    frame = browser.run(f"{boxes.format('rect')}[0].bottom")
+    for left, bottom in browser.run(texts):
+        assert left > browser.run(drawn)
+        assert bottom < frame
 
 
 @pytest.mark.parametrize(("value", "said"), [(0.81, "Below 0.817"), (0.82, "Above 0.817"), (0.92, "From 0.913")])
@@ -259,10 +311,54 @@ def test_the_multipliers_of_the_asymmetric_orbits_cross_the_unit_circle(browser,
     browser.open(address(site, "fixed_points"))
     browser.run("document.querySelector('#f20').focus()")
     browser.press("ArrowLeft", times=round(100 * (1 - value)))
-    count = "document.querySelectorAll('[data-force-sweep] svg:nth-child(4) {}').length"
+    count = "document.querySelectorAll('[data-force-sweep] .planes svg:nth-child(4) {}').length"
     assert browser.run(count.format("rect[data-multiplier]")) == 8
     assert browser.run(count.format('rect[data-multiplier][fill="#fff"]')) == outside
     assert browser.run(count.format('circle[data-multiplier=unstable][fill="#fff"]')) >= 3
+
+
+@pytest.mark.parametrize("criterion", ["both", "printed_10_26"])
+def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site, criterion):
+    """As counted in the table; by both time scales means by Masri's analysis and the slow flow."""
+    browser.open(address(site, "fixed_points"))
+    table = pd.read_csv(site.parent / "verdict_grid.csv")
+    table["both"] = table["masri_derived"].where(table["masri_derived"] != "stable", table["slow_flow"])
+    browser.run(f"document.querySelector('[data-criterion={criterion}]').click()")
+    browser.run("document.querySelector('#verdicts-epsilon').focus()")
+    shares = []
+    for epsilon in sorted(table["epsilon"].unique(), reverse=True):
+        called = table[(table["epsilon"] == epsilon) & (table[criterion] == "stable")]
+        right = int((called["floquet"] == "stable").sum())
+        told = browser.run("document.querySelector('#verdicts-count').textContent")
+        assert (
+            told == f"At ε = {epsilon}, {len(called)} points are called stable; of {right} of them the exact orbit is."
+        )
+        assert browser.run("document.querySelectorAll('#verdicts-map [data-stable=true]').length") == right
+        assert browser.run("document.querySelectorAll('#verdicts-map [data-stable]').length") == len(called)
+        shares.append(right / len(called))
+        browser.press("ArrowRight")
+    assert shares == sorted(shares)
+    assert shares[0] < shares[-1]
+
+
+def test_a_figure_opens_large_and_closes_by_keyboard(browser, site):
+    browser.open(address(site, "figures"), width=390)
+    small = browser.run("document.querySelector('figure img').getBoundingClientRect().width")
+    opened = "document.querySelector('dialog.large')?.open"
+    browser.run("document.querySelector('.enlarge button').focus()")
+    browser.press("Enter")
+    assert browser.run(opened)
+    assert browser.run("document.querySelector('.large img').getBoundingClientRect().width") > 2 * small
+    assert browser.run("document.querySelector('.large img').alt") == browser.run(
+        "document.querySelector('figure img').alt"
+    )
+    browser.press("Escape")
+    assert not browser.run(opened)
+    browser.page.locator("figure img").first.click()
+    assert browser.run(opened)
+    browser.page.locator(".large img").click()
+    assert not browser.run(opened)
+    assert browser.problems == []
 
 
 def test_the_buttons_bring_the_cases_of_the_chapter(browser, site):

@@ -108,6 +108,11 @@ def results(folder: Path) -> Path:
     }
     tables = {
         "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE} | numbers],
+        "verdict_grid.csv": [
+            {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "floquet": HOSTILE, "admissible": True}
+            | {"printed_10_26": HOSTILE, "masri_derived": HOSTILE, "slow_flow": HOSTILE}
+            for f10 in (0.5, 1.5)
+        ],
         "accuracy/work_precision.csv": [
             run | {"outcome": "finished", "reason": ""},
             run | {"outcome": HOSTILE, "reason": HOSTILE},

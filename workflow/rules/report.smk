@@ -75,7 +75,7 @@ rule report:
         tables=sorted(
             {table["file"] for spec in MADE.values() for name, table in spec["tables"].items() if name != "csv"}
         ),
-        config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes")},
+        config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
         code=PIPELINE,
     log:
         "results/logs/report/report.log",

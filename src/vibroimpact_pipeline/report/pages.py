@@ -17,6 +17,7 @@ from vibroimpact.claims.finding import VERDICTS
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
+from vibroimpact_pipeline.report.live import live_data, verdict_data
 from vibroimpact_pipeline.report.notation import named
 
 HEADING = re.compile(r"^# .*$", re.MULTILINE)
@@ -74,6 +75,8 @@ class Pages:
             "caption": lru_cache(self.caption),
             "count": Counter,
             "infinity": math.inf,
+            "live_data": live_data,
+            "verdict_data": verdict_data,
             "table": markdown_table,
             "verdicts": verdicts,
         }

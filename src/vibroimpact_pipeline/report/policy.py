@@ -15,7 +15,7 @@ POLICY = (
     f"script-src {{scripts}}; base-uri 'none'; form-action 'none'"
 )
 HEAD = re.compile(r"<head>\n?")
-SCRIPT = re.compile(r'<script src="(\w+\.js)"></script>')
+SCRIPT = re.compile(r'<script src="([\w/]+\.js)"></script>')
 
 
 def guarded(page: str, script: Callable[[str], str] | None = None) -> str:

@@ -1,0 +1,124 @@
+"""The engine of the page "Play", in a browser, against the library's engine and closed forms."""
+
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from pipeline_trees import ROOT
+from vibroimpact.system.state import IMPACT, KINDS
+
+RUNS = """runs => runs.map(([parameters, start, cycles]) => {
+  const run = new VibroImpact.Run(parameters, start);
+  for (let n = 0; n < cycles; n++) run.advance(run.system.period);
+  return { final: run.state, events: run.events };
+})"""
+FORCES = [(1.0, 1.0), (1.0, 0.89), (0.5, 0.5), None]
+"""Of the chapter's cases, and any."""
+KAPPAS = [0.65, 0.1, 0.3, None]
+"""That of the chapter, low ones, under which balls chatter and stick, and any."""
+CYCLES, STARTS = 10, 100
+
+
+@pytest.fixture(scope="module")
+def play(browser):
+    """A function that runs [parameters, start, cycles] in the browser."""
+    browser.page.goto("about:blank")
+    browser.page.add_script_tag(path=ROOT / "report/live/exact.js")
+    return lambda runs: browser.page.evaluate(RUNS, runs)
+
+
+def examples():
+    """Seeded (system, start): every case with every kind of restitution; in every fifth a ball rests on a wall."""
+    rng = np.random.default_rng(1)
+    number = 0
+    while True:
+        f10, f20 = FORCES[number % 4] or rng.uniform(0.0, 1.6, 2)
+        kappa = KAPPAS[number // 4 % 4] or rng.uniform(0.05, 0.9)
+        boxes, gaps, velocities, balls = rng.uniform(-1.0, 1.0, (4, 2))
+        start = np.array([boxes, boxes - gaps, velocities, 1.5 * balls])
+        if number % 5 == 0:
+            start[1, 0], start[3, 0] = boxes[0] - np.sign(gaps[0]), velocities[0]
+        parameters = PARAMETERS | {"f10_hat": float(f10), "f20_hat": float(f20), "kappa": float(kappa)}
+        yield vi.System(**parameters), start.reshape(2, 2, 2).transpose(0, 2, 1).ravel()
+        number += 1
+
+
+@pytest.fixture(scope="module")
+def both(play):
+    """(run of the library, run in the browser) of decided runs from seeded starts."""
+    runs = (vi.simulate(system, start, CYCLES) for system, start in examples())
+    decided = (run for run in runs if run.certificate.decided)
+    ours = [run for run, _ in zip(decided, range(STARTS), strict=False)]
+    theirs = play([[asdict(run.system), run.start.tolist(), CYCLES] for run in ours])
+    return list(zip(ours, theirs, strict=True))
+
+
+def test_final_states_and_events_are_those_of_the_library(both):
+    assert len(both) == STARTS
+    for ours, theirs in both:
+        np.testing.assert_allclose(theirs["final"], ours.final, rtol=0, atol=1e-6)
+        kinds = [KINDS[kind] for kind in ours.events["kind"]]
+        for kind in KINDS.values():
+            assert [event["kind"] for event in theirs["events"]].count(kind) == kinds.count(kind)
+
+
+def test_every_impact_has_its_time_and_speed(both):
+    for ours, theirs in both:
+        ours = ours.events[ours.events["kind"] == IMPACT]
+        theirs = [event for event in theirs["events"] if event["kind"] == "impact"]
+        assert [event["module"] for event in theirs] == ours["module"].tolist()
+        assert [event["wall"] for event in theirs] == ours["wall"].tolist()
+        np.testing.assert_allclose([event["tau"] for event in theirs], ours["tau"], rtol=0, atol=1e-6)
+        np.testing.assert_allclose([event["state"] for event in theirs], ours["state"], rtol=0, atol=1e-6)
+
+
+def test_the_starts_have_chatter_sticking_and_release(both):
+    """Else the comparison above would not be about them."""
+    certificates = [ours.certificate for ours, _ in both]
+    assert sum(certificate.chatters > 0 for certificate in certificates) > 10
+    kinds = [[event["kind"] for event in theirs["events"]] for _, theirs in both]
+    assert sum("stick" in kind and "release" in kind for kind in kinds) > 20
+    assert {(ours.system.f10_hat, ours.system.f20_hat) for ours, _ in both} >= set(FORCES[:3])
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-10, 1e-13])
+def test_a_shallow_contact_is_neither_missed_nor_invented(play, depth):
+    """A box alone, X = A sin(tau), above a ball at rest: W is greatest at tau = pi/2, 1 + depth or 1 - depth."""
+    free = dict.fromkeys(PARAMETERS, 0.0) | {"epsilon": 0.1, "kappa": 0.65, "f10_hat": 0.0, "f20_hat": 0.0}
+    A = 0.75
+    starts = [[0.0, A - 1 - side * depth, 0.0, 0.0, A, 0.0, 0.0, 0.0] for side in (1, -1)]
+    hit, missed = play([[free, start, 1] for start in starts])
+    assert missed["events"] == []
+    np.testing.assert_allclose(missed["final"], starts[1], rtol=0, atol=1e-13)
+    first = hit["events"][0]
+    assert (first["kind"], first["module"], first["wall"]) == ("impact", 1, 1)
+    rounding = 1e-15 / np.sqrt(depth)  # of 1 - depth, through the arc cosine
+    assert first["tau"] == pytest.approx(np.pi / 2 - np.arccos(1 - depth / A), abs=rounding)
+    assert first["speed"] == pytest.approx(np.sqrt(2 * A * depth - depth**2), abs=rounding)
+
+
+def test_between_walls_at_rest_each_flight_takes_longer_by_the_restitution(play):
+    """A ball so light that its box does not feel it."""
+    light = PARAMETERS | {"epsilon": 1e-9, "f10_hat": 0.0, "f20_hat": 0.0}
+    (run,) = play([[light, [0.0, 0.0, 0.0, 0.0, 0.0, 5.0, 0.0, 0.0], 3]])
+    times = [event["tau"] for event in run["events"] if event["module"] == 1]
+    assert len(times) >= 5
+    flights = np.diff([0.0, *times])
+    np.testing.assert_allclose(flights[2:] / flights[1:-1], 1 / light["kappa"], rtol=1e-6)
+
+
+def test_a_sticking_ball_is_carried_by_one_heavier_box(play):
+    """Undamped and uncoupled, box and ball swing with sqrt(1 / (1 + epsilon)) until the force between them vanishes."""
+    free = dict.fromkeys(PARAMETERS, 0.0) | {"epsilon": 0.2, "kappa": 0.5, "f10_hat": 0.0, "f20_hat": 0.0}
+    # At wall +1 the box holds the ball while it is accelerated upwards: below its rest.
+    (run,) = play([[free, [-0.4, -1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 1]])
+    stick, release = run["events"][:2]
+    assert (stick["kind"], stick["tau"]) == ("stick", 0.0)
+    assert release["kind"] == "release"
+    frequency = np.sqrt(1 / 1.2)
+    assert release["tau"] == pytest.approx(np.pi / 2 / frequency, abs=1e-12)
+    np.testing.assert_allclose(release["state"][:2], [0.0, -1.0], atol=1e-12)
+    np.testing.assert_allclose(release["state"][4:6], 0.4 * frequency, atol=1e-12)
