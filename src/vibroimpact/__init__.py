@@ -19,6 +19,8 @@ _PUBLIC = {
     "best_tuning": "vibroimpact.studies",
     "textbook_tuning": "vibroimpact.studies",
     "decay_time": "vibroimpact.absorbers.decay",
+    "design": "vibroimpact.one_machine",
+    "Design": "vibroimpact.one_machine",
     "simulate": "vibroimpact.exact.engine.simulation",
     "simulate_many": "vibroimpact.exact.engine.simulation",
     "ensemble": "vibroimpact.exact.engine.ensemble",

@@ -14,6 +14,8 @@ from vibroimpact.exact.orbits.search import Orbit as Orbit
 from vibroimpact.exact.orbits.search import orbits as orbits
 from vibroimpact.exact.orbits.search import prove as prove
 from vibroimpact.frames import to_frame as to_frame
+from vibroimpact.one_machine import Design as Design
+from vibroimpact.one_machine import design as design
 from vibroimpact.studies import best_tuning as best_tuning
 from vibroimpact.studies import branches as branches
 from vibroimpact.studies import sweep as sweep

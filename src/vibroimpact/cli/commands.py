@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact import studies
+from vibroimpact import one_machine, studies
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.frames import branch_rows
-from vibroimpact.system import System
+from vibroimpact.system import PhysicalSystem, System
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.system.state import KINDS
@@ -21,6 +21,14 @@ from vibroimpact.theory.fixed_points.search import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
 """Every parameter with its usual value, or None where the case says it."""
+MACHINE = {
+    "M": "mass of the machine with its box, without the ball [kg]",
+    "m": "mass of the ball [kg]",
+    "k": "stiffness of the spring [N/m]",
+    "c": "damping [N s/m]",
+    "F": "amplitude of the force [N]",
+}
+"""Options of a machine: the arguments of PhysicalSystem.single that have no default."""
 _MOST_SAMPLES = 10_000_000
 _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
@@ -30,6 +38,8 @@ class Table(NamedTuple):
 
     columns: tuple[str, ...]
     rows: list[tuple]
+    answer: str = ""
+    """What it comes to, in words; printed in place of the rows where these go to a file or nowhere."""
 
     def write(self, file) -> None:
         """Write CSV to an open text file, every number with as many digits as tell it apart."""
@@ -44,12 +54,14 @@ class Command(NamedTuple):
     help: str
     add_options: Callable
     compute: Callable[..., Table]
+    of_system: bool = True
+    """Takes the dimensionless parameters; else its options say all."""
 
 
 def add_system_options(parser) -> None:
     """Give a parser an option for every parameter, and one for the forces of a case."""
     group = parser.add_argument_group(
-        "system", "dimensionless parameters of (10.4)-(10.6), those of section 10.4 unless told otherwise"
+        "system", "dimensionless parameters of (10.4)-(10.6); those not given are the chapter's, of section 10.4"
     )
     group.add_argument("--case", choices=CASES, default="equal", help="forces of the chapter's case (default: equal)")
     for name, value in NAMES.items():
@@ -150,6 +162,33 @@ def _response(system, options):
     return Table(columns, [tuple(row.values()) for row in kept])
 
 
+def _design_options(parser):
+    """One machine in SI units, the band, and what to choose from."""
+    group = parser.add_argument_group("machine", "all needed, in SI units")
+    for name, words in MACHINE.items():
+        group.add_argument(f"--{name}", type=float, required=True, metavar="X", help=words)
+    parser.add_argument("--from", dest="low", type=float, required=True, metavar="HZ", help="first frequency [Hz]")
+    parser.add_argument("--to", dest="high", type=float, required=True, metavar="HZ", help="last frequency [Hz]")
+    parser.add_argument(
+        "--clearance", type=float, nargs="+", metavar="L",
+        help="clearances to choose from, half of the play [m] (default: 16 up to the amplitude without ball)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--restitution", type=float, nargs="+", metavar="E", default=one_machine.RESTITUTIONS,
+        help=f"restitution coefficients to choose from (default: {' '.join(map(str, one_machine.RESTITUTIONS))})",
+    )  # fmt: skip
+
+
+def _design(options):
+    """A row per frequency; the answer is the text of a Design."""
+    low, high = real("from", options.low), real("to", options.high)
+    if not 0 < low < high:
+        raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")
+    machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE})
+    found = one_machine.design(machine, (low, high), options.clearance, options.restitution, sys.stderr.isatty())
+    return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found))
+
+
 def _notice(family):
     print(f"looking for every {family} ...", file=sys.stderr)
 
@@ -168,5 +207,11 @@ COMMANDS = {
         "C over a parameter: all branches of fixed points and of exact orbits, with stability and special points",
         _response_options,
         _response,
+    ),
+    "design": Command(
+        "the ball for one machine in kilograms, newtons and hertz: clearance, restitution, what they achieve",
+        _design_options,
+        _design,
+        of_system=False,
     ),
 }

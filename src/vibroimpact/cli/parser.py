@@ -36,11 +36,12 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
-        own = commands.add_parser(name, help=command.help, description=command.help + ", as CSV")
+        own = commands.add_parser(name, help=command.help, description=command.help, allow_abbrev=False)
         command.add_options(own)
-        own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV there instead of standard output")
+        own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV to this file")
         own.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
-        add_system_options(own)
+        if command.of_system:
+            add_system_options(own)
         own.set_defaults(run=_tell, command=name, parser=own)
     words = "compile the simulation beforehand, once for a machine"
     commands.add_parser("compile", help=words, description=words).set_defaults(run=_compile)
@@ -57,7 +58,8 @@ def _tell(options) -> int:
     try:
         plots = _plots(options)
         _check_folders(options)
-        table = COMMANDS[options.command].compute(system_of(options), options)
+        command = COMMANDS[options.command]
+        table = command.compute(*([system_of(options)] if command.of_system else []), options)
         if plots:
             plots.DRAW[options.command](table).savefig(options.plot)
         _put(table, options.output)
@@ -97,9 +99,11 @@ def _check_folders(options):
 
 
 def _put(table: Table, output: Path | None):
-    if output is None:
+    if table.answer:
+        print(table.answer, flush=True)
+    elif output is None:
         table.write(sys.stdout)
         sys.stdout.flush()
-    else:
+    if output is not None:
         with open(output, "w", encoding="utf-8", newline="") as file:
             table.write(file)

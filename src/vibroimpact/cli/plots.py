@@ -2,9 +2,24 @@
 
 from itertools import groupby
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, SINGLE_COLUMN, STABLE, UNSTABLE, new_figure, styled
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    SINGLE_COLUMN,
+    STABLE,
+    UNSTABLE,
+    new_figure,
+    styled,
+)
 from vibroimpact.regimes.families import FixedPoints
 from vibroimpact.system.verdict import STABLE as IS_STABLE
+
+CURVES = {
+    "without_m": ("without ball", {"color": GREY, "linewidth": 1.6}),
+    "with_m": ("with the ball", {"color": BLACK, "linewidth": 1.2}),
+    "absorber_m": ("best linear absorber", {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
+}
 
 
 @styled
@@ -59,8 +74,23 @@ def curves(table):
     return figure
 
 
+@styled
+def resonance(table):
+    """Largest displacement over the frequency, without ball, with it, and with the best linear absorber."""
+    figure = new_figure(SINGLE_COLUMN * 1.35, 80.0)
+    axes = figure.add_subplot()
+    columns = dict(zip(table.columns, zip(*table.rows, strict=True), strict=True))
+    for name, (label, look) in CURVES.items():
+        height = [1000 * value for value in columns[name]]
+        axes.plot(columns["frequency_Hz"], height, label=label, **look)
+    axes.set(xlabel="frequency of the force, Hz", ylabel="largest displacement, mm", ylim=(0, None))
+    axes.margins(x=0)
+    axes.legend(frameon=False)
+    return figure
+
+
 def _side(family):
     return "theory" if family == FixedPoints.name else "exact"
 
 
-DRAW = {"fixed-points": points, "orbits": points, "simulate": motion, "response": curves}
+DRAW = {"fixed-points": points, "orbits": points, "simulate": motion, "response": curves, "design": resonance}

@@ -45,6 +45,51 @@ class PhysicalSystem:
             if getattr(self, name) < 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is below 0")
 
+    @classmethod
+    def single(
+        cls,
+        *,
+        M: float,
+        m: float,
+        k: float,
+        c: float,
+        F: float,
+        L: float = 1.0,
+        kappa: float = 0.65,
+        omega: float | None = None,
+    ) -> "PhysicalSystem":
+        """Return one machine with a ball in its box: mass, ball, stiffness, damping to ground, amplitude of the force.
+
+        The equations have two modules. The second is a machine alike that is neither coupled nor driven; from rest it
+        stays at rest, so that all answers are those of module 1.
+
+        Args:
+            L: half of the play [m]. omega: circular frequency of the force [rad/s], by default the natural one.
+
+        Raises:
+            ValueError: as PhysicalSystem.
+        """
+        k, M = real("k", k), real("M", M)
+        if min(k, M) <= 0:
+            raise ValueError(f"{'k' if k <= 0 else 'M'}: {min(k, M)} is not above 0")
+        omega = math.sqrt(k / M) if omega is None else omega
+        return cls(
+            M=M,
+            m=m,
+            k1=k,
+            k2=k,
+            k12=0.0,
+            c1=c,
+            c2=c,
+            c12=0.0,
+            F10=F,
+            F20=0.0,
+            omega1=omega,
+            omega2=omega,
+            L=L,
+            kappa=kappa,
+        )
+
     @property
     def omega10(self) -> float:
         """Natural frequency sqrt(k1 / M) of the first box, the unit of frequency in section 10.2."""
