@@ -145,3 +145,35 @@ def test_without_pandas_or_matplotlib_the_extra_is_named(monkeypatch, call, pack
     monkeypatch.setattr("vibroimpact.system.extras.find_spec", lambda name: None)
     with pytest.raises(ModuleNotFoundError, match=rf"needs {package}: pip install '\.\[figures\]'$"):
         call()
+
+
+def test_a_sweep_as_a_dataset_over_its_grid(tmp_path):
+    """Saved as NetCDF and read again: each value stands where its parameters say."""
+    xarray = pytest.importorskip("xarray")
+    axes = {"f10_hat": [0.8, 1.0], "f20_hat": [0.5, 0.7, 0.9]}
+    rows = vi.sweep(SYSTEM, axes, ["fixed_points"])
+    vi.to_dataset(rows, list(axes)).to_netcdf(tmp_path / "sweep.nc", engine="scipy")
+    with xarray.open_dataset(tmp_path / "sweep.nc", engine="scipy") as data:
+        assert data.sizes == {"f10_hat": 2, "f20_hat": 3}
+        for row in rows:
+            there = data.sel(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])
+            assert int(there["fixed_points"]) == row["fixed_points"]
+            assert (
+                len(vi.fixed_points(SYSTEM.with_(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])))
+                == row["fixed_points"]
+            )
+        assert data["fixed_points"].units == data["f10_hat"].units == "1"
+
+
+def test_parameters_that_move_together_share_a_dimension():
+    rows = [{"point": n, "f10_hat": f, "f20_hat": f / 2, "kappa": k, "peak": 10 * f + k} for n, (f, k) in enumerate(
+        (f, k) for f in (1.0, 2.0) for k in (0.3, 0.5)
+    )]  # fmt: skip
+    data = vi.to_dataset(rows, [("f10_hat", "f20_hat"), "kappa"])
+    assert data["f20_hat"].dims == ("f10_hat",)
+    assert data["f20_hat"].values.tolist() == [0.5, 1.0]
+    assert data["peak"].sel(f10_hat=2.0, kappa=0.3) == 20.3
+    with pytest.raises(ValueError, match=r"^along: 'mass' is none of the columns"):
+        vi.to_dataset(rows, ["mass"])
+    with pytest.raises(ValueError, match=r"^rows: 4 rows are not one for each point"):
+        vi.to_dataset(rows, ["kappa"])

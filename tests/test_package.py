@@ -23,10 +23,21 @@ def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_mat
     code = (
         "import sys, vibroimpact as vi\n"
         "[getattr(vi, name) for name in vi.__all__]\n"
-        "print(sorted({'pandas', 'matplotlib', 'snakemake', 'pydantic'} & set(sys.modules)))"
+        "print(sorted({'pandas', 'xarray', 'matplotlib', 'snakemake', 'pydantic'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
+
+
+def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
+    script = ROOT / "tests/shared/users_script.py"
+    check = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(script)]
+    checked = subprocess.run(check, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert checked.returncode == 0, checked.stdout
+    wrong = tmp_path / "wrong.py"
+    wrong.write_text("import vibroimpact as vi\nvi.simulate([0.0] * 8, 20)\n", encoding="utf-8")
+    assert subprocess.run([*check[:-1], str(wrong)], capture_output=True, cwd=tmp_path, check=False).returncode == 1
+    subprocess.run([sys.executable, str(script)], capture_output=True, check=True)
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ _PUBLIC = {
     "Orbit": "vibroimpact.exact.orbits.search",
     "prove": "vibroimpact.exact.orbits.search",
     "to_frame": "vibroimpact.frames",
+    "to_dataset": "vibroimpact.frames",
     "branches": "vibroimpact.studies",
     "sweep": "vibroimpact.studies",
     "Tuning": "vibroimpact.absorbers.references",

@@ -13,6 +13,7 @@ from vibroimpact.exact.engine.simulation import simulate_many as simulate_many
 from vibroimpact.exact.orbits.search import Orbit as Orbit
 from vibroimpact.exact.orbits.search import orbits as orbits
 from vibroimpact.exact.orbits.search import prove as prove
+from vibroimpact.frames import to_dataset as to_dataset
 from vibroimpact.frames import to_frame as to_frame
 from vibroimpact.one_machine import Design as Design
 from vibroimpact.one_machine import design as design

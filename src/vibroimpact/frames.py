@@ -1,17 +1,24 @@
-"""Results as pandas data frames; a run as a picture, and the times of its Poincare section.
+"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture, the times of its Poincare section.
 
-Neither pandas nor Matplotlib is imported before it is needed.
+None of pandas, xarray and Matplotlib is imported before it is needed.
 """
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from vibroimpact.system.extras import need
 from vibroimpact.system.state import KINDS, NAMES
 
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
 _PER_CYCLE, _MOST = 64, 20_000  # points of a picture
 
 
-def to_frame(result):
+def to_frame(result: Any) -> "pandas.DataFrame":
     """A pandas DataFrame of a run (its events), an ensemble, or a list of fixed points, orbits, branches or rows.
 
     Raises:
@@ -26,6 +33,38 @@ def to_frame(result):
         return _pandas().DataFrame([row for number, one in enumerate(result) for row in _rows(one, number)])
     kind = type(result).__name__
     raise ValueError(f"result: a {kind} is no run, no ensemble and no list of fixed points, orbits, branches or rows")
+
+
+def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":
+    """An xarray Dataset of a sweep: the parameters that move are its dimensions, each other column a variable.
+
+    `.to_netcdf(path, engine="scipy")` saves it. All numbers are dimensionless, which their attribute `units` says.
+
+    Args:
+        rows: of `vibroimpact.sweep`, a list of dictionaries, or a data frame of them (`results/sweeps/NAME.csv`).
+        along: the parameters that move, in their order; those that move together as a tuple, a dimension named after
+            the first of them.
+
+    Raises:
+        ValueError: a parameter is no column, or the rows are not one for each point of the grid.
+        ModuleNotFoundError: pandas or xarray is missing; the extra `figures` brings both.
+    """
+    need("figures", "xarray")
+    table = _pandas().DataFrame(rows)
+    moved = [(one,) if isinstance(one, str) else tuple(one) for one in along]
+    for name in (name for together in moved for name in together):
+        if name not in table:
+            raise ValueError(f"along: {name!r} is none of the columns {', '.join(table)}")
+    first = [together[0] for together in moved]
+    if table.duplicated(first).any() or len(table) != table[first].nunique().prod():
+        raise ValueError(f"rows: {len(table)} rows are not one for each point of a grid over {', '.join(first)}")
+    data = table.drop(columns="point", errors="ignore").set_index(first).to_xarray()
+    for name, *others in moved:
+        at = dict.fromkeys(set(first) - {name}, 0)
+        data = data.assign_coords({other: data[other].isel(at, drop=True) for other in others})
+    for variable in data.variables.values():
+        variable.attrs |= {"units": "1"} if variable.dtype.kind in "if" else {}
+    return data
 
 
 def of_run(run):

@@ -44,8 +44,10 @@ for name, sweep in SWEEPS.items():
             getattr(gather, name)(f"results/sweeps/{name}/tiles/{{scatteritem}}.csv"),
         output:
             **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables"),
+            netcdf=f"results/sweeps/{name}.nc",
         params:
             points=points(sweep["axes"]),
+            along=[axis["along"] for axis in sweep["axes"]],
             code=LIBRARY,
         log:
             f"results/logs/sweeps/{name}/table.log",

@@ -1,10 +1,11 @@
-"""All tiles of a sweep -> one table, a row per point in their order."""
+"""All tiles of a sweep -> one table, a row per point in their order; the same as NetCDF, over the grid."""
 
 import sys
 
 import pandas as pd
 
 from vibroimpact.figures.kit import tables
+from vibroimpact.frames import to_dataset
 from vibroimpact.sweeps.asked import POINT
 from vibroimpact_pipeline.jobs import running
 
@@ -13,3 +14,4 @@ with running(snakemake) as out:
     if table[POINT].tolist() != list(range(snakemake.params.points)):
         sys.exit(f"{len(table)} rows with {table[POINT].nunique()} points, not {snakemake.params.points} once each")
     tables.write(table, out.csv)
+    to_dataset(table, map(tuple, snakemake.params.along)).to_netcdf(out.netcdf, engine="scipy")

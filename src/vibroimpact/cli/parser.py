@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 import vibroimpact
@@ -34,6 +35,10 @@ def parser() -> argparse.ArgumentParser:
     """The parser of all commands."""
     top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__)
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
+    if find_spec("shtab"):
+        import_module("shtab").add_argument_to(
+            top, "--print-completion", help="completion for a shell: bash, zsh, tcsh"
+        )
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
         own = commands.add_parser(name, help=command.help, description=command.help, allow_abbrev=False)

@@ -1,5 +1,6 @@
 """Very many runs, over starts and systems, told by what they amount to instead of by their events."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -57,7 +58,7 @@ MOST_AT_ONCE, SHARES = 1024, 4
 
 
 def ensemble(
-    systems: System | ArrayLike,
+    systems: System | Sequence[System] | Sequence[Sequence[System]] | ArrayLike,
     states: ArrayLike,
     cycles: int,
     tau0: float | Fraction | Instant = 0.0,

@@ -1,0 +1,32 @@
+"""A user's script with the public names, which a strict type checker accepts."""
+
+import numpy as np
+
+import vibroimpact as vi
+
+system: vi.System = vi.System(
+    epsilon=0.1, kappa=0.65, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2,
+    sigma20_hat=0.5, sigma_e_hat=0.2, f10_hat=1.0, f20_hat=0.89,
+)  # fmt: skip
+for point in vi.fixed_points(system):
+    amplitude: float = float(point.C[0])
+    print(point.label, amplitude, point.stability.both)
+run: vi.Run = vi.simulate(system, np.zeros(8), 20, sample_times=np.linspace(0.0, 10.0, 11))
+impacts = run.events[run.events["kind"] == vi.IMPACT]
+print(len(impacts), run.final.shape, run.certificate.decided)
+runs = vi.simulate_many(system, np.zeros((2, 8)), 5)
+print([one.cycles for one in runs])
+outcomes = vi.ensemble([system, system.with_(f20_hat=1.0)], np.zeros(8), 30, settle=10)
+print(outcomes["largest"].max())
+stable = [orbit for orbit in vi.orbits(system) if orbit.admissible and orbit.stable]
+for orbit in stable:
+    print(orbit.symmetric, orbit.impact_phases[0, 0], abs(orbit.multipliers[0]), vi.prove(orbit).stability)
+frame = vi.to_frame(stable)
+print(frame.columns)
+rows: list[dict[str, object]] = vi.sweep(system, {"f20_hat": [0.5, 0.9]}, ["fixed_points"])
+print(vi.to_dataset(rows, ["f20_hat"]))
+tuning: vi.Tuning = vi.best_tuning(system, (0.8, 1.3))
+print(vi.tuned(system, tuning).peak((0.8, 1.3)), vi.decay_time(system, 1.0))
+machine = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, F=40.0)
+found: vi.Design = vi.design(machine, (7.9, 8.0), clearances=[0.002], restitutions=[0.5])
+print(found.peak, found.machine.L, machine.dimensionless().epsilon)
