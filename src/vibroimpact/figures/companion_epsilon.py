@@ -1,33 +1,24 @@
 """Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
 
 from contextlib import suppress
-from itertools import cycle, product
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from vibroimpact.figures.kit.style import (
-    BLACK,
-    DOUBLE_COLUMN,
-    GREY,
-    LEVEL,
-    LIGHT_GREY,
-    letter_panel,
-    new_figure,
-    styled,
-)
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
+from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
 from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 SPEC = {
     "title": "How the error of the theory falls with epsilon",
-    "caption": r"Distance between leading-order theory and exact orbits as :math:`\varepsilon` falls, for every fixed "
-        "point of the three cases; grey: with the term of first order added. Triangles: slope 1.",
-    "alt": "Panels with the distance between theory and exact orbits over epsilon on logarithmic axes, one line per "
-        "fixed point, falling along straight lines.",
+    "caption": r"The largest error of leading-order theory over the fixed points of the three cases, against exact "
+        r"orbits, as :math:`\varepsilon` falls: of amplitudes and phases, also with the term of first order added "
+        "(grey), of the slow flow's rates, and of the fast multipliers. Triangle: slope 1.",
+    "alt": "Errors of the theory over epsilon on logarithmic axes: three straight lines of slope 1, for fast "
+        "multipliers, slow rates, and amplitudes and phases; a fourth, grey, falls twice as steeply.",
     "method": "fixed points and exact symmetric responses at every epsilon",
     "systems": True,
     "settings": {"epsilon": "regimes.epsilon.epsilon", "values": "regimes.epsilon.values",
@@ -65,13 +56,14 @@ SPEC = {
 }  # fmt: skip
 
 TWO_TERMS = "two terms"
-PANELS = {
-    "distance": "distance of fixed point and orbit",
-    "slow": r"largest error of slow $\log\mu\,/\,(2\pi\varepsilon/\Omega)$",
-    "fast": r"largest error of fast $\mu$",
+PANELS = ("distance", "slow", "fast")
+LOOKS = {
+    "fast": ("fast multipliers", {"color": BLACK, "marker": "^", "markerfacecolor": "white"}),
+    "slow": ("rates of the slow multipliers", {"color": BLACK, "marker": "s", "markerfacecolor": "white"}),
+    "distance": ("amplitudes and phases", {"color": BLACK, "marker": "o"}),
+    TWO_TERMS: ("the same, first-order term added", {"color": GREY, "marker": "D"}),
 }
-LOOKS = tuple(product(("white", GREY), "osD^vP*X"))
-"""Face and shape of the markers of a fixed point, in this order."""
+"""Names and looks of the errors that are drawn."""
 _STEP = 2e-4
 
 
@@ -155,75 +147,28 @@ def _mixed(name, found):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: three errors with a triangle of slope 1, the first also with two terms (grey), and
-    the mixed multipliers one by one.
-    """
-    table, orders = tables["csv"], tables["orders"]
-    figure = new_figure(DOUBLE_COLUMN, 138.0)
-    grid = figure.subplots(2, 2, sharex=True)
-    for axes, (panel, name), letter in zip(grid.flat, PANELS.items(), "abc", strict=False):
-        rows = table[table["panel"] == panel]
-        axes.set(xscale="log", yscale="log", ylabel=name)
-        letter_panel(axes, letter)
-        if rows.empty:
-            continue
-        if panel == "distance":
-            _draw_two_terms(axes, table[table["panel"] == TWO_TERMS])
-        for (face, marker), (series, line) in zip(cycle(LOOKS), rows.groupby("series", sort=False), strict=False):
-            _dots(axes, line["epsilon"], line["error"], face, marker, series)
-        _slope(axes, rows)
-        fitted = orders[orders["panel"] == panel]["order"]
-        if len(fitted):
-            axes.set_title(f"orders {fitted.min():.3f} to {fitted.max():.3f}", loc="right", pad=3)
-    letter_panel(grid[1, 1], "d")
-    mixed = table[table["panel"] == "mixed"]
-    if len(mixed):
-        _draw_mixed(grid[1, 1], mixed)
-        grid[1, 1].set_title(f"{mixed['label'].iloc[0]}: slow and fast mix", loc="right", pad=3)
-    for axes in grid[-1]:
-        axes.set_xlabel(r"$\varepsilon$")
-    handles, names = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=6, fontsize=8.5)
+    """Draw the table "csv" of `compute`: the largest of each error over all fixed points, a triangle of slope 1."""
+    table = tables["csv"]
+    figure = new_figure(DOUBLE_COLUMN, 92.0)
+    axes = figure.add_subplot()
+    axes.set(xscale="log", yscale="log", xlabel=r"$\varepsilon$", ylabel="largest error over all fixed points")
+    for panel, (name, look) in LOOKS.items():
+        largest = table[table["panel"] == panel].groupby("epsilon")["error"].max().dropna()
+        if len(largest):
+            axes.plot(largest.index, largest, label=name, markersize=3.6, linewidth=0.8, **look)
+            middle = largest.index[len(largest) // 2]
+            beside = {"xytext": (-3, 5), "ha": "right"} if panel in ("fast", "slow") else {"xytext": (4, -12)}
+            axes.annotate(name, (middle, largest[middle]), textcoords="offset points", fontsize=8.5, **beside)
+            if panel == "slow":
+                _slope(axes, largest.index[-1], largest.iloc[-1])
+    axes.margins(y=0.12)
     return figure
 
 
-def _draw_two_terms(axes, rows):
-    if rows.empty:
-        return
-    for _, line in rows.groupby("series", sort=False):
-        axes.plot(line["epsilon"], line["error"], color=GREY, linewidth=0.8)
-    last = line.iloc[len(line) // 2]
+def _slope(axes, epsilon, error):
+    """A triangle of slope 1 over a decade, above a curve that ends here, as plots of convergence have it."""
+    x, y = epsilon * np.array([0.05, 0.5]), error * np.array([1.0, 10.0])
+    axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))
     axes.annotate(
-        "first-order term\nadded", (last["epsilon"], last["error"]), (8, -16), textcoords="offset points", fontsize=8.5
+        "slope 1", (np.sqrt(x.prod()), y[0]), (0, -2), textcoords="offset points", ha="center", va="top", fontsize=8.5
     )
-
-
-def _slope(axes, rows):
-    """A triangle of slope 1 over a decade, below the least of the errors, as plots of convergence have it."""
-    least = rows.loc[rows["error"].idxmin()]
-    x, y = least["epsilon"] * np.array([3.0, 30.0]), 0.5 * least["error"] * np.array([1.0, 10.0])
-    corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1])]
-    axes.add_patch(Polygon(corners, facecolor=LIGHT_GREY, edgecolor=GREY, linewidth=0.6))
-    below = {"textcoords": "offset points", "ha": "center", "va": "top", "fontsize": 8.5}
-    axes.annotate("slope 1", (np.sqrt(x.prod()), y[0]), (0, -2), **below)
-    axes.margins(y=0.12)
-
-
-def _dots(axes, x, y, face, marker, label):
-    style = {"markerfacecolor": face, "markeredgewidth": 0.8, "linewidth": 0.5, "markersize": 4}
-    axes.plot(x, y, marker=marker, color=BLACK, label=label, **style)
-
-
-def _draw_mixed(axes, rows):
-    names = {"slow flow": {"color": BLACK, "linewidth": 0.9}, "impact map": LEVEL}
-    for k in range(8):
-        for group, style in names.items():
-            line = select(rows, "mixed", f"{group} {k}")
-            axes.plot(line["epsilon"], line["rate"], **style)
-        line = select(rows, "mixed", f"exact {k}")
-        axes.plot(line["epsilon"], line["rate"], "o", color="white", markeredgecolor=BLACK, markersize=3.6, zorder=3)
-    for group, style in names.items():
-        axes.plot([], [], label=group, **style)
-    axes.plot([], [], "o", color="white", markeredgecolor=BLACK, markersize=3.6, label="exact")
-    axes.set(xscale="log", yscale="log", ylabel=r"$|\log\mu|\,/\,(2\pi\varepsilon/\Omega)$")
-    axes.legend(fontsize=8.5)

@@ -14,7 +14,19 @@ from scipy import ndimage
 
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, select
-from vibroimpact.regimes.classification import REGIMES, UNSETTLED
+from vibroimpact.regimes.classification import (
+    ASYMMETRIC,
+    CHAOTIC,
+    HOPPING,
+    IDLE,
+    NO_IMPACTS,
+    OTHER,
+    QUASI_PERIODIC,
+    REGIMES,
+    STRONGLY_MODULATED,
+    SYMMETRIC,
+    UNSETTLED,
+)
 from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 
 SPEC = {
@@ -22,7 +34,7 @@ SPEC = {
     "caption": "Over the plane of both forcing amplitudes the regime that most of several starts end in, with a stroke "
         "where others coexist. Started from rest, which is not counted, a ball may stay idle. Dotted: the theory's "
         "number of fixed points changes; solid: that of the stable ones does; crosses: the cases.",
-    "alt": "Map over the plane of f10 and f20 in patches of one colour and letter for each regime. Strongly modulated "
+    "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
         "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
         "stable fixed point; chaos has an island below.",
@@ -55,12 +67,18 @@ BORDERS = {
 }
 HALVINGS = 4
 """Of the way between two cells with different counts: the border is found to a thirty-second of it."""
-COLOURS = ["#004488", "#6699cc", "#bbddee", "#eecc66", "#994455", "#ee99aa", "#117733", "#dddddd", "#ffffff", "#888888"]
-"""One for each of REGIMES, after Paul Tol's schemes for colour-blind readers; letters say which is which."""
-LETTERS = "ABCDEFGHIJ"
+CLASSES = {
+    "symmetric": ("#004488", (SYMMETRIC,)),
+    "asymmetric": ("#7aa6d6", (ASYMMETRIC,)),
+    "other periodic": ("#d5e7f2", (OTHER,)),
+    "strongly modulated": ("#e8b84a", (STRONGLY_MODULATED,)),
+    "chaotic": ("#994455", (CHAOTIC, HOPPING)),
+    "quasi-periodic or unsettled": ("#848484", (QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED)),
+}
+"""What is drawn alike, in colours that differ in grey print, too: for each class its colour and its regimes."""
 TOGETHER = "coexisting"
-NAMED_FROM = 4
-"""A patch of so many cells or more bears its letter."""
+NAMED_FROM = 20
+"""A patch of so many cells or more bears the name of its class; the legend has the classes without one."""
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 6.0, "markeredgewidth": 1.4}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 8.0, "markeredgewidth": 0.8}
 TICKS = 4
@@ -145,14 +163,15 @@ def _pieces(corners, crossing):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a colour and a letter for each regime, a stroke where several coexist; borders."""
+    """Draw the table of `compute`: a colour for each class of regimes, a stroke where several coexist; borders."""
     cells, cases = (select(table, "map", name) for name in ("cell", "case"))
     f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
-    numbers = cells.assign(number=cells["regime"].map({name: n for n, name in enumerate(REGIMES)}))
-    shown = _square(numbers, "number")
-    figure = new_figure(DOUBLE_COLUMN, 112.0)
+    numbers = {name: n for n, (_, names) in enumerate(CLASSES.values()) for name in names}
+    shown = _square(cells.assign(number=cells["regime"].map(numbers)), "number")
+    figure = new_figure(DOUBLE_COLUMN, 104.0)
     axes = figure.add_subplot()
-    axes.pcolormesh(f10, f20, shown, cmap=ListedColormap(COLOURS), vmin=-0.5, vmax=len(REGIMES) - 0.5, rasterized=True)
+    colours = ListedColormap([colour for colour, _ in CLASSES.values()])
+    axes.pcolormesh(f10, f20, shown, cmap=colours, vmin=-0.5, vmax=len(CLASSES) - 0.5, rasterized=True)
     if np.isnan(shown).any():
         hatch_gaps(axes)
     together = cells[cells[TOGETHER] > 1]
@@ -165,24 +184,26 @@ def draw(table: pd.DataFrame) -> Figure:
     for _, case in cases.iterrows():
         offset = {"xytext": (5, 3), "textcoords": "offset points", "fontsize": 9}
         axes.annotate(case["label"], (case["f10_hat"], case["f20_hat"]), bbox=paper, **offset)
-    _letter(axes, f10, f20, shown)
+    named = {number for number in range(len(CLASSES)) if _name(axes, f10, f20, shown == number, number)}
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
-    figure.legend(handles=_legend(), loc="outside right center", fontsize=9, frameon=False)
+    figure.legend(handles=_legend(set(np.unique(shown)) - named), loc="outside right center", fontsize=9, frameon=False)
     return figure
 
 
-def _letter(axes, x, y, shown):
-    """A letter on each patch of a regime, where it is widest."""
-    for number, (letter, name) in enumerate(zip(LETTERS, REGIMES, strict=True)):
-        patches, count = ndimage.label(shown == number)
-        insides = [np.pad(patches == patch, 1) for patch in range(1, count + 1)]
-        depths = [ndimage.distance_transform_edt(inside) for inside in insides if inside.sum() >= NAMED_FROM]
-        places = [np.unravel_index(depth.argmax(), depth.shape) for depth in depths]
-        dark = np.dot(to_rgb(COLOURS[number]), (0.3, 0.59, 0.11)) < 0.5
-        look = {"linestyle": "none", "marker": f"${letter}$", "markersize": 7.0, "color": "white" if dark else BLACK}
-        axes.plot([x[j - 1] for _, j in places], [y[i - 1] for i, _ in places], label=name, markeredgewidth=0.4, **look)
+def _name(axes, x, y, inside, number):
+    """Write the name of a class on its largest patch, where this is widest; return True if it is large enough."""
+    patches, _ = ndimage.label(inside)
+    sizes = np.bincount(patches.ravel())[1:]
+    if not len(sizes) or sizes.max() < NAMED_FROM:
+        return False
+    depth = ndimage.distance_transform_edt(np.pad(patches == sizes.argmax() + 1, 1))
+    i, j = np.unravel_index(depth.argmax(), depth.shape)
+    name, (colour, _) = list(CLASSES.items())[number]
+    dark = np.dot(to_rgb(colour), (0.3, 0.59, 0.11)) < 0.5
+    axes.text(x[j - 1], y[i - 1], name, ha="center", va="center", fontsize=9, color="white" if dark else BLACK)
+    return True
 
 
 def _ends(centres):
@@ -196,15 +217,11 @@ def _square(cells, column):
     return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)
 
 
-def _legend():
+def _legend(numbers):
     box = {"edgecolor": BLACK, "linewidth": 0.4}
-    made = [
-        *(
-            Patch(facecolor=COLOURS[number], label=f"{LETTERS[number]}  {name}", **box)
-            for number, name in enumerate(REGIMES)
-        ),
-        Line2D([], [], label="others coexist", **_STROKES),
-    ]
+    classes = enumerate(CLASSES.items())
+    made = [Patch(facecolor=colour, label=name, **box) for n, (name, (colour, _)) in classes if n in numbers]
+    made.append(Line2D([], [], label="others coexist", **_STROKES))
     for series, style in BORDERS.items():
         look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
         made.append(Line2D([], [], color=BLACK, label=f"number of {series} changes", **look))

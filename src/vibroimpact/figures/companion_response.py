@@ -10,9 +10,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.absorbers.tuning import compared
-from vibroimpact.figures.kit.absorber_looks import DOTS, LEAST, MOST, draw_lines, logarithmic
+from vibroimpact.figures.kit.absorber_looks import DOTS, LEAST, LINES, MOST, logarithmic
 from vibroimpact.figures.kit.style import (
-    BLACK,
     DOUBLE_COLUMN,
     LIGHT_GREY,
     letter_panel,
@@ -30,13 +29,12 @@ SPEC = {
     "title": "How far the boxes move with balls",
     "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, :math:`f` the larger "
         r"of the forces :math:`\varepsilon\hat f_{i0}`. a to c: over the frequency, forces on both boxes and on one; "
-        "d: over the force. Dots: the largest of three starts, filled where most of them repeat; grey: between 5 % and "
-        "95 % of the cycles; dashes and crosses: symmetric 1:1 responses by the theory and exact, bold where stable; "
-        "lines: linear systems in closed form.",
-    "alt": "Four panels. a to c: response over the detuning; high resonance peaks without balls and with balls fixed, "
-        "dots and a grey band of the balls below them near resonance and above them beside it, two flat lines of tuned "
-        "absorbers below nearly all dots; dashes and crosses lie in pairs, on both sides of the dots, few of them "
-        "bold. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
+        "d: over the force. Dots: balls, the largest of three starts, filled where most of them repeat; grey: between "
+        "5 % and 95 % of the cycles; lines: linear systems in closed form. The table also has balls fixed, absorbers "
+        "of the textbook, and symmetric 1:1 responses.",
+    "alt": "Four panels. a to c: response over the detuning; a high resonance peak without balls, dots and a grey band "
+        "of the balls below it near resonance and above it beside it, a flat line of the best absorbers below nearly "
+        "all dots. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
         "slowly.",
     "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
     "case": "sweeps.frequency_response.case",
@@ -83,16 +81,10 @@ PLACE = [*FORCES, "sigma_e_hat"]
 OF_BALLS = ("label", *PLACE, "ratio", "low", "high", "impact_share")
 BALLS, THEORY, ORBITS = "balls", "theory", "symmetric orbits"
 ONE_TO_ONE = {THEORY: by_theory, ORBITS: exact}
+DRAWN = {"without balls": LINES["without balls"], "best absorbers": LINES["best absorbers"]}
 REPEATING, MODULATED = "balls, largest, repeating", "balls, largest, modulated"
 LOOKS = {REPEATING: DOTS, MODULATED: {**DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
-_MARK = {"linestyle": "none", "color": BLACK, "zorder": 3}
-MARKS = {
-    (THEORY, True): {"marker": "_", "markersize": 4.2, "markeredgewidth": 1.8},
-    (THEORY, False): {"marker": "_", "markersize": 3.0, "markeredgewidth": 0.7},
-    (ORBITS, True): {"marker": "x", "markersize": 3.8, "markeredgewidth": 1.4},
-    (ORBITS, False): {"marker": "x", "markersize": 2.4, "markeredgewidth": 0.5},
-}
 LINE_POINTS = 451
 
 
@@ -205,17 +197,16 @@ def draw(tables: dict) -> Figure:
         logarithmic(axes, "y", LEAST, MOST * linear)
         axes.set_ylabel("largest $|X_i|\\,/\\,f$")
         letter_panel(axes, letter)
-    figure.legend(*places[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
+    figure.legend(*places[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)
     return figure
 
 
 def _draw_panel(axes, rows, x):
     balls = rows[rows["series"] == BALLS]
     axes.fill_between(balls[x], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
-    draw_lines(axes, rows, x, "ratio")
+    for name, look in DRAWN.items():
+        line = rows[rows["series"] == name]
+        axes.plot(line[x], line["ratio"], label=name, **look)
     repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
     for (name, look), shown in zip(LOOKS.items(), (repeating, ~repeating), strict=True):
         axes.plot(balls[x][shown], balls["ratio"][shown], label=name, **look)
-    for (series, stable), look in MARKS.items():
-        mine = rows[(rows["series"] == series) & rows["stable"].eq(stable)]
-        axes.plot(mine[x], mine["ratio"], label=f"{series}, {'un' * (not stable)}stable", **_MARK | look)

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT
+from vibroimpact.claims.verdict_table import CRITERIA
 from vibroimpact.figures.kit.style import (
     BLACK,
     DOUBLE_COLUMN,
@@ -26,13 +26,14 @@ from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "Four criteria side by side",
-    "caption": "Four criteria on every fixed point and every exact orbit of the three cases. Above: the region that "
-        "Masri's analysis allows (shaded) and that of (10.26), to the upper right of the dotted lines; lines join "
-        "fixed points to the orbits that continue them. Below: what each criterion says. In a ring: verdicts that the "
-        "multipliers of the exact orbit refute.",
-    "alt": "One column per case. Above, the plane of C1 and C2 with the stable region shaded and fixed points joined "
-        "to their exact orbits; below, a table of marks, black for stable and white for unstable, that shows the "
-        "verdict of each of four criteria on each of them, in a ring where the exact orbit refutes it.",
+    "caption": "Fixed points and exact orbits of the three cases, filled where they are stable: fixed points by "
+        "Masri's analysis and the slow flow, orbits by their multipliers. The region that Masri's analysis allows is "
+        "shaded, that of (10.26) lies to the upper right of the dotted lines; lines join fixed points to the orbits "
+        "that continue them. In a ring: a verdict of the theory that the exact orbit refutes. The table has each of "
+        "the four criteria.",
+    "alt": "Three panels, one per case: the plane of C1 and C2 with the stable region shaded and fixed points joined "
+        "to their exact orbits, black for stable and white for unstable, in a ring where the exact orbit refutes the "
+        "theory.",
     "method": "verdicts and places as computed, limits in closed form",
     "systems": True,
     "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
@@ -47,15 +48,14 @@ SPEC = {
     },
 }  # fmt: skip
 
-HEADINGS = ("(10.26)", "Masri", "slow\nflow", "exact")
 FACES = {STABLE: BLACK, UNSTABLE: "white", UNDECIDED: GREY}
 KINDS = {"fixed point": "o", "symmetric": "s", "asymmetric": "D"}
 """Markers: a fixed point of the theory, an exact orbit of either kind."""
 NAMES = {"fixed point": "fixed point", "symmetric": "symmetric orbit", "asymmetric": "asymmetric orbit"}
 RING = {"marker": "o", "linestyle": "none", "color": BLACK, "markerfacecolor": "none", "markersize": 8.6}
 RING |= {"markeredgewidth": 0.9, "label": "the orbit says otherwise"}
-ROW, PLANE, FRAME = 4.3, 46.0, 28.0
-"""Heights in mm: a row of verdicts, a plane, everything around them."""
+PLANE, FRAME = 58.0, 18.0
+"""Heights in mm: a plane, everything around it."""
 
 
 def compute(systems: dict, points: pd.DataFrame, orbits: pd.DataFrame) -> pd.DataFrame:
@@ -103,23 +103,20 @@ def _links(case, points, orbits):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: per case the plane (C_1, C_2) above the verdicts; stable black, unstable white,
-    in a ring where the multipliers of the exact orbit say otherwise.
+    """Draw the table of `compute`: per case the plane (C_1, C_2); stable black, unstable white, in a ring where the
+    multipliers of the exact orbit say otherwise.
     """
     cases = list(dict.fromkeys(table["panel"]))
-    most = max(1, *(len(_motions(table, case)) for case in cases))
     columns, rows = side_by_side(len(cases))
-    figure = new_figure(DOUBLE_COLUMN, rows * (PLANE + ROW * most) + FRAME)
-    grid = figure.subplots(2 * rows, columns, squeeze=False, height_ratios=[PLANE, ROW * most] * rows)
-    planes, matrices = grid[::2].ravel(), grid[1::2].ravel()
+    figure = new_figure(DOUBLE_COLUMN, rows * PLANE + FRAME)
+    planes = figure.subplots(rows, columns, squeeze=False).ravel()
     places = table[["C1", "C2"]].to_numpy(float)
     end = 1.1 * places[np.isfinite(places)].max()
-    for axes in [*planes[len(cases) :], *matrices[len(cases) :]]:
+    for axes in planes[len(cases) :]:
         axes.set_axis_off()
-    for case, plane, matrix in zip(cases, planes, matrices, strict=False):
+    for case, plane in zip(cases, planes, strict=False):
         letter_panel(plane, case)
         _draw_plane(plane, table, case, end)
-        _draw_matrix(matrix, _motions(table, case), most)
     figure.legend(handles=_key(table), loc="outside lower center", ncols=6, fontsize=8.5)
     return figure
 
@@ -139,6 +136,11 @@ def _draw_plane(axes, table, case, end):
         axes.plot(*link.T, color=BLACK, linewidth=0.6, zorder=2)
     for _, motion in _motions(table, case).iterrows():
         _mark(axes, (motion["C1"], motion["C2"]), motion, overall(motion))
+        if motion["series"] == "fixed point":
+            right = motion["C1"] < 0.2 * end  # away from the axis
+            offset = {"xytext": (4 if right else -6, -9), "textcoords": "offset points", "fontsize": 8.5}
+            offset["ha"] = "left" if right else "right"
+            axes.annotate(f"({motion['label']})", (motion["C1"], motion["C2"]), **offset)
     axes.set(xlim=(0, end), ylim=(0, end), xlabel="$C_1$", ylabel="$C_2$", aspect="equal")
 
 
@@ -147,22 +149,6 @@ def overall(motion) -> str:
     if motion["series"] != "fixed point":
         return motion["floquet"]
     return fast_and_slow(motion)
-
-
-def _draw_matrix(axes, motions, most):
-    """A row per motion, a column per criterion."""
-    axes.set(xlim=(-2.3, len(CRITERIA) - 0.4), ylim=(most - 0.5, -0.5), xticks=[], yticks=[])
-    axes.set_axis_off()
-    for row, (_, motion) in enumerate(motions.iterrows()):
-        name = f"({motion['label']})" if motion["series"] == "fixed point" else motion["label"]
-        axes.text(-3.3, row, name, va="center", fontsize=8.5)
-        axes.text(-0.75, row, f"{motion['C1']:.2f}, {motion['C2']:.2f}", va="center", ha="right", fontsize=8.5)
-        for column, criterion in enumerate(CRITERIA):
-            if motion[criterion] != NO_ORBIT:
-                _mark(axes, (column, row), motion, motion[criterion])
-    for column, heading in enumerate(HEADINGS):
-        axes.text(column, -0.75, heading, ha="center", va="bottom", fontsize=8, linespacing=0.95)
-    axes.text(-0.75, -0.75, "$C_1$, $C_2$", ha="right", va="bottom", fontsize=10)
 
 
 def _mark(axes, place, motion, verdict):
