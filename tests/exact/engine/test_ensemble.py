@@ -205,3 +205,24 @@ def test_starts_in_any_order_of_memory_run_the_same_code(case):
         runs = vi.simulate_many(case, states, 3)
         np.testing.assert_array_equal([run.final for run in plain], [run.final for run in runs])
     assert integrate.signatures == compiled
+
+
+def test_runs_side_by_side_have_the_events_of_each_alone(chapter):
+    """More starts than lanes, so that each lane takes a second one; many of their steps are those of all lanes."""
+    system, cycles = chapter(), 40
+    settled = vi.simulate(system, [0.0] * 8, 300).final
+    near = np.concatenate([settled + np.linspace(0, 1e-2, 13)[:, None], starts(6)])
+    outcomes = vi.ensemble(system, near, cycles)
+    for start, outcome in zip(near, outcomes, strict=True):
+        run = vi.simulate(system, start, cycles)
+        np.testing.assert_array_equal(outcome["final"], run.final)
+        modules = run.events["module"][run.events["kind"] == vi.IMPACT]
+        assert outcome["impacts"].tolist() == [np.sum(modules == 1), np.sum(modules == 2)]
+
+
+def test_lanes_round_as_floats(chapter):
+    """Alone a start takes every step by the event loop, among many those of all lanes: the same outcome, bit by bit."""
+    system, states = chapter(), starts(40)
+    together = vi.ensemble(system, states, 20, energy=True)
+    alone = np.concatenate([vi.ensemble(system, state[None], 20, energy=True) for state in states])
+    assert together.tobytes() == alone.tobytes()

@@ -25,7 +25,7 @@ def remainder(q, mode, jets, growth):
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
     y1, y2, z1, z2 = one[6] * (1 / 7), two[6] * (1 / 7), one[7], two[7]
-    energy = m1 * z1 * z1 + m2 * z2 * z2 + y1 * y1 + q.ground * y2 * y2 - q.k12 * (y1 - y2) ** 2
+    energy = m1 * z1 * z1 + m2 * z2 * z2 + y1 * y1 + q.ground * y2 * y2 - q.k12 * ((y1 - y2) * (y1 - y2))
     return (math.sqrt(energy) + growth * (1 / 5040)) * (1.0 + 1e-12)
 
 

@@ -46,7 +46,7 @@ def impact(q, box, ball):
     A factor rounded once would err alike at every impact; its rest is added, and the relative velocity taken by kappa.
     """
     relative = box - ball
-    box -= q.epsilon * (q.impulse * relative + q.impulse_rest * relative)
+    box = box - q.epsilon * (q.impulse * relative + q.impulse_rest * relative)
     return box, box + q.kappa * relative
 
 

@@ -7,28 +7,53 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.compiled import compiled, unfolded
 from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
-from vibroimpact.exact.engine.event_log import EVALUATIONS, EVENTS
+from vibroimpact.exact.engine.event_log import (
+    APPROACH,
+    COSINE,
+    EVALUATIONS,
+    EVENTS,
+    FLIGHTS,
+    PHASE,
+    RESIDUAL,
+    ROW,
+    SINE,
+    Log,
+    pack,
+)
+from vibroimpact.exact.engine.event_log import ENTRIES as LEDGER
 from vibroimpact.exact.engine.event_loop import (
     EARLIER,
     FAILURES,
     FINISHED,
     PAUSED,
+    PLACES,
     SPELL,
-    empty_rows,
-    integrate,
-    is_full,
+    go_on,
+    keep_course,
+    kept_course,
     memory,
 )
+from vibroimpact.exact.engine.event_loop import MOST_AT_ONCE as MOST_EVENTS_AT_ONCE
 from vibroimpact.exact.engine.flow import tables_of, unpacked
+from vibroimpact.exact.engine.lane_step import APPROACH as SPEED
+from vibroimpact.exact.engine.lane_step import AT, DONE, DUE, MID, NOTES, ROWS, STATE, TAIL, step_lanes
+from vibroimpact.exact.engine.lane_step import COSINE as COSINE_AT
+from vibroimpact.exact.engine.lane_step import PHASE as PHASE_AT
+from vibroimpact.exact.engine.lane_step import RESIDUAL as MISSED
+from vibroimpact.exact.engine.lane_step import SINE as SINE_AT
+from vibroimpact.exact.engine.lane_step import TIME as WHEN
+from vibroimpact.exact.engine.lane_step import WALL as HIT
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
 from vibroimpact.exact.engine.replay import departures
 from vibroimpact.exact.engine.request import MOST_CYCLES, checked_window, within_walls
 from vibroimpact.exact.engine.squares import Squares, squares_of
+from vibroimpact.exact.engine.vectors import WIDTH
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals, whole
+from vibroimpact.system.state import IMPACT
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -50,9 +75,11 @@ of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and th
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """The same and, under one more name, where the energy went."""
 
-PLACES = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
+FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
 NO_POWERS = np.empty((0, 0, 0, 0))
 NOTHING = Squares(NO_POWERS, np.empty((0, 0)), NO_POWERS)
+FEWEST = 3
+"""Runs that are worth a step of all lanes."""
 MOST_AT_ONCE, SHARES = 1024, 4
 """Runs in a piece of work, enough that handing it out costs nothing; pieces for each core, where runs are fewer."""
 
@@ -68,8 +95,8 @@ def ensemble(
 ) -> np.ndarray:
     """Run many starts, of one system or of many, on all cores, in memory of the order of the starts.
 
-    Besides, each core holds the events of the run it is at, a kilobyte or so for a cycle; a system that is not among
-    the others takes a millisecond or two for its tables, and several more where the energy is asked for.
+    Besides, each core holds the events of the eight runs it is at, a kilobyte or so for a cycle of each; a system that
+    is not among the others takes a millisecond or two for its tables, and several more where the energy is asked for.
 
     Every run is that of `simulate`, its final state bit by bit; for the events, the samples or the certificate of one
     of them ask `simulate`.
@@ -155,16 +182,15 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     phase = phase_at(begin, system.Omega)
     tables = tables_of(system)
     given = *tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent
-    (rows, ledger, where), done = memory(cycles), 0
-    while (done := _loop(*given, done, rows, ledger, where)) < len(places):
-        if is_full(rows, ledger) and observed:
-            rows = np.concatenate((rows, np.empty_like(rows)))
-        elif is_full(rows, ledger):  # nobody looks at the events
-            empty_rows(ledger, where)
+    members, runs, ledgers = np.full(WIDTH, -1), np.zeros((ROWS, WIDTH)), np.zeros((WIDTH, LEDGER))
+    rows, begun = np.empty((WIDTH, len(memory(cycles)[0]), ROW)), np.zeros(1, dtype=int)
+    while not _loop(*given, members, begun, runs, ledgers, rows):
+        if (ledgers[:, EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]).any():
+            rows = np.concatenate((rows, np.empty_like(rows)), axis=1)
         stop_if_given_up()
     seen[:, SQUARE:] /= observed * system.period or np.nan
     table["status"], table["final"] = status, final
-    for name, place in PLACES.items():
+    for name, place in FIELDS.items():
         table[name] = seen[:, place : place + 2]
     if len(spent):
         spent[np.isnan(seen[:, LARGEST])] = np.nan
@@ -175,34 +201,121 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
 @compiled
 def _loop(
     numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen,
-    spent, done, rows, ledger, where
+    spent, members, begun, runs, ledgers, rows
 ):  # fmt: skip
-    """Run the starts (n, 8) of a piece whose status is FINISHED, from the first that is not done on; fill in what they
-    end with and amount to. Returns how many are done: all, or after a while fewer (`integrate`).
+    """Run the starts (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in what they
+    end with and amount to.
+
+    members: the start in each lane, or -1; begun: how many starts were looked at; runs, ledgers, rows: of each lane.
+    Returns False where rows are full, or after a while (`integrate`): then call again.
     """
-    opening, proofs = np.array([settle * period]), 0.0
-    no_times, no_samples = np.empty(0), np.empty((0, 8))
-    flow = unpacked(numbers, series, rotations)
-    for n in range(done, len(starts)):
-        s = starts[n]
-        if status[n] != INADMISSIBLE:
-            before = ledger[EVALUATIONS]
-            status[n] = integrate(
-                numbers, series, rotations, s, phase, tail, cycles, 0.0, no_times, no_samples, final[n], rows, ledger,
-                where
-            )  # fmt: skip
-            proofs += ledger[EVALUATIONS] - before
-        if status[n] == PAUSED:
-            return n
-        if status[n] != FINISHED or settle == cycles:
-            seen[n, LARGEST:] = np.nan
+    opening, flow, steps = np.array([settle * period]), unpacked(numbers, series, rotations), 0
+    no_times, no_samples, notes, where = np.empty(0), np.empty((0, 8)), np.empty((NOTES, WIDTH)), np.empty(PLACES)
+    while True:
+        alive = _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers)
+        if alive == 0:
+            return True
+        together = alive >= FEWEST
+        if together:
+            step_lanes(flow, runs, (phase, tail), float(cycles), notes)
+        full, steps = False, steps + WIDTH
+        for lane in range(WIDTH):
+            n, ledger = members[lane], ledgers[lane]
+            if n < 0:
+                continue
+            if together and notes[DONE, lane] == 2.0:
+                ledger[EVALUATIONS] += 1.0
+            elif together and notes[DONE, lane] == 1.0:
+                _note(notes, lane, settle < cycles, rows[lane], ledger, runs)
+            else:
+                _read(runs, lane, where)
+                course, outcome = go_on(
+                    flow, kept_course(where), (phase, tail), cycles, 0.0, no_times, no_samples, Log(rows[lane], ledger),
+                    where[EARLIER], 0 if together else SPELL
+                )  # fmt: skip
+                keep_course(course, where)
+                _write(where, lane, runs)
+                runs[MID, lane] = 0.0
+                if outcome != PAUSED:
+                    status[n], members[lane] = outcome, -1
+                    if outcome == FINISHED:
+                        pack(course.motion.boxes, course.motion.balls, final[n])
+                    if outcome != FINISHED or settle == cycles:
+                        seen[n, LARGEST:] = np.nan
+                    else:
+                        s, events, end = starts[n], rows[lane, : int(ledger[EVENTS])], course.motion.boxes
+                        observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
+                        if len(powers) > 0:
+                            flights = departures(flow.coefficients, s, events, phase, cycles * period)
+                            account(flow, powers, flights, events, opening, spent[n])
+                    continue
+                steps += 0 if together else SPELL
+            if ledger[EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]:
+                if settle < cycles:
+                    full = True
+                else:  # nobody looks at the events
+                    runs[EARLIER, lane] += ledger[EVENTS]
+                    ledger[EVENTS] = 0.0
+        if full or steps > SPELL:
+            return False
+
+
+@unfolded
+def _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers):
+    """Begin the next starts in free lanes; how many lanes are taken."""
+    alive = 0
+    for lane in range(WIDTH):
+        while members[lane] < 0 and begun[0] < len(starts):
+            n = begun[0]
+            begun[0] += 1
+            if status[n] == INADMISSIBLE:
+                seen[n, LARGEST:] = np.nan
+                continue
+            members[lane] = n
+            for k in range(ROWS):
+                runs[k, lane] = 0.0
+            for i in range(4):
+                runs[i, lane], runs[4 + i, lane] = starts[n, 2 * i], starts[n, 2 * i + 1]
+            runs[DUE, lane], runs[PHASE_AT, lane], runs[TAIL, lane] = -1.0, phase, tail
+            for k in range(LEDGER):
+                ledgers[lane, k] = 0.0
+        if members[lane] >= 0:
+            alive += 1
         else:
-            end, events = (final[n, 0], final[n, 2], final[n, 4], final[n, 6]), rows[: int(ledger[EVENTS])]
-            observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
-            if len(powers) > 0:
-                flights = departures(flow.coefficients, s, events, phase, cycles * period)
-                account(flow, powers, flights, events, opening, spent[n])
-        ledger[:], where[EARLIER] = 0.0, 0.0
-        if proofs > SPELL:
-            return n + 1
-    return len(starts)
+            runs[DUE, lane], runs[MID, lane] = -1.0, 0.0
+    return alive
+
+
+@unfolded
+def _note(notes, lane, observed, rows, ledger, runs):
+    """Write down an impact and a flight of a lane."""
+    ledger[FLIGHTS] += 1.0
+    ledger[EVALUATIONS] += 1.0
+    ledger[RESIDUAL] = max(ledger[RESIDUAL], notes[MISSED, lane])
+    if not observed:
+        runs[EARLIER, lane] += 1.0
+        return
+    row, wall = rows[int(ledger[EVENTS])], notes[HIT, lane]
+    module = abs(wall)
+    row[0], row[1], row[2], row[3] = notes[WHEN, lane], module, wall / module, IMPACT
+    for k in range(8):
+        row[4 + k] = notes[STATE + k, lane]
+    row[PHASE], row[APPROACH], row[SINE], row[COSINE] = (
+        notes[AT, lane],
+        notes[SPEED, lane],
+        notes[SINE_AT, lane],
+        notes[COSINE_AT, lane],
+    )
+    ledger[EVENTS] += 1.0
+
+
+@unfolded
+def _read(runs, lane, where):
+    for k in range(PLACES):
+        where[k] = runs[k, lane]
+
+
+@unfolded
+def _write(where, lane, runs):
+    for k in range(PLACES):
+        runs[k, lane] = where[k]

@@ -88,12 +88,12 @@ def integrate(
         boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
         course = Course(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
     else:
-        course = _kept(where)
+        course = kept_course(where)
     log = Log(rows, ledger)
-    course, status = _go_on(flow, course, (phase, tail), cycles, start, times, samples, log, where[EARLIER])
+    course, status = go_on(flow, course, (phase, tail), cycles, start, times, samples, log, where[EARLIER], SPELL)
     if status == FINISHED:
         pack(course.motion.boxes, course.motion.balls, final)
-    _keep(course, where)
+    keep_course(course, where)
     return status
 
 
@@ -115,7 +115,7 @@ def empty_rows(ledger, where):
 
 
 @unfolded
-def _keep(course, where):
+def keep_course(course, where):
     """Write down where a run pauses."""
     motion = course.motion
     for k in range(4):
@@ -127,7 +127,7 @@ def _keep(course, where):
 
 
 @unfolded
-def _kept(where):
+def kept_course(where):
     """The course of a run that goes on."""
     w = where
     boxes, balls = (w[0], w[1], w[2], w[3]), (w[4], w[5], w[6], w[7])
@@ -136,13 +136,13 @@ def _kept(where):
 
 
 @in_place
-def _go_on(flow, course, start_phase, cycles, start, sample_times, samples, log, earlier):
-    """Run on to the end, or until it pauses: (course, status)."""
+def go_on(flow, course, start_phase, cycles, start, sample_times, samples, log, earlier, spell):
+    """Run on to the end, or until it pauses, rows full or more than spell exclusions made: (course, status)."""
     q = flow.coefficients
     (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, course
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
-    status, pause = FINISHED, log.ledger[EVALUATIONS] + SPELL
+    status, pause = FINISHED, log.ledger[EVALUATIONS] + spell
     while True:
         sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.ledger[EVENTS])

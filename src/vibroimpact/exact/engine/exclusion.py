@@ -98,14 +98,15 @@ def crossing(c, remainder, margin, horizon, short):
     t = 2.0 * c[0] / (math.sqrt(root) - c[1]) if root > 0.0 else -c[0] / c[1]
     f, g = value(low, t), slope(low, t)
     t -= f * g / (g * g - f * half_curvature(low, t))  # Halley's method
-    unsure = abs(value(low, t)) + margin + 2.0 * remainder * abs(t) ** 7
-    until = 1.125 * abs(t) - 8.0 * margin / c[1]
-    if not abs(t) <= until <= horizon:
+    size, square = abs(t), t * t
+    unsure = abs(value(low, t)) + margin + 2.0 * remainder * (size * square * (square * square))
+    until = 1.125 * size - 8.0 * margin / c[1]
+    if not size <= until <= horizon:
         return UNCERTAIN
     width = unsure / least(fall, until)
     if not (width > 0.0 and t + width <= until):
         return UNCERTAIN
-    if abs(t) <= short:
+    if size <= short:
         zero = nearby_zero(c, t)
         return (True, zero, width) if abs(zero - t) <= width else UNCERTAIN
     return (True, t, width) if width <= 0.5 * t else UNCERTAIN

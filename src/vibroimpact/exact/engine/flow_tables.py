@@ -6,7 +6,7 @@ pairs are (2, 6, 6, times), so that the processor multiplies those of several ti
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, literal, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.phase import fused
 
 SIZE, BOXES = 6, 4  # of z = [X1, X2, X1', X2', sin, cos] and of what there is of the boxes
@@ -132,7 +132,7 @@ def _entries(powers, last, many, i, j, first, end):
         powers[0, i, j, there], powers[1, i, j, there] = _normal(high, low)
 
 
-@literal
+@inlined
 def _plus_product(high, low, a, a_low, b, b_low):
     """A pair and the product of two others; the second number of the sum may be longer than what the first left out."""
     product = a * b
@@ -142,7 +142,7 @@ def _plus_product(high, low, a, a_low, b, b_low):
     return total, low + (rounded + (fused(a, b, -product) + (a * b_low + a_low * b)))
 
 
-@literal
+@inlined
 def _sum(a, a_low, b, b_low):
     """The sum of two pairs."""
     total = a + b
@@ -150,14 +150,14 @@ def _sum(a, a_low, b, b_low):
     return _normal(total, (a - (total - part)) + (b - part) + (a_low + b_low))
 
 
-@literal
+@inlined
 def _over(high, low, k):
     """A pair over a small whole number."""
     quotient = high / k
     return _normal(quotient, (fused(-quotient, k, high) + low) / k)
 
 
-@literal
+@inlined
 def _normal(high, low):
     """The pair of the nearest float and the rest."""
     total = high + low

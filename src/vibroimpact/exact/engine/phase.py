@@ -8,7 +8,8 @@ from functools import lru_cache
 from numba import types
 from numba.extending import intrinsic
 
-from vibroimpact.exact.engine.compiled import literal
+from vibroimpact.exact.engine.compiled import inlined
+from vibroimpact.exact.engine.lanes import LANES, Lanes, fused_lanes
 
 TWO_PI = 2.0 * math.pi
 TWO_PI_TAIL = 2.4492935982947064e-16  # 2 pi - float(2 pi)
@@ -80,11 +81,14 @@ def _arctan(inverse, one):
 @intrinsic
 def fused(_, a, b, c):
     """a b + c, rounded once."""
+    lanes = [kind for kind in (a, b, c) if isinstance(kind, Lanes)]
+    if lanes:
+        return LANES(a, b, c), fused_lanes
     signature = types.float64(types.float64, types.float64, types.float64)
     return signature, lambda context, builder, signature, arguments: builder.fma(*arguments)
 
 
-@literal
+@inlined
 def sine_and_cosine(phase, tail):
     """Sine and cosine of a phase in [0, 2 pi] and what it leaves out, to a unit in the last place, on every machine.
 
@@ -92,17 +96,24 @@ def sine_and_cosine(phase, tail):
     """
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
-    z = x * x
-    half = 0.5 * z
-    one = 1.0 - half
-    sine = x + (y - half * y + (z * x) * _series(SINE, z))
-    cosine = one + (((1.0 - one) - half) + ((z * z) * _series(COSINE, z) - x * y))
+    sine, cosine = sine_and_cosine_near(x, y)
     if int(quarters) & 1:
         sine, cosine = cosine, -sine
     return (-sine, -cosine) if int(quarters) & 2 else (sine, cosine)
 
 
-@literal
+@inlined
+def sine_and_cosine_near(x, y):
+    """Sine and cosine of an angle within an eighth of a turn of 0, and what it leaves out."""
+    z = x * x
+    half = 0.5 * z
+    one = 1.0 - half
+    sine = x + (y - half * y + (z * x) * _series(SINE, z))
+    cosine = one + (((1.0 - one) - half) + ((z * z) * _series(COSINE, z) - x * y))
+    return sine, cosine
+
+
+@inlined
 def _series(c, z):
     """A polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
     w = z * z
@@ -110,7 +121,7 @@ def _series(c, z):
     return fused(w, upper, fused(z, c[1], c[0]))
 
 
-@literal
+@inlined
 def ahead(phase, tail, omega, t):
     """The phase a time t later, not reduced; what product and sum round off goes to the tail."""
     step = omega * t
@@ -119,7 +130,7 @@ def ahead(phase, tail, omega, t):
     return total, tail + ((phase - (total - part)) + (step - part) + fused(omega, t, -step))
 
 
-@literal
+@inlined
 def reduced(phase, tail):
     """A phase a full turn less, its tail small again."""
     phase, tail = phase - TWO_PI, tail - TWO_PI_TAIL

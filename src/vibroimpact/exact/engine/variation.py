@@ -42,7 +42,7 @@ def carried(flow, flights, events, total):
     return total
 
 
-@inlined
+@compiled
 def fill_product(matrix, vectors, product):
     """Fill the product with (8, k) vectors; so small a one takes BLAS longer to prepare than to compute."""
     for row in range(8):

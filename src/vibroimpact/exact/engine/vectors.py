@@ -22,29 +22,34 @@ def weighted_sum(_, table, mode, j, weights):
             context, builder, signature.args[0], array, [arguments[1], arguments[2], zero, zero]
         )
         weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
-        halves = []
+        wide, halves = [_in_all(builder, weight) for weight in weights], []
         for half in range(2):
-            rows = [_row(context, builder, start, 2 * m + half) for m in range(len(weights))]
-            halves.append(context.make_tuple(builder, eight, _entries(builder, _sum(builder, rows, weights))))
+            rows = [row_at(context, builder, start, 2 * m + half) for m in range(len(weights))]
+            halves.append(context.make_tuple(builder, eight, _entries(builder, weighted(builder, rows, wide))))
         return context.make_tuple(builder, signature.return_type, halves)
 
     return types.UniTuple(eight, 2)(table, types.intp, types.intp, weights), generate
 
 
-def _row(context, builder, start, place):
+def row_at(context, builder, start, place):
     """The vector at a place after the start."""
     pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
     return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
 
 
-def _sum(builder, rows, weights):
-    """The weighted sum of vectors, product and sum rounded as one where the processor can."""
+def weighted(builder, rows, weights):
+    """The weighted sum of vectors, product and sum rounded as one where the processor can; weights: vectors."""
     total = None
     for row, weight in zip(rows, weights, strict=True):
-        first = builder.insert_element(NOTHING, weight, ir.IntType(32)(0))
-        part = builder.fmul(row, builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH)), flags=("contract",))
+        part = builder.fmul(row, weight, flags=("contract",))
         total = part if total is None else builder.fadd(total, part, flags=("contract",))
     return total
+
+
+def _in_all(builder, number):
+    """The vector of which every entry is this number."""
+    first = builder.insert_element(NOTHING, number, ir.IntType(32)(0))
+    return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
 
 
 def _entries(builder, vector):

@@ -1,0 +1,237 @@
+"""Eight floats as one number of the compiled loops: sums, products and comparisons of eight runs at once.
+
+Each operation rounds as that of a float, so that a formula gives the same bits for both. Comparisons give a `Mask`;
+`where` chooses by it.
+"""
+
+import math
+import operator
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, models, register_model
+
+from vibroimpact.exact.engine.vectors import INDICES, NOTHING, NUMBERS, WIDTH, row_at, weighted
+
+TRUTHS = ir.VectorType(ir.IntType(1), WIDTH)
+
+
+class Lanes(types.Type):
+    """Type of eight floats."""
+
+    def __init__(self):
+        super().__init__("Lanes")
+
+
+class Mask(types.Type):
+    """Type of eight truth values."""
+
+    def __init__(self):
+        super().__init__("Mask")
+
+
+LANES, MASK = Lanes(), Mask()
+
+
+@register_model(Lanes)
+class _LanesModel(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, NUMBERS)
+
+
+@register_model(Mask)
+class _MaskModel(models.PrimitiveModel):
+    def __init__(self, manager, kind):
+        super().__init__(manager, kind, TRUTHS)
+
+
+def _wide(context, builder, value, kind):
+    """A float or whole number in all lanes."""
+    if isinstance(kind, Lanes):
+        return value
+    value = context.cast(builder, value, kind, types.float64)
+    first = builder.insert_element(NOTHING, value, ir.IntType(32)(0))
+    return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
+
+
+def _operation(function, result, generate):
+    """Teach the compiler an operation with two operands, of which one may be a number for all lanes."""
+
+    class Typing(AbstractTemplate):
+        def generic(self, args, kws):
+            numbers = all(isinstance(one, Lanes | types.Float | types.Integer) for one in args)
+            return signature(result, *args) if len(args) == 2 and numbers and LANES in args else None
+
+    infer_global(function)(Typing)
+
+    def lower(context, builder, signed, args):
+        return generate(builder, *(_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True)))
+
+    for kinds in ((Lanes, Lanes), (Lanes, types.Number), (types.Number, Lanes)):
+        lower_builtin(function, *kinds)(lower)
+
+
+def _comparison(sign):
+    return lambda builder, a, b: builder.fcmp_ordered(sign, a, b)
+
+
+_operation(operator.add, LANES, lambda builder, a, b: builder.fadd(a, b))
+_operation(operator.sub, LANES, lambda builder, a, b: builder.fsub(a, b))
+_operation(operator.mul, LANES, lambda builder, a, b: builder.fmul(a, b))
+_operation(operator.truediv, LANES, lambda builder, a, b: builder.fdiv(a, b))
+_operation(operator.lt, MASK, _comparison("<"))
+_operation(operator.le, MASK, _comparison("<="))
+_operation(operator.gt, MASK, _comparison(">"))
+_operation(operator.ge, MASK, _comparison(">="))
+_operation(operator.eq, MASK, _comparison("=="))
+
+
+def _function(function, kind, generate):
+    """Teach the compiler a function of one argument."""
+
+    class Typing(AbstractTemplate):
+        def generic(self, args, kws):
+            return signature(kind, kind) if args == (kind,) else None
+
+    infer_global(function)(Typing)
+    lower_builtin(function, type(kind))(lambda context, builder, signed, args: generate(builder, args[0]))
+
+
+def _called(name):
+    def generate(builder, *args):
+        kind = ir.FunctionType(NUMBERS, [NUMBERS] * len(args))
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v8f64"), args)
+
+    return generate
+
+
+_function(abs, LANES, _called("fabs"))
+_function(math.sqrt, LANES, _called("sqrt"))
+_function(math.floor, LANES, _called("floor"))
+_function(operator.neg, LANES, lambda builder, a: builder.fneg(a))
+_function(operator.invert, MASK, lambda builder, a: builder.not_(a))
+
+
+def _joined(function, generate):
+    class Typing(AbstractTemplate):
+        def generic(self, args, kws):
+            return signature(MASK, MASK, MASK) if args == (MASK, MASK) else None
+
+    infer_global(function)(Typing)
+    lower_builtin(function, Mask, Mask)(lambda context, builder, signed, args: generate(builder, *args))
+
+
+_joined(operator.and_, lambda builder, a, b: builder.and_(a, b))
+_joined(operator.or_, lambda builder, a, b: builder.or_(a, b))
+
+
+def fused_lanes(context, builder, signed, args):
+    """a b + c, rounded once, in each lane."""
+    return _called("fma")(builder, *(_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True)))
+
+
+@intrinsic
+def where(_, mask, a, b):
+    """In each lane a where the mask is true, else b."""
+
+    def generate(context, builder, signed, args):
+        _, one, other = signed.args
+        one, other = _wide(context, builder, args[1], one), _wide(context, builder, args[2], other)
+        return builder.select(args[0], one, other)
+
+    return LANES(mask, a, b), generate
+
+
+@intrinsic
+def load(_, array, k):
+    """Row k of an array (n, 8)."""
+
+    def generate(context, builder, signed, args):
+        return builder.load(_pointer(context, builder, signed, args), align=8)
+
+    return LANES(array, types.intp), generate
+
+
+@intrinsic
+def store(_, array, k, value):
+    """Write row k of an array (n, 8)."""
+
+    def generate(context, builder, signed, args):
+        value = _wide(context, builder, args[2], signed.args[2])
+        builder.store(value, _pointer(context, builder, signed, args), align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, value), generate
+
+
+def _pointer(context, builder, signed, args):
+    array = context.make_array(signed.args[0])(context, builder, args[0])
+    zero = context.get_constant(types.intp, 0)
+    pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [args[1], zero])
+    return builder.bitcast(pointer, NUMBERS.as_pointer())
+
+
+@intrinsic
+def some(_, mask):
+    """Return True if any lane of a mask is true."""
+
+    def generate(context, builder, signed, args):
+        bits = builder.bitcast(args[0], ir.IntType(WIDTH))
+        return builder.icmp_unsigned("!=", bits, ir.IntType(WIDTH)(0))
+
+    return types.boolean(mask), generate
+
+
+@intrinsic
+def entries(_, table, j, k):
+    """table[j, k] in each lane, at its own j."""
+
+    def generate(context, builder, signed, args):
+        array = context.make_array(signed.args[0])(context, builder, args[0])
+        places, values = builder.fptosi(args[1], ir.VectorType(ir.IntType(64), WIDTH)), NOTHING
+        for lane in range(WIDTH):
+            place = builder.extract_element(places, ir.IntType(32)(lane))
+            pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [place, args[2]])
+            values = builder.insert_element(values, builder.load(pointer), ir.IntType(32)(lane))
+        return values
+
+    return LANES(table, j, types.intp), generate
+
+
+@intrinsic
+def weighted_sums(_, table, mode, j, weights):
+    """`weighted_sum` in each lane, at its own j: its two halves, tuples of eight."""
+    eight = types.UniTuple(LANES, WIDTH)
+
+    def generate(context, builder, signed, args):
+        array = context.make_array(signed.args[0])(context, builder, args[0])
+        zero, count = context.get_constant(types.intp, 0), signed.args[3].count
+        weights = [builder.extract_value(args[3], m) for m in range(count)]
+        places = builder.fptosi(args[2], ir.VectorType(ir.IntType(64), WIDTH))
+        sums = [[], []]
+        for lane in range(WIDTH):
+            place = builder.extract_element(places, ir.IntType(32)(lane))
+            start = cgutils.get_item_pointer(context, builder, signed.args[0], array, [args[1], place, zero, zero])
+            spread = [builder.shuffle_vector(w, NOTHING, INDICES([lane] * WIDTH)) for w in weights]
+            for half in range(2):
+                rows = [row_at(context, builder, start, 2 * m + half) for m in range(count)]
+                sums[half].append(weighted(builder, rows, spread))
+        halves = [context.make_tuple(builder, eight, _transposed(builder, rows)) for rows in sums]
+        return context.make_tuple(builder, signed.return_type, halves)
+
+    return types.UniTuple(eight, 2)(table, types.intp, j, weights), generate
+
+
+def _transposed(builder, rows):
+    """Eight vectors, the lanes of one being the same lane of all: blocks are swapped, of four, two and one."""
+    rows = list(rows)
+    for step in (4, 2, 1):
+        for i in (i for i in range(WIDTH) if not i & step):
+            a, b = rows[i], rows[i + step]
+            first = [k if not k & step else k - step + WIDTH for k in range(WIDTH)]
+            other = [k + step if not k & step else k + WIDTH for k in range(WIDTH)]
+            rows[i] = builder.shuffle_vector(a, b, INDICES(first))
+            rows[i + step] = builder.shuffle_vector(a, b, INDICES(other))
+    return rows
