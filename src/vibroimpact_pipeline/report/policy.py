@@ -15,7 +15,7 @@ POLICY = (
     f"script-src {{scripts}}; base-uri 'none'; form-action {FILES}"
 )
 HEAD = re.compile(r"<head>\n?")
-SCRIPT = re.compile(r'<script src="(?!_static/|searchindex)([\w/]+\.js)"></script>')
+SCRIPT = re.compile(r'<script src="([\w/]+\.js)"></script>')
 
 
 def guarded(page: str, script: Callable[[str], str] | None = None, theme=()) -> str:
@@ -24,7 +24,7 @@ def guarded(page: str, script: Callable[[str], str] | None = None, theme=()) -> 
     Args:
         page: HTML with a head, and <script src="NAME.js"></script> where a script of the report belongs.
         script: the text of a script, by its name; without it the page has none.
-        theme: scripts of the generator within the page; with any, the files that come with it may run as well.
+        theme: texts of the scripts that the generator has put into the page.
 
     Raises:
         ValueError: the page has no head.
@@ -33,7 +33,6 @@ def guarded(page: str, script: Callable[[str], str] | None = None, theme=()) -> 
     for name, text in own.items():
         page = page.replace(f'<script src="{name}"></script>', f"<script>{text}</script>", 1)
     allowed = " ".join(f"'sha256-{_digest(text)}'" for text in [*own.values(), *theme]) or "'none'"
-    allowed += f" {FILES}" if theme else ""
     policy = POLICY.format(scripts=allowed)
     page, found = HEAD.subn(f'<head>\n<meta http-equiv="Content-Security-Policy" content="{policy}">\n', page, count=1)
     if not found:

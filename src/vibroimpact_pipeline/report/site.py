@@ -28,15 +28,16 @@ FILLED = READER + "-raw_html-raw_tex-native_divs-native_spans"
 """For pages that are filled from results: what looks like HTML is text there."""
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
-HEADING = re.compile(r'<h([1-6])([^>]*)>(.*?)</h\1>', re.DOTALL)
+HEADING = re.compile(r"<h([1-6])([^>]*)>(.*?)</h\1>", re.DOTALL)
 PDF = "report.pdf"
 STYLE = "style.css"
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
 """A warning that is not about a docstring, nor about a name that is shown where it is imported, too."""
 THEME_FOOTER = re.compile(r'<div class="bottom-of-page">.*?</footer>', re.DOTALL)
 """What the theme says of itself below a page, with links that lead outside."""
-THEME_SCRIPT = re.compile(r"<body>\s*<script>(.*?)</script>", re.DOTALL)
-"""The one script that the theme has within each page: it chooses between light and dark."""
+GENERATED = re.compile(r'<script src="([^"?]+)(?:\?[^"]*)?"(?: defer(?:="defer")?)?></script>')
+"""A script that Sphinx or the theme has in a file beside the page."""
+INLINE = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 
 
 def write(folder, root, pages, settings: dict, footer: str) -> None:
@@ -73,15 +74,33 @@ def write_site(folder: Path, sources: Path, pages, settings: dict, titles: dict,
     if of_pages:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
 
-    def script(name):
-        return (sources / name).read_text(encoding="utf-8")
-
     for path in [*folder.glob("*.html"), *folder.glob("api/*.html")]:
-        up = "../" * (len(path.relative_to(folder).parts) - 1)
-        below = footer.replace(f'href="{PDF}"', f'href="{up}{PDF}"')
-        text = THEME_FOOTER.sub(lambda _, below=below: f'<div class="built">{below}</div></footer>', path.read_text("utf-8"))
-        path.write_text(guarded(text, script, THEME_SCRIPT.findall(text)), encoding="utf-8")
+        below = footer.replace(f'href="{PDF}"', f'href="{"../" * (path.parent != folder)}{PDF}"')
+        text = THEME_FOOTER.sub(
+            f'<div class="built">{below}</div></footer>'.replace("\\", r"\\"), path.read_text("utf-8")
+        )
+        path.write_text(finished(text, path.parent, sources), encoding="utf-8")
     shutil.rmtree(folder / "_sources", ignore_errors=True)
+
+
+def finished(page: str, folder: Path, sources: Path) -> str:
+    """A page with the scripts of the generator and of the report in it, and a policy that allows no other."""
+    theme, last = INLINE.findall(page), ""
+
+    def inlined(found):
+        nonlocal last
+        path = folder / found[1]
+        if not path.is_file():
+            return found[0]  # of the report
+        theme.append(path.read_text(encoding="utf-8").replace("</", r"<\/"))
+        script = f"<script>{theme[-1]}</script>"
+        if path.name != "searchindex.js":
+            return script
+        last = script  # it needs those before it
+        return ""
+
+    page = GENERATED.sub(inlined, page).replace("</body>", f"{last}</body>")
+    return guarded(page, lambda name: (sources / name).read_text(encoding="utf-8"), theme)
 
 
 def tables_of_contents(settings: dict, library: list[str]) -> str:
