@@ -28,7 +28,8 @@ FILLED = READER + "-raw_html-raw_tex-native_divs-native_spans"
 """For pages that are filled from results: what looks like HTML is text there."""
 FORMULA = re.compile(r'<span\s+class="math (inline|display)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
 """A formula as pandoc leaves it for others to set."""
-HEADING = re.compile(r"<h([1-6])([^>]*)>(.*?)</h\1>", re.DOTALL)
+HEADING = re.compile(r'^<h([1-6])[^>]* id="([^"]*)"[^>]*>(.*?)</h\1>', re.DOTALL | re.MULTILINE)
+"""A heading that links can lead to: a section begins. One without a name belongs to a live piece."""
 PDF = "report.pdf"
 STYLE = "style.css"
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
@@ -133,8 +134,7 @@ class Page(Directive):
         html = self.state.document.settings.env.config.bodies[self.arguments[0]]
         before, *parts = HEADING.split(html)
         sections = [nodes.section()]
-        for level, attributes, title, text in zip(*[iter(parts)] * 4, strict=True):
-            name = re.search('id="(.*?)"', attributes)[1]
+        for level, name, title, text in zip(*[iter(parts)] * 4, strict=True):
             section = nodes.section(ids=[name], names=[])
             section += [nodes.title("", "", raw(title)), raw(text)]
             sections[int(level) :] = []
