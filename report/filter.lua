@@ -1,11 +1,12 @@
 -- What a page needs beyond plain Markdown, for HTML and for Typst alike.
-local page, titles = nil, {}
+local page, titles, paper = nil, {}, nil
 
 local function is_typst() return FORMAT:match("typst") ~= nil end
 
 function Meta(meta)
   page = pandoc.utils.stringify(meta.page)
   titles = meta.titles or titles
+  paper = meta.paper
 end
 
 -- Bars come in pairs; told apart, they are set as the delimiters they are and not as relations.
@@ -80,6 +81,7 @@ function Link(link)
     link.content = pandoc.Inlines(titles[name])
   end
   if is_typst() then
+    if paper and not paper[name] then return link.content end -- a page that is on the site alone
     link.target = "#" .. name .. (anchor ~= "" and "-" .. anchor:sub(2) or "")
   else
     link.target = name .. ".html" .. anchor

@@ -99,7 +99,6 @@ def results(folder: Path) -> Path:
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
     texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
     texts |= {
-        "api/vibroimpact.html": "<!DOCTYPE html><head></head>",
         "animations/waves.json": json.dumps(moving),
         "force_sweep/force_sweep.json": json.dumps(sweep),
         "claims.json": json.dumps(

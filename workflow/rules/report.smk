@@ -41,24 +41,8 @@ rule force_sweep:
         "../scripts/force_sweep.py"
 
 
-rule api:
-    input:
-        [own(f"report/api/{name}") for name in ("module.html.jinja2", "custom.css")],
-    output:
-        site=directory("results/api"),
-    params:
-        code=PIPELINE,
-    log:
-        "results/logs/report/api.log",
-    benchmark:
-        "results/benchmarks/report/api.tsv"
-    script:
-        "../scripts/api.py"
-
-
 rule report:
     input:
-        rules.api.output,
         rules.figures.input,
         rules.companions.input,
         rules.stability.input,

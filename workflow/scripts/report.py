@@ -16,7 +16,6 @@ from vibroimpact_pipeline.report.offline import linked
 from vibroimpact_pipeline.report.pages import Pages, anchor
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import write
-from vibroimpact_pipeline.results import RECORDS
 
 SETTINGS = "report/report.yaml"
 
@@ -70,6 +69,5 @@ with running(snakemake) as out:
         collect(results, figure, folder)
     for table in tables:
         copy(table, folder / "data")
-    shutil.copytree(results_folder / "api", folder / "api", ignore=shutil.ignore_patterns(RECORDS))
     pages = Pages(ROOT, results, settings, params.config, shown, tables, departures(params.config))
     write(folder, ROOT, pages, settings, f"Built from {plain(version(ROOT))}.")

@@ -1,13 +1,19 @@
-"""The docstrings of the library -> HTML pages that read offline, by pdoc."""
+"""Pages on the library's modules, which Sphinx fills from their docstrings."""
 
 import re
-from importlib import import_module
 from pathlib import Path
 
 import vibroimpact
-from vibroimpact_pipeline.report.policy import guarded
 
 LIBRARY = Path(vibroimpact.__file__).parent
+MODULE = """{name}
+{line}
+
+.. automodule:: {name}
+   :members:
+"""
+IMPORTED = "   :imported-members:\n"
+"""For the first module, whose names are loaded on first use."""
 
 
 def documented(left_out) -> list[str]:
@@ -17,21 +23,14 @@ def documented(left_out) -> list[str]:
     return [name for name in names if not any(re.fullmatch(pattern, name) for pattern in left_out)]
 
 
-def write(folder, names: list[str], templates) -> None:
-    """Write a page for each module; of its members those that are public.
-
-    Args:
-        names: of the modules; links lead to these alone.
-        templates: a folder with what replaces parts of pdoc's pages.
-    """
-    from pdoc.doc import Module  # here, because reading the rules needs `documented` alone
-    from pdoc.render import configure, html_module
-
-    configure(docformat="google", search=False, show_source=False, template_directory=Path(templates))
-    for name in vibroimpact.__all__:
-        getattr(vibroimpact, name)  # loaded on first use; pdoc shows what is there
-    modules = {name: Module(import_module(name)) for name in names}
-    for name, module in modules.items():
-        page = Path(folder, *name.split(".")).with_suffix(".html")
-        page.parent.mkdir(parents=True, exist_ok=True)
-        page.write_text(guarded(html_module(module, modules)), encoding="utf-8")
+def write(folder: Path, names) -> list[str]:
+    """Write sources for Sphinx into folder/api, a page for each part of the library; return the names of the pages."""
+    (folder / "api").mkdir()
+    pages = {}
+    for name in names:
+        part = ".".join(name.split(".")[:2])
+        text = MODULE.format(name=name, line=("-" if part in pages else "=") * len(name))
+        pages[part] = pages.get(part, "") + text + IMPORTED * (name == vibroimpact.__name__) + "\n"
+    for part, text in pages.items():
+        (folder / f"api/{part}.rst").write_text(text, encoding="utf-8")
+    return list(pages)

@@ -26,7 +26,8 @@ PICTURE = re.compile(r"^!\[.*?\]\(\.\./results/\w+/(?P<name>\w+)\.png\)$", re.MU
 SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?P<percent>percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
 """A number of a document, in a comment behind it the file that it comes from and the place there, and what ends it."""
 SOURCE = (
-    '`<span class="kept"><button type="button" class="sourced" popovertarget="source-{id}">{number}</button>'
+    '`<span class="kept"><button type="button" class="sourced" title="{value} in results/{file}: {place}" '
+    'popovertarget="source-{id}">{number}</button>'
     '<span popover class="source" id="source-{id}"><b>{value}</b> in <code>results/{file}</code>: {place}. '
     "Made by <code>snakemake --cores 2 results/{file}</code></span>{mark}</span>`{{=html}}"
 )

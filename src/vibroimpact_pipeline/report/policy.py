@@ -12,18 +12,19 @@ FILES = "'self' file:"
 """Of this site, and of this disk: opened from there, a page is of no site in some browsers."""
 POLICY = (
     f"default-src 'none'; img-src {FILES} data:; style-src {FILES} 'unsafe-inline'; font-src data:; "
-    f"script-src {{scripts}}; base-uri 'none'; form-action 'none'"
+    f"script-src {{scripts}}; base-uri 'none'; form-action {FILES}"
 )
 HEAD = re.compile(r"<head>\n?")
 SCRIPT = re.compile(r'<script src="([\w/]+\.js)"></script>')
 
 
-def guarded(page: str, script: Callable[[str], str] | None = None) -> str:
+def guarded(page: str, script: Callable[[str], str] | None = None, theme=()) -> str:
     """A page with its policy. Its own scripts are put into it, since no browser runs a file beside it by its content.
 
     Args:
         page: HTML with a head, and <script src="NAME.js"></script> where a script of the report belongs.
         script: the text of a script, by its name; without it the page has none.
+        theme: texts of the scripts that the generator has put into the page.
 
     Raises:
         ValueError: the page has no head.
@@ -31,7 +32,7 @@ def guarded(page: str, script: Callable[[str], str] | None = None) -> str:
     own = {name: script(name) for name in SCRIPT.findall(page)} if script else {}
     for name, text in own.items():
         page = page.replace(f'<script src="{name}"></script>', f"<script>{text}</script>", 1)
-    allowed = " ".join(f"'sha256-{_digest(text)}'" for text in own.values()) or "'none'"
+    allowed = " ".join(f"'sha256-{_digest(text)}'" for text in [*own.values(), *theme]) or "'none'"
     policy = POLICY.format(scripts=allowed)
     page, found = HEAD.subn(f'<head>\n<meta http-equiv="Content-Security-Policy" content="{policy}">\n', page, count=1)
     if not found:
