@@ -54,7 +54,7 @@ def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is
         assert numbers == (entry["unit"] not in ("text", "true or false")), column
         assert not numbers or "compared" in entry
         kinds = entry.get("compared")
-        assert not isinstance(kinds, dict) or set(kinds) - {"others"} <= set(table["series"])
+        assert not isinstance(kinds, dict) or set(kinds) - {"others"} <= set(table.get("series", table.get("quantity")))
 
 
 def test_the_config_of_the_chapter_makes_all_figures_but_those_with_a_rule_of_their_own():

@@ -76,7 +76,8 @@ SPEC = {
                     "absorbers of the textbook", "best absorbers"]},
                 "value": {"meaning": "what the quantity says; of a peak of balls measured again where the sweep has "
                     "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
-                    "as in the sweep, from rest", "unit": "dimensionless", "compared": "extremes"},
+                    "as in the sweep, from rest", "unit": "dimensionless", "compared": {"frequencies won": "free",
+                    "others": "extremes"}},
                 "spread": {"meaning": "standard deviation of `value` if its starts were drawn again (bootstrap, "
                     "exact). It is no bound: the largest displacement of few starts is below that of many, never above",
                     "unit": "dimensionless", "compared": "free"},

@@ -12,6 +12,8 @@ FLOOR = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
 SAME = 1e-6
 """Share of the axis: an outcome, or a value of a sample, that moves by less is the same."""
+KEYS = ("panel", "series"), ("quantity",)
+"""Columns that part the rows of a table into series."""
 OTHERS = "others"
 """Stands for the series that have no kind of their own."""
 KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
@@ -78,7 +80,8 @@ def _lacks(table, columns):
         return ["no rows" if table.empty else "none of the columns that its SPEC declares"]
     found = []
     for name, kinds in compared.items():
-        parts = {} if isinstance(kinds, str) else {s: table[table["series"] == s] for s in kinds if s != OTHERS}
+        key = "series" if "series" in table else "quantity"
+        parts = {} if isinstance(kinds, str) else {s: table[table[key] == s] for s in kinds if s != OTHERS}
         lacking = [f" in series {s}" for s, part in parts.items() if len(part) and not _given(part[name]).any()]
         found += [f"no value of {name}{where}" for where in ([] if _given(table[name]).any() else [""]) or lacking]
     finite = [name for name in table.select_dtypes("number") if not columns.get(name, {}).get("infinite")]
@@ -216,10 +219,9 @@ def _given(values):
 
 
 def _by_series(table):
-    """Return rows by (panel, series), in order; a table without these columns as one group with an empty name."""
-    if not {"panel", "series"} <= set(table):
-        return {("",): table}
-    return dict(iter(table.groupby(["panel", "series"], sort=False)))
+    """Return rows by (panel, series) or by (quantity,), in order; a table without these columns as one group, ("",)."""
+    keys = next((keys for keys in KEYS if {*keys} <= {*table}), None)
+    return dict(iter(table.groupby(list(keys), sort=False))) if keys else {("",): table}
 
 
 def _names(table, texts):
