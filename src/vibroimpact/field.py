@@ -1,0 +1,80 @@
+"""Two sectors of the cyclic chain of Weidemann, Bergman, Vakakis and Krack as a System, and its exact responses.
+
+T. Weidemann, L. A. Bergman, A. F. Vakakis, M. Krack (2025), Nonlinear Dynamics, doi 10.1007/s11071-025-10928-4. Their
+sector weighs 1 with its absorber, which weighs epsilon_a; its spring to ground is 1, so their frequency r is 1 where
+the absorber is fixed. Here the box alone weighs 1, hence
+
+    epsilon = epsilon_a / (1 - epsilon_a),      tau = t / sqrt(1 - epsilon_a),      Omega = r sqrt(1 - epsilon_a).
+
+Each of both modes has the damping ratio D, with their eigenfrequencies 1 and sqrt(1 + 4 kappa_c); the clearance is
+Gamma times the amplitude at resonance, 1 / (2 D) for a force of 1.
+
+Their program has two couplings for two sectors: the stiffness matrix has kappa_c between them, the modes of the time
+stepping 2 kappa_c. `coupling` chooses; responses in phase are the same, their stability nearly.
+"""
+
+import math
+from dataclasses import asdict
+
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.system import System
+
+MATRIX, MODES = 1, 2
+"""Coupling of their stiffness matrix, and of their modes, over kappa_c."""
+
+
+def two_sectors(
+    r: float,
+    kappa_c: float = 0.01,
+    epsilon_a: float = 0.02,
+    D: float = 1e-3,
+    restitution: float = 0.8,
+    Gamma: float = 0.3,
+    coupling: int = MODES,
+) -> System:
+    """Return the System of two sectors that are forced alike at the frequency r; all arguments dimensionless.
+
+    Raises:
+        ValueError: as System.
+    """
+    epsilon, unit = epsilon_a / (1 - epsilon_a), math.sqrt(1 - epsilon_a)
+    damping = 2 * D / unit / epsilon
+    return System(
+        epsilon=epsilon,
+        kappa=restitution,
+        alpha12_hat=coupling * kappa_c / epsilon,
+        gamma1_hat=damping,
+        gamma2_hat=damping,
+        gamma12_hat=damping * (math.sqrt(1 + 4 * kappa_c) - 1) / 2,
+        sigma20_hat=0.0,
+        sigma_e_hat=(r * unit - 1) / epsilon,
+        f10_hat=2 * D / Gamma / epsilon,
+        f20_hat=2 * D / Gamma / epsilon,
+    )
+
+
+def responses(r: float, coupling: int = MODES) -> list[dict]:
+    """Return a row per exact response with one impact at each wall per period: amplitudes, lean, multiplier, state.
+
+    theta1, theta2: amplitudes of the absorbers' triangles over the clearance. lean: difference of the speeds of the
+    first absorber to either side over their sum. proved: interval arithmetic proves the orbit and its stability. state
+    (8,) at tau = 0 and the parameters of the system are all that it takes to check a row.
+    """
+    system = two_sectors(r, coupling=coupling)
+    rows = []
+    for orbit in (found.with_proof() for found in orbits(system) if found.admissible):
+        theta, (speeds, _) = orbit.C / (1 + system.epsilon), orbit.ball_speeds
+        rows.append({
+            "r": r,
+            "coupling": coupling,
+            "symmetric": orbit.symmetric,
+            "theta1": float(theta[0]),
+            "theta2": float(theta[1]),
+            "lean": float((speeds[1] - speeds[0]) / speeds.sum()),
+            "multiplier": float(abs(orbit.multipliers).max()),
+            "stable": orbit.stable,
+            "proved": orbit.proved,
+            "state": orbit.state.tolist(),
+            "system": asdict(system),
+        })  # fmt: skip
+    return rows

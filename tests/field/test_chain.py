@@ -1,0 +1,93 @@
+"""Two sectors of the chain of Weidemann et al. (2025): their program's numbers, as stored, against exact orbits."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from pipeline_trees import ROOT
+from vibroimpact.field import MATRIX, responses, two_sectors
+
+THEIRS = pd.read_csv(Path(__file__).with_name("chain_program.csv"), comment="#")
+PAGE = (ROOT / "docs/field.md").read_text(encoding="utf-8")
+ROWS = {r: responses(r) for r in THEIRS["r"].unique().tolist()}
+
+
+def symmetric(r):
+    """Exact symmetric responses in phase, the smaller first, as the program lists its own."""
+    rows = [row for row in ROWS[r] if row["symmetric"]]
+    assert all(row["theta1"] == pytest.approx(row["theta2"], rel=1e-9) for row in rows)
+    return sorted(rows, key=lambda row: row["theta1"])
+
+
+def asymmetric(r):
+    return [row for row in ROWS[r] if not row["symmetric"] and row["stable"]]
+
+
+@pytest.mark.parametrize("r", ROWS)
+def test_harmonic_balance_is_within_one_per_cent_of_the_exact_amplitudes(r):
+    theirs = THEIRS[THEIRS["r"] == r]
+    assert [row["theta1"] for row in symmetric(r)] == pytest.approx(theirs["theta"].tolist(), rel=0.0102)
+
+
+def test_all_verdicts_agree_but_the_one_on_the_upper_response_at_the_highest_frequency():
+    differ = [
+        (row.r, row.theta)
+        for r in ROWS
+        for row, exact in zip(THEIRS[THEIRS["r"] == r].itertuples(), symmetric(r), strict=True)
+        if bool(row.stable) != exact["stable"]
+    ]
+    assert differ == [(0.99, pytest.approx(1.7594, abs=1e-4))]
+    lost = symmetric(0.99)[-1]
+    assert lost["multiplier"] == pytest.approx(2.282, abs=1e-3)
+    assert len(asymmetric(0.99)) == 4
+    assert not any(asymmetric(r) for r in (0.98, 0.985))
+
+
+def test_their_time_stepping_ends_on_the_stable_exact_orbit():
+    """From their own start: on the symmetric orbit where that is stable, else on an asymmetric one."""
+    upper = THEIRS[THEIRS["stable"] == 1].set_index("r")
+    for r in (0.98, 0.985):
+        assert upper["theta_simulated"][r] == pytest.approx(symmetric(r)[-1]["theta1"], rel=1e-3)
+        assert abs(upper["leans"][r]) < 1e-4
+    ends = asymmetric(0.99)
+    assert upper["theta_simulated"][0.99] == pytest.approx(ends[0]["theta1"], rel=6e-3)
+    assert abs(upper["leans"][0.99]) == pytest.approx(abs(ends[0]["lean"]), rel=0.02)
+    # So their test of practical stability, 1.99 impacts and a spread of 5 %, is passed by another response.
+    assert upper["impacts_per_period"][0.99] >= 1.99
+    assert upper["spread"][0.99] <= 0.05
+
+
+def test_the_engine_leaves_the_unstable_response_for_an_asymmetric_one():
+    """Apart from orbits and multipliers: a run from the exact unstable state, pushed by a millionth."""
+    lost, system = symmetric(0.99)[-1], two_sectors(0.99)
+    run = vi.simulate(system, np.array(lost["state"]) * (1 + 1e-6), 1500)
+    last = run.events[(run.events["tau"] > 1400 * system.period) & (run.events["module"] == 1)]
+    speeds = last["state"][:, 5]
+    right, left = speeds[speeds > 0].mean(), -speeds[speeds < 0].mean()
+    assert abs((right - left) / (right + left)) == pytest.approx(abs(asymmetric(0.99)[0]["lean"]), rel=0.01)
+
+
+def test_the_page_says_the_same():
+    cells = [line.strip("| ").split(" | ") for line in PAGE.splitlines() if line.startswith("| 0.9")]
+    said = [[float(cell.strip("*")) for cell in (row[0], row[1], row[3], row[4])] for row in cells]
+    expected = [
+        [row.r, row.theta, exact["theta1"], exact["multiplier"]]
+        for r in ROWS
+        for row, exact in zip(THEIRS[THEIRS["r"] == r].itertuples(), symmetric(r), strict=True)
+    ]
+    np.testing.assert_allclose(said, expected, atol=6e-4)
+    other = max(row["multiplier"] for row in responses(0.99, MATRIX) if row["symmetric"])
+    assert f"{other:.3f} with the first" in PAGE
+    assert sum(row["proved"] for row in asymmetric(0.99)) == 2
+
+
+@pytest.mark.parametrize("r", [0.98, 0.99])
+def test_the_system_is_theirs_in_other_units(r):
+    """Their equations with balls fixed and forces of 1: the amplitude over the clearance."""
+    system = two_sectors(r)
+    fixed = 1 / (1 - r**2 + 2j * 1e-3 * r) / (0.3 / (2 * 1e-3))
+    stiff = 1 - (1 + system.epsilon) * system.Omega**2 + 1j * system.gamma1 * system.Omega
+    assert system.forcing[0] / stiff == pytest.approx(fixed, rel=1e-12)
