@@ -123,7 +123,6 @@ MARKS = {
     THEORY: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6},
     EXACT: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.6},
 }
-DASHES = ("-", (0, (4.5, 2)), (0, (1, 1.4)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)))
 _PHASES, _SPEEDS = (
     [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
 )
@@ -253,8 +252,8 @@ def _draw_manifold(axes, table):
 
 def _draw_case(axes, table, case):
     ways = select(table, case, WAY)
-    for dashes, (label, way) in zip(DASHES * (1 + len(ways)), ways.groupby("label", sort=False), strict=False):
-        axes.plot(way["epsilon"], way["squared"], color=BLACK, linestyle=dashes, linewidth=1.2)
+    for label, way in ways.groupby("label", sort=False):
+        axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
         last = way.iloc[0]
         axes.annotate(label, (last["epsilon"], last["squared"]), (-2, 3), textcoords="offset points", ha="right")
     ends = select(table, case, END)

@@ -78,7 +78,8 @@ STYLES = {
     OF_FORCE: {"marker": "o", "markersize": 4, "linewidth": 0.8, "color": GREY, "linestyle": "--"},
     OF_U: {"marker": "s", "markersize": 4, "linewidth": 1.0},
 }
-_SHADES = ("white", "0.82", "0.62", "0.42", "0.22", "black")
+_SHADES = ("0.93", "0.78", "0.6", "0.42", "0.22", "black")
+"""None is white, which would read as missing."""
 _IN_PLANE = 3
 
 
