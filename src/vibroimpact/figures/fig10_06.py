@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.manifold import branches, draw_branches
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
 
@@ -18,16 +18,16 @@ SPEC = {
         "arrow after :math:`S_2`: there is one further up the SIM, off the frame. The chapter's verdicts: a unstable, "
         "b stable, c stable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
-        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, hollow squares S1, S2 the "
+        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, hollow grey squares S1, S2 the "
         "singular points; in row b an arrow points to an S2 beyond the frame.",
     "own": {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
             "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
-            ":math:`S_2` (hollow squares), one row per fixed point.",
+            ":math:`S_2` (hollow grey squares), one row per fixed point.",
         "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
             "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
-            "row, hollow squares S1, S2 the singular points.",
+            "row, hollow grey squares S1, S2 the singular points.",
     },
     "equations": [
         r"h_{B_1}^* = h_{\psi_1}^* = h_{B_2}^* = h_{\psi_2}^* = 0 \tag{10.23}",
@@ -54,7 +54,7 @@ CLOSE = 0.12
 ROW_HEIGHT, FOOT = 35.0, 7.0
 """Height in mm of a row of planes, and of the labels below the last row."""
 MARKERS = {
-    "S": {"marker": "s", "color": BLACK, "markersize": 4.2, "markerfacecolor": "none", "markeredgewidth": 0.8},
+    "S": {"marker": "s", "color": GREY, "markersize": 4.4, "markerfacecolor": "none", "markeredgewidth": 1.0},
     "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
 }
 """In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
@@ -102,7 +102,7 @@ def _plane(system, point, module, end):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i hollow squares."""
+    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i hollow grey squares."""
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + FOOT)
     grid = figure.subplots(len(labels), len(MODULES), sharex="col", sharey="col", squeeze=False)
