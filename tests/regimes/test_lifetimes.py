@@ -34,6 +34,11 @@ def test_without_escapes_there_is_a_lower_bound():
     assert np.isnan(Lifetime(1, 400, 250).least)
 
 
+def test_lives_that_all_end_within_a_step_have_no_estimate():
+    assert np.isnan(Lifetime(17, 17, 250).mean)
+    assert np.isnan(Lifetime(17, 17, 250).error)
+
+
 def test_the_bracket_of_the_crisis():
     assert bracket([0.9, 0.95, 0.96, 1.0], [0, 0, 3, 9]) == (0.95, 0.96)
     assert np.isnan(bracket([0.9, 0.95], [0, 0])[1])
@@ -43,7 +48,7 @@ def test_the_bracket_of_the_crisis():
 def test_the_life_at_equal_amplitudes_by_the_distance_to_the_exact_orbits(chapter):
     """The end of a life is seen here as coming within 0.1 of the state of a stable orbit, cycle by cycle."""
     system, step = chapter(1.0, 0.98), 250
-    found = lifetime(system, starts(60, seed=3), step, 5000, window=24, nearness=0.02)
+    found = lifetime(system, starts(60, seed=3), step, step, 5000, window=24, nearness=0.02)
     stable = [orbit.state for orbit in vi.orbits(system) if orbit.admissible and abs(orbit.multipliers[0]) < 1]
     times = np.arange(5001) * system.period
     lives = []
@@ -58,5 +63,5 @@ def test_the_life_at_equal_amplitudes_by_the_distance_to_the_exact_orbits(chapte
 
 
 def test_no_life_ends_where_nothing_periodic_attracts(chapter):
-    found = lifetime(chapter(0.5, 0.5), starts(5, seed=1)[1:], 250, 2000, window=24, nearness=0.02)
+    found = lifetime(chapter(0.5, 0.5), starts(5, seed=1)[1:], 250, 250, 2000, window=24, nearness=0.02)
     assert (found.escapes, found.total) == (0, 4 * 1750)

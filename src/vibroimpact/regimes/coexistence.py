@@ -17,18 +17,20 @@ QUIET = 1e-4
 """A motion that varies less than this on the section is the periodic one."""
 
 
-def compute_lifetimes(system, along, values, starts: int, seed: int, step: int, longest: int, observation: dict):
+def compute_lifetimes(system, along, values, starts: int, seed: int, observation: dict, **watch):
     """Mean life of the chaos at each value of the parameters `along`.
 
     Args:
-        starts, seed: of `regimes.classification.starts`. step, longest: see `regimes.lifetimes.lifetime`.
-        observation: arguments of `regimes.settling.Observation`.
+        starts, seed: of `regimes.classification.starts`. observation: arguments of `regimes.settling.Observation`.
+        watch: discarded, step and longest, see `regimes.lifetimes.lifetime`.
 
     Returns columns path, p, starts, escapes, cycles (watched), life, uncertainty, least (the bound where none escaped).
     """
     path, observed, rows = Path(system, tuple(along)), Observation(**observation), []
     for p in sorted(values):
-        found = lifetime(path(p), spread_starts(starts, seed), step, longest, observed.window, observed.nearness)
+        found = lifetime(
+            path(p), spread_starts(starts, seed), **watch, window=observed.window, nearness=observed.nearness
+        )
         life = found.mean if found.escapes else np.nan
         rows.append((" ".join(along), p, starts, found.escapes, found.total, life, found.error, found.least))
     return pd.DataFrame(rows, columns=["path", "p", "starts", "escapes", "cycles", "life", "uncertainty", "least"])

@@ -26,13 +26,14 @@ class Lifetime:
 
     @property
     def mean(self) -> float:
-        """Mean life in cycles, the most likely one for exponential lives seen every `step` cycles; inf if none ended.
+        """Mean life in cycles, the most likely one for exponential lives seen every `step` cycles.
 
-        For lives much longer than a step it is total time over escapes.
+        For lives much longer than a step it is total time over escapes. inf if none ended; nan if all ended within
+        their first step, which is too long to tell.
         """
         if self.escapes == 0:
             return np.inf
-        return 0.0 if self.escapes == self.trials else -self.step / np.log1p(-self.escapes / self.trials)
+        return np.nan if self.escapes == self.trials else -self.step / np.log1p(-self.escapes / self.trials)
 
     @property
     def error(self) -> float:
@@ -48,20 +49,19 @@ class Lifetime:
         return np.nan if self.escapes else -self.total / np.log(UNSEEN)
 
 
-def lifetime(system, states, step: int, longest: int, window: int, nearness: float) -> Lifetime:
+def lifetime(system, states, discarded: int, step: int, longest: int, window: int, nearness: float) -> Lifetime:
     """Follow starts until a periodic motion has caught them, looked for every `step` cycles.
-
-    The first step is not counted, so that starts in the basin of the periodic motion, and the time that it takes to
-    settle there, do not enter: exponential lives have no memory.
 
     Args:
         states: (n, 8) starts.
-        longest: cycles after which a start is given up.
+        discarded: cycles that do not count, in which starts in the basin of the periodic motion settle on it.
+            Exponential lives have no memory, so the others lose nothing.
+        step, longest: cycles between two looks, and after which a start is given up.
         window, nearness: as in `observe`.
     """
     escapes = trials = 0
-    now = _staying(system, states, step, window, nearness)
-    for _ in range(longest // step - 1):
+    now = _staying(system, states, discarded, window, nearness)
+    for _ in range((longest - discarded) // step):
         if not now:
             break
         stay = _staying(system, now, step, window, nearness)

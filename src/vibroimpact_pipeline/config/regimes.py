@@ -96,11 +96,12 @@ class Lifetimes(Line, kinds.Starts):
     """Mean lifetime of the chaotic transient."""
 
     values: kinds.items(kinds.Number, 1, 1000, "What they are set to")
-    step: WatchedCycles = Field(description="Starts are looked at every so many cycles [forcing periods]")
-    longest: kinds.Cycles = Field(description="A start is given up after so many, two steps at least [forcing periods]")
+    discarded: kinds.Cycles = Field(description="Cycles that do not count [forcing periods]")
+    step: WatchedCycles = Field(description="Starts are looked at every so many cycles from then on [forcing periods]")
+    longest: kinds.Cycles = Field(description="A start is given up after so many [forcing periods]")
 
     rules: ClassVar = [
-        ("longest", "longest >= 2 * step"),
+        ("longest", "longest >= discarded + step"),
         ("longest", f"len(values) * starts * longest <= {CYCLES}"),
         ("step", f"starts * step <= {HELD}"),
     ]
