@@ -46,6 +46,17 @@ def test_all_verdicts_agree_but_the_one_on_the_upper_response_at_the_highest_fre
     assert not any(asymmetric(r) for r in (0.98, 0.985))
 
 
+def test_in_phase_one_sector_alone_is_unstable_by_finite_differences_of_the_engine():
+    """Apart from saltation matrices and proofs: how fast a small lean grows in one period, with no coupling."""
+    row = symmetric(0.99)[-1]
+    system = two_sectors(0.99).with_(alpha12_hat=0.0, gamma12_hat=0.0)
+    state, one = np.array(row["state"]), [0, 1, 4, 5]
+    steps = 1e-6 * np.eye(8)[one]
+    ends = [[vi.simulate(system, state + sign * step, 1).final[one] for sign in (1, -1)] for step in steps]
+    monodromy = np.array([(plus - minus) / 2e-6 for plus, minus in ends]).T
+    assert abs(np.linalg.eigvals(monodromy)).max() == pytest.approx(2.26855, rel=1e-4)
+
+
 def test_their_time_stepping_ends_on_the_stable_exact_orbit():
     """From their own start: on the symmetric orbit where that is stable, else on an asymmetric one."""
     upper = THEIRS[THEIRS["stable"] == 1].set_index("r")
@@ -82,6 +93,9 @@ def test_the_page_says_the_same():
     other = max(row["multiplier"] for row in responses(0.99, MATRIX) if row["symmetric"])
     assert f"{other:.3f} with the first" in PAGE
     assert sum(row["proved"] for row in asymmetric(0.99)) == 2
+    assert all(row["proved"] for r in ROWS for row in symmetric(r))
+    assert "of 2.26855." in PAGE
+    assert symmetric(0.99)[-1]["enclosures"][0].startswith("[2.26855")
 
 
 @pytest.mark.parametrize("r", [0.98, 0.99])

@@ -24,7 +24,7 @@ RUNS = {
     "machines": ("physical_units", {'"k12": 100.0': '"k12": 300.0', '"values": 13': '"values": 3'}),
 }
 WEAK = {'"f10_hat": 1.0': '"f10_hat": 0.5', '"f20_hat": 1.0': '"f20_hat": 0.5', '"play.gif"': '""'}
-STICKING = {'"kappa": 0.65': '"kappa": 0.3', '"f10_hat": 1.0': '"f10_hat": 6.0', '"f20_hat": 1.0': '"f20_hat": 6.0'}
+STICKING = {'"kappa": 0.65': '"kappa": 0.1', '"f10_hat": 1.0': '"f10_hat": 3.0', '"f20_hat": 1.0': '"f20_hat": 3.0'}
 STICKING |= {'"play.gif"': '""', "compared = 40": "compared = 5"}
 PLAYED = {
     "play": ("play", {}),

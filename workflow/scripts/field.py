@@ -22,5 +22,5 @@ with running(snakemake) as out:
     command = ["octave", "--no-gui", "--quiet", "--norc", snakemake.params.octave, folder, out.program]
     subprocess.run(command, check=True)
     rows = [row for r in pd.read_csv(out.program)["r"].unique().tolist() for row in responses(r)]
-    tables.write(pd.DataFrame(rows).drop(columns=["state", "system"]), out.exact)
+    tables.write(pd.DataFrame(rows).drop(columns=["enclosures", "state", "system"]), out.exact)
     Path(out.evidence).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
