@@ -11,9 +11,25 @@ from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import record_of
+from vibroimpact_pipeline.results import read_record, record_of, recorded_files
 
 WORKFLOW = "Snakefile"
+
+
+def results_behind(targets: list[str], results: Path) -> list[Path]:
+    """Return all results of the rules that made the targets, and their inputs, as the records say.
+
+    What was made on demand and is not behind them stays out: it may be of an older commit.
+    """
+    records = {str(path): read_record(path) for path in recorded_files(results)}
+    behind, pending = set(), list(targets)
+    while pending:
+        path = pending.pop()
+        if path in records and path not in behind:
+            behind.add(path)
+            pending += records[path]["inputs"]
+    rules = {records[path]["rule"] for path in behind}
+    return sorted(Path(path) for path, made in records.items() if made["rule"] in rules)
 
 
 def write(root: Path, results: list[Path], titles: dict[str, str], output) -> None:

@@ -11,6 +11,8 @@ import pytest
 
 from archives import archive_of, commit, unpacked
 from pipeline_trees import ROOT, whole_copy
+from vibroimpact_pipeline.archive import results_behind
+from vibroimpact_pipeline.results import write_record
 
 FIGURE = "results/figures/fig10_04"
 HERE = str(Path(sys.executable).parent)
@@ -38,6 +40,17 @@ def test_the_name_tells_version_and_commit(archived):
     commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=archived.path, capture_output=True, text=True, check=True)
     version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
     assert archive_of(archived).name == f"vibroimpact-{version}-{commit.stdout[:12]}.tar.gz"
+
+
+def test_results_on_demand_stay_out(tmp_path, monkeypatch):
+    """They may be of an older commit; a second output of a rule that is needed goes in."""
+    monkeypatch.chdir(tmp_path)
+    made = {"table.csv": ("solve", []), "figure.png": ("draw", ["table.csv"]), "figure.csv": ("draw", ["table.csv"])}
+    for name, (rule, inputs) in (made | {"report.html": ("report", ["figure.png"])}).items():
+        Path("results", name).parent.mkdir(exist_ok=True)
+        Path("results", name).write_text(name)
+        write_record(Path("results", name), {"rule": rule, "inputs": {f"results/{one}": "" for one in inputs}})
+    assert results_behind(["results/figure.png"], Path("results")) == sorted(Path("results", name) for name in made)
 
 
 @pytest.mark.thorough
