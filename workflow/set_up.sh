@@ -65,7 +65,7 @@ install "${source[@]}" --editable .
 # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
 conflicts=$(.venv/bin/python -m pip check) || { echo "$conflicts" >&2; exit 1; }
-echo "3 of 3  compiling the simulation engine, its certificate and its rivals (half a minute)"
+echo "3 of 3  compiling the simulation engine, its certificate and other methods (half a minute)"
 env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py
 echo "$stamp" >.venv/.complete
 echo "Set up in $((SECONDS / 60)) min $((SECONDS % 60)) s."

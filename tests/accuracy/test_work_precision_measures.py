@@ -72,7 +72,7 @@ def test_order_is_fitted_where_it_is_resolved_only():
 
 
 class Refusing(Method):
-    name, family, knob, ladder, careful = "refusing", "test", "none", (1, 2), 1
+    name, family, knob, settings, careful = "refusing", "test", "none", (1, 2), 1
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
         return failed(REFUSED, "not today", 3)

@@ -6,8 +6,8 @@ import pytest
 
 from pipeline_trees import ROOT
 from vibroimpact.accuracy.errors import compare
-from vibroimpact.accuracy.hazards import CHAPTER, RESTING, SETTLED
 from vibroimpact.accuracy.reference.run import proven_run
+from vibroimpact.accuracy.stress_tests import CHAPTER, RESTING, SETTLED
 from vibroimpact.integrators.contact_laws import Law
 from vibroimpact.integrators.ivanov import variants
 from vibroimpact.integrators.penalty import Penalty, PowerLaw

@@ -80,7 +80,14 @@ def run(command: str, project) -> str:
 
 
 def test_every_recipe_is_followed():
-    assert RECIPES == ["howto_claim", "howto_design", "howto_figure", "howto_hazard", "howto_integrator", "howto_sweep"]
+    assert RECIPES == [
+        "howto_claim",
+        "howto_design",
+        "howto_figure",
+        "howto_integrator",
+        "howto_stress_test",
+        "howto_sweep",
+    ]
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
@@ -113,8 +120,8 @@ def test_an_integrator_can_be_added(project):
 
 
 @pytest.mark.thorough
-def test_a_hazard_can_be_added(project):
-    (printed,) = follow("howto_hazard", project)
+def test_a_stress_test_can_be_added(project):
+    (printed,) = follow("howto_stress_test", project)
     assert "'this engine': 'right'" in printed
 
 

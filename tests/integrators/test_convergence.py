@@ -7,7 +7,7 @@ from vibroimpact.accuracy.errors import compare
 from vibroimpact.accuracy.work_precision import fitted_order
 
 # name, settings from coarse to fine, error of the final state at the finest in the periodic motion
-LADDERS = [
+SETTINGS = [
     ("heyoka", (1e-4, 1e-8, 1e-12), 1e-10),
     ("RK4, compiled", (32, 128, 1_024), 1e-9),
     ("RK45", (1e-4, 1e-6, 1e-8), 1e-6),
@@ -31,7 +31,7 @@ def errors(method, motion, setting):
     return compare(run, reference, system.period)
 
 
-@pytest.mark.parametrize(("name", "settings", "finest"), LADDERS)
+@pytest.mark.parametrize(("name", "settings", "finest"), SETTINGS)
 def test_error_falls_with_every_finer_setting_and_no_impact_is_lost(name, settings, finest, method, motion):
     found = [errors(method(name), motion("periodic"), setting) for setting in settings]
     final = [error.final for error in found]
@@ -48,7 +48,7 @@ def test_order_of_convergence(name, method, motion):
     rival = method(name)
     system, state, cycles, reference = motion("periodic")
     points = []
-    for setting in rival.ladder:
+    for setting in rival.settings:
         run = rival.run(system, state, cycles, 0.0, setting)
         points.append((rival.scale(setting, run), compare(run, reference, system.period).final))
     assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
@@ -75,7 +75,7 @@ def test_the_engine_is_exact_to_rounding(method, motion):
 
 @pytest.mark.parametrize("name", ["periodic", "chatter"])
 def test_the_modal_form_is_exact_in_flight_whatever_its_looks(name, method, motion):
-    for setting in method("modal scan").ladder:
+    for setting in method("modal scan").settings:
         found = errors(method("modal scan"), motion(name), setting)
         assert found.final < 1e-11
         assert (found.missed, found.spurious) == (0, 0)
@@ -97,7 +97,7 @@ def test_a_start_at_another_time_is_respected(method, motion):
     system, state, cycles, _ = motion("periodic")
     for name in ("modal scan", "heyoka", "RK4, compiled", "DOP853", "Moreau-Jean", "penalty", "power law", "Ivanov"):
         rival = method(name)
-        setting = rival.ladder[-2]
+        setting = rival.settings[-2]
         one = rival.run(system, state, cycles, 0.0, setting).final
         other = rival.run(system, [-value for value in state], cycles, 0.5 * system.period, setting).final
         assert np.abs(one + other).max() < 1e-5  # what the tolerance of the loosest, the compliant ones', allows

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.accuracy import hazards
+from vibroimpact.accuracy.stress_tests import ENDLESS, RIGHT, WRONG, judge, stress_tests
 from vibroimpact.integrators import moreau_jean
 from vibroimpact.integrators.contact import Contacts
 from vibroimpact.integrators.leading_order import LeadingOrder, steady_state
@@ -16,7 +16,7 @@ from vibroimpact.theory.fixed_points.search import fixed_points
 def test_work_is_limited_by_counting_steps(name, method, motion):
     system, state, _, _ = motion("periodic")
     rival = method(name)
-    run = rival.run(system, state, 50, 0.0, rival.ladder[0], limit=20)
+    run = rival.run(system, state, 50, 0.0, rival.settings[0], limit=20)
     assert run.final is None
     assert run.failure.kind == UNFINISHED
     assert run.steps < 1000  # the limit is looked at after each flight or cycle
@@ -51,16 +51,22 @@ def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
 
 
 @pytest.mark.parametrize(
-    ("hazard", "verdicts"),
+    ("name", "verdicts"),
     [
-        ("hits by 1e-6", {"penalty": hazards.WRONG, "Hunt-Crossley": hazards.WRONG, "Ivanov, events": hazards.RIGHT}),
-        ("stick and release", {"power law": hazards.WRONG, "Hertz": hazards.RIGHT, "Ivanov, events": hazards.ENDLESS}),
-        ("kappa = 1e-3", {"Ivanov": hazards.WRONG, "power law": hazards.RIGHT}),
+        (
+            "hits by 1e-6",
+            {"penalty": WRONG, "Hunt-Crossley": WRONG, "Ivanov, events": RIGHT},
+        ),
+        (
+            "stick and release",
+            {"power law": WRONG, "Hertz": RIGHT, "Ivanov, events": ENDLESS},
+        ),
+        ("kappa = 1e-3", {"Ivanov": WRONG, "power law": RIGHT}),
     ],
 )
-def test_what_each_idea_of_an_impact_cannot_do(hazard, verdicts, method):
-    problem = next(one for one in hazards.hazards() if one.name == hazard)
-    found = hazards.judge(problem, [method(name) for name in verdicts])
+def test_what_each_idea_of_an_impact_cannot_do(name, verdicts, method):
+    problem = next(one for one in stress_tests() if one.name == name)
+    found = judge(problem, [method(one) for one in verdicts])
     assert {row["method"]: row["verdict"] for row in found} == verdicts
 
 

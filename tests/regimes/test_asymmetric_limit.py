@@ -13,13 +13,13 @@ from vibroimpact.regimes.epsilon_limit import order
 from vibroimpact.theory.asymmetric.search import fixed_points, search
 
 EQUAL = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
-LADDER = np.geomspace(0.1, 1e-3, 21)[1:]
+SMALLER = np.geomspace(0.1, 1e-3, 21)[1:]
 
 
 @pytest.fixture(scope="module")
 def ways():
     """Of every mirror pair of the equal case, by v^2 of its start."""
-    found = [asymmetric_limit.follow(EQUAL, root, LADDER) for root in asymmetric_solutions(EQUAL)[0]]
+    found = [asymmetric_limit.follow(EQUAL, root, SMALLER) for root in asymmetric_solutions(EQUAL)[0]]
     return {round(float(max(way[0].place[2:4])), 3): way for way in found}
 
 
@@ -57,10 +57,10 @@ def test_multipliers_are_those_of_impact_maps_and_slow_flow():
     system = EQUAL.with_(f20_hat=1.3)
     (point,) = [p for p in fixed_points(system) if 0 < p.squared[1] < 0.1]
     roots = asymmetric_solutions(system)[0]
-    ladder = np.geomspace(0.1, 4e-4, 31)[1:]
+    smaller = np.geomspace(0.1, 4e-4, 31)[1:]
     (way, *_) = [
         way
-        for way in (asymmetric_limit.follow(system, root, ladder) for root in roots)
+        for way in (asymmetric_limit.follow(system, root, smaller) for root in roots)
         if asymmetric_limit.leads_to(way, [point]) is point
     ]
     errors = []

@@ -1,4 +1,4 @@
-"""Every figure is computed with the cheapest rung whose error its lines cannot show: errors only, no timings."""
+"""Every figure is computed with the cheapest level whose error its lines cannot show: errors only, no timings."""
 
 import numpy as np
 import pandas as pd
@@ -17,25 +17,25 @@ def test_every_figure_with_numbers_is_there(table):
     assert (table.groupby("figure")["in_use"].sum() == 1).all()
 
 
-def test_the_rung_in_use_meets_the_tolerance_and_the_next_cheaper_one_does_not(table):
-    for _, rungs in table.groupby("figure", sort=False):
-        place = int(np.flatnonzero(rungs["in_use"])[0])
-        assert rungs["meets"].iloc[place], rungs
-        assert not rungs["meets"].iloc[:place].any(), rungs
+def test_the_level_in_use_meets_the_tolerance_and_the_next_cheaper_one_does_not(table):
+    for _, levels in table.groupby("figure", sort=False):
+        place = int(np.flatnonzero(levels["in_use"])[0])
+        assert levels["meets"].iloc[place], levels
+        assert not levels["meets"].iloc[:place].any(), levels
 
 
 def test_the_tolerance_is_what_a_picture_can_show(table):
     assert table["tolerance"].between(1e-3, 1e-2).all()
 
 
-def test_rungs_stand_in_the_order_of_the_ladder(table):
-    for _, rungs in table.groupby("figure"):
-        places = [scene_models.LADDER.index(name) for name in rungs["rung"]]
+def test_levels_stand_in_the_order_of_the_hierarchy(table):
+    for _, levels in table.groupby("figure"):
+        places = [scene_models.HIERARCHY.index(name) for name in levels["rung"]]
         assert places == sorted(places)
 
 
 def test_no_unstable_orbit_is_offered_as_an_observed_motion(table):
-    """Case weak has no stable 1:1 orbit: the rung fails, it does not fall back on an unstable one."""
-    (rung,) = table[(table["figure"] == "fig10_11") & (table["rung"] == "orbit")].itertuples()
-    assert np.isinf(rung.error)
-    assert rung.note == "0 stable orbits"
+    """Case weak has no stable 1:1 orbit: the level fails, it does not fall back on an unstable one."""
+    (level,) = table[(table["figure"] == "fig10_11") & (table["rung"] == "orbit")].itertuples()
+    assert np.isinf(level.error)
+    assert level.note == "0 stable orbits"

@@ -47,13 +47,13 @@ def certificate(system, start):
     _ = run.certificate, run.jacobian, run.errors([])
 
 
-def rivals(system, start):
+def other_methods(system, start):
     from vibroimpact.integrators import METHODS
     from vibroimpact.integrators.event_driven import Engine
 
     for method in METHODS:
         if not method.available() and not isinstance(method, Engine):
-            method.run(system, start, 1, 0.0, method.ladder[0])
+            method.run(system, start, 1, 0.0, method.settings[0])
 
 
 def imports(*_):
@@ -74,5 +74,5 @@ if __name__ == "__main__":
     with ProcessPoolExecutor(initializer=beforehand) as pool:
         first, beside_it = pool.submit(engine), pool.submit(certificate, *given)
         first.result()
-        for done in [beside_it, *(pool.submit(work, *given) for work in (ensembles, rivals, imports))]:
+        for done in [beside_it, *(pool.submit(work, *given) for work in (ensembles, other_methods, imports))]:
             done.result()

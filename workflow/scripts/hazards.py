@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from vibroimpact.accuracy.hazards import hazards, judge
+from vibroimpact.accuracy.stress_tests import judge, stress_tests
 from vibroimpact.figures import hazards as figure
 from vibroimpact.figures.kit.style import write_and_draw
 from vibroimpact.integrators import METHODS
@@ -10,8 +10,8 @@ from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
-    chosen = [hazard for hazard in hazards() if snakemake.params.full or hazard.quick]
-    table = pd.DataFrame([row for hazard in chosen for row in judge(hazard, METHODS)])
+    chosen = [test for test in stress_tests() if snakemake.params.full or test.quick]
+    table = pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
     made = provenance.record(snakemake)
     write_and_draw(figure, table, vars(out), made)
     provenance.write(out.provenance, made)

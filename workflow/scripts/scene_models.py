@@ -1,4 +1,4 @@
-"""For every figure with a model the rungs of the ladder, with error and cost -> scene_models.csv."""
+"""For every figure with a model the levels of the model hierarchy, with error and cost -> scene_models.csv."""
 
 import json
 from functools import partial
@@ -19,20 +19,20 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.specs import drawn_by, specs
 
 
-def rungs_of(figure, scene, params, simulation, module, table, folder):
-    """The rungs of one figure, from the results that it shows."""
+def levels_of(figure, scene, params, simulation, module, table, folder):
+    """The levels of one figure, from the results that it shows."""
     if scene["model"] == "closed_form":
         settings = params["settings"]
-        return scene_models.closed_form_rungs(figure, scene, settings, table, partial(module.compute, **settings))
+        return scene_models.closed_form_levels(figure, scene, settings, table, partial(module.compute, **settings))
     case, system = scene["case"], System(**params["system"])
     points = labelled_points(tables.read(folder / f"fixed_points/{case}.csv"))
     if scene["model"] == "slow_flow":
-        return scene_models.slow_flow_rungs(scene, system, points)
+        return scene_models.slow_flow_levels(scene, system, points)
     samples = tables.read(folder / f"simulations/{case}/samples.csv")
     orbits = tables.read(folder / f"orbits/{case}.csv")
     stable = orbits[orbits["admissible"] & (orbits["floquet"] == STABLE)][list(NAMES)].to_numpy(float)
     summary = json.loads((folder / f"simulations/{case}/summary.json").read_text(encoding="utf-8"))
-    return scene_models.motion_rungs(system, simulation, summary, points, stable, samples)
+    return scene_models.motion_levels(system, simulation, summary, points, stable, samples)
 
 
 with running(snakemake) as out:
@@ -41,8 +41,8 @@ with running(snakemake) as out:
         module = import_module(f"vibroimpact.figures.{drawn_by(figure, scene, known)}")
         table = tables.read(results / f"figures/{figure}.csv")
         simulation = snakemake.params.simulations.get(scene.get("case"))
-        rungs = rungs_of(figure, scene, params, simulation, module, table, results)
-        print(f"{figure}: {len(rungs)} rungs")
+        levels = levels_of(figure, scene, params, simulation, module, table, results)
+        print(f"{figure}: {len(levels)} levels")
         visible, used = smallest_visible_error(drawn(module, {"csv": table})), scene_models.in_use(scene, simulation)
-        rows += scene_models.rows(figure, visible, rungs, used, snakemake.params.seconds)
+        rows += scene_models.rows(figure, visible, levels, used, snakemake.params.seconds)
     tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), out.csv)

@@ -86,8 +86,8 @@ def panels(rows: list[dict]) -> list[dict]:
 def _against_taylor(rows):
     """The ratios of one panel, and the tolerances that they are for."""
     (ours,) = (row for row in rows if row["method"] == OURS)
-    rivals = [row for row in rows if row["method"] == TAYLOR]
-    finished = [row for row in rivals if row["outcome"] == "finished"]
+    others = [row for row in rows if row["method"] == TAYLOR]
+    finished = [row for row in others if row["outcome"] == "finished"]
     useful = [row for row in finished if row["error_state"] < USEFUL]
     met = {
         f"at {ACCURATE:g}": next((row for row in finished if row["error_state"] <= ACCURATE), None),
@@ -97,7 +97,7 @@ def _against_taylor(rows):
     for name, row in met.items():
         found[name] = row["seconds_per_cycle"] / ours["seconds_per_cycle"] if row else np.nan
         found[f"tolerance {name}"] = row["setting"] if row else ""
-    missing = next((row["reason"] for row in rivals if row["outcome"] == "unavailable"), "no such run")
+    missing = next((row["reason"] for row in others if row["outcome"] == "unavailable"), "no such run")
     return found | {"says": "" if all(met.values()) else f"heyoka: {missing}"}
 
 

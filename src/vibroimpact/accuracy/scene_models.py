@@ -1,7 +1,7 @@
-"""No more than a scene needs: for every figure the rungs of the ladder, their errors for what it shows, their costs.
+"""Levels of the model hierarchy for every figure: their errors in what it shows, and their costs.
 
-The order of the rungs is fixed here, from the cheapest to the dearest, so that no figure depends on a timing. A figure
-needs a rung whose error its lines cannot show: less than half their width, as a share of the axis.
+The order of the levels is fixed here, from the cheapest to the dearest, so that no figure depends on a timing. A figure
+needs a level whose error its lines cannot show: less than half their width, as a share of the axis.
 """
 
 from collections.abc import Callable
@@ -25,8 +25,8 @@ need("reference", "mpmath")
 import mpmath as mp  # noqa: E402 (after the word on what is missing)
 import pandas as pd  # noqa: E402 (after the word on what is missing)
 
-LADDER = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation")
-"""Rungs by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""
+HIERARCHY = ("closed_form", "slow_flow", "simulation", "orbit", "proven simulation")
+"""Levels by rising cost. An orbit costs more than a transient: all are sought before the stable one is picked."""
 
 DIGITS = 30
 SETTLED = 1e-6
@@ -34,7 +34,7 @@ SETTLED = 1e-6
 
 
 @dataclass(frozen=True)
-class Rung:
+class Level:
     """One way to compute what a figure shows: its error as a share of the axis, or why it cannot, and the work.
 
     compiles: whether the first call of the work may take longer than others, for what is compiled or kept.
@@ -48,7 +48,7 @@ class Rung:
 
 
 def in_use(scene: dict, simulation: dict | None = None) -> str:
-    """The rung that the config names for a figure; a simulation carried with extra digits is the proven one."""
+    """The level that the config names for a figure; a simulation carried with extra digits is the proven one."""
     proven = scene["model"] == "simulation" and "digits" in (simulation or {})
     return "proven simulation" if proven else scene["model"]
 
@@ -56,34 +56,34 @@ def in_use(scene: dict, simulation: dict | None = None) -> str:
 COLUMNS = ["figure", "rung", "error", "tolerance", "meets", "cost_s", "in_use", "note"]
 
 
-def rows(figure: str, tolerance: float, rungs: list[Rung], rung_in_use: str, seconds: float) -> list[dict]:
-    """The rows of the table for one figure: rung, error, tolerance, cost in seconds, whether it is in use.
+def rows(figure: str, tolerance: float, levels: list[Level], level_in_use: str, seconds: float) -> list[dict]:
+    """The rows of the table for one figure: level, error, tolerance, cost in seconds, whether it is in use.
 
     Args:
         tolerance: the smallest error that the figure's lines can show, as a share of an axis.
-        seconds: how long the work of a rung is repeated for its time.
+        seconds: how long the work of a level is repeated for its time.
     """
     return [
         {
             "figure": figure,
-            "rung": rung.name,
-            "error": rung.error,
+            "rung": level.name,
+            "error": level.error,
             "tolerance": tolerance,
-            "meets": rung.error <= tolerance,
-            "cost_s": _cost(rung, seconds),
-            "in_use": rung.name == rung_in_use,
-            "note": rung.note,
+            "meets": level.error <= tolerance,
+            "cost_s": _cost(level, seconds),
+            "in_use": level.name == level_in_use,
+            "note": level.note,
         }
-        for rung in sorted(rungs, key=lambda rung: LADDER.index(rung.name))
+        for level in sorted(levels, key=lambda level: HIERARCHY.index(level.name))
     ]
 
 
-def _cost(rung, seconds):
-    if rung.work is None:
+def _cost(level, seconds):
+    if level.work is None:
         return np.nan
-    if rung.compiles:
-        rung.work()
-    return shortest_time(rung.work, seconds)
+    if level.compiles:
+        level.work()
+    return shortest_time(level.work, seconds)
 
 
 def _share(values, truth, span):
@@ -95,7 +95,7 @@ def _span(values):
     return float(np.ptp(np.asarray(values, float)))
 
 
-def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFrame, work: Callable) -> list[Rung]:
+def closed_form_levels(figure: str, scene: dict, system: dict, table: pd.DataFrame, work: Callable) -> list[Level]:
     """Figures 10.3 to 10.5: the formula in float64 against the same formula with 30 digits; work computes the table."""
     with mp.workdps(DIGITS):
         truth = {"fig10_03": _true_sawtooth, "fig10_04": _true_manifold, "fig10_05": _true_limit}[figure](scene, system)
@@ -104,7 +104,7 @@ def closed_form_rungs(figure: str, scene: dict, system: dict, table: pd.DataFram
         if figure == "fig10_05":  # the shaded region is a polygon: without its two upper corners it is the limit
             curve = curve[curve[y] < scene["C_range"][1]]
         exact = [float(f(mp.mpf(float(value)))) for value in curve[x]]
-    return [Rung("closed_form", _share(curve[y], exact, _span(table[y])), work)]
+    return [Level("closed_form", _share(curve[y], exact, _span(table[y])), work)]
 
 
 def _true_sawtooth(scene, system):
@@ -148,7 +148,7 @@ def true_fixed_point(system: System, point):
         return SimpleNamespace(C=(C1, C2), B=B, psi=(psi1, psi2), rho=r)
 
 
-def slow_flow_rungs(scene: dict, system: System, points: list) -> list[Rung]:
+def slow_flow_levels(scene: dict, system: System, points: list) -> list[Level]:
     """Figures of fixed points (10.6, 10.9) and of the response of one (10.7, 10.10): label, C, B and psi of each."""
     known = [point for point in points if point.label == scene.get("fixed_point", point.label)]
     truths = [true_fixed_point(system, point) for point in known]
@@ -161,8 +161,8 @@ def slow_flow_rungs(scene: dict, system: System, points: list) -> list[Rung]:
             _share(np.r_[p.C, p.B], [*t.C, *t.B], min(scene["C_max"])) for p, t in zip(known, truths, strict=True)
         ]
     return [
-        Rung("closed_form", np.inf, note="gives the manifold, not the points on it"),
-        Rung("slow_flow", max(errors, default=0.0), lambda: fixed_points(system)),
+        Level("closed_form", np.inf, note="gives the manifold, not the points on it"),
+        Level("slow_flow", max(errors, default=0.0), lambda: fixed_points(system)),
     ]
 
 
@@ -184,7 +184,7 @@ def _true_response(system, point, tau, name):
     return values
 
 
-def motion_rungs(system: System, settings: dict, summary: dict, points: list, stable, samples: pd.DataFrame):
+def motion_levels(system: System, settings: dict, summary: dict, points: list, stable, samples: pd.DataFrame):
     """Figures of a simulated motion (10.8, 10.11): settled on a 1:1 response, proved with many digits, or neither.
 
     Args:
@@ -193,13 +193,13 @@ def motion_rungs(system: System, settings: dict, summary: dict, points: list, st
         samples: of the window, columns tau and those of the state.
     """
     if "digits" in settings:
-        return _proved_rungs(system, settings, points, len(stable), samples, summary["trust"]["agreement"])
+        return _proved_levels(system, settings, points, len(stable), samples, summary["trust"]["agreement"])
     if summary["largest_change_after_cycles"]["1"] <= SETTLED:
-        return _settled_rungs(system, settings, points, stable, samples)
-    return _unproved_rungs(system, settings, points, len(stable), samples, summary["trust"]["certificate"])
+        return _settled_levels(system, settings, points, stable, samples)
+    return _unproved_levels(system, settings, points, len(stable), samples, summary["trust"]["certificate"])
 
 
-def _settled_rungs(system, settings, points, stable, samples):
+def _settled_levels(system, settings, points, stable, samples):
     """X_2 and W_2 over one forcing period against the periodic motion that the simulation has settled on."""
     per_cycle = settings["samples_per_cycle"]
     drawn = samples.iloc[-per_cycle - 1 : -1]
@@ -219,8 +219,8 @@ def _settled_rungs(system, settings, points, stable, samples):
     orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
     return [
         *_theory(system, theory),
-        Rung("simulation", drawn_error, _integration(system, settings)),
-        Rung("orbit", orbit_error, lambda: orbits(system), "the stable one; an unstable one is never drawn"),
+        Level("simulation", drawn_error, _integration(system, settings)),
+        Level("orbit", orbit_error, lambda: orbits(system), "the stable one; an unstable one is never drawn"),
     ]
 
 
@@ -234,7 +234,7 @@ def _settled_truth(system, state, phase, digits=40):
     return np.column_stack([samples[:, 2], samples[:, 2] - samples[:, 3]])
 
 
-def _proved_rungs(system, settings, points, stable, samples, agreement):
+def _proved_levels(system, settings, points, stable, samples, agreement):
     """X_2 and W_2 over the window, against the proved trajectory that the figure shows."""
     tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
     W2 = X2 - samples["Y2"].to_numpy()
@@ -249,9 +249,9 @@ def _proved_rungs(system, settings, points, stable, samples, agreement):
     digits = settings["digits"]
     return [
         *_theory(system, [error(r.X[:, 1], r.W[:, 1]) for r in theory]),
-        Rung("simulation", away, _integration(system, settings), _trust(floating.certificate.horizon)),
-        Rung("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
-        Rung(
+        Level("simulation", away, _integration(system, settings), _trust(floating.certificate.horizon)),
+        Level("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
+        Level(
             "proven simulation",
             agreement,
             lambda: reference_run(system, settings["initial_state"], cycles, digits),
@@ -261,7 +261,7 @@ def _proved_rungs(system, settings, points, stable, samples, agreement):
     ]
 
 
-def _unproved_rungs(system, settings, points, stable, samples, certificate):
+def _unproved_levels(system, settings, points, stable, samples, certificate):
     """A motion that neither repeats nor is proved: its error is what its certificate expects, inf past its horizon."""
     tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
     W2, span = X2 - samples["Y2"].to_numpy(), min(_span(X2), 2.0)
@@ -270,16 +270,16 @@ def _unproved_rungs(system, settings, points, stable, samples, certificate):
     expected = certificate.get("error", np.inf) / span
     return [
         *_theory(system, [max(_share(r.X[:, 1], X2, _span(X2)), _share(r.W[:, 1], W2, 2.0)) for r in theory]),
-        Rung("simulation", expected, _integration(system, settings), _trust(horizon)),
-        Rung("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
+        Level("simulation", expected, _integration(system, settings), _trust(horizon)),
+        Level("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
     ]
 
 
 def _theory(system, errors):
-    """The rungs of the theory, from the error of every fixed point's response."""
+    """The levels of the theory, from the error of every fixed point's response."""
     return [
-        Rung("closed_form", np.inf, note="gives no motion of this system"),
-        Rung(
+        Level("closed_form", np.inf, note="gives no motion of this system"),
+        Level(
             "slow_flow",
             min(errors, default=np.inf),
             lambda: fixed_points(system),

@@ -1,4 +1,4 @@
-"""Work against precision: what each method's error is, and what it costs, over its ladder of settings."""
+"""Work against precision: what each method's error is, and what it costs, over its settings."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -30,7 +30,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
     Args:
         seconds: how long each setting is repeated, all of them in turn, after a first call of each that compiles.
-        short: every second setting of each ladder only.
+        short: every second setting of each method only.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles).run
     missing = [method for method in methods if method.available()]
@@ -38,7 +38,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
         (method, setting)
         for method in methods
         if method not in missing
-        for setting in (method.ladder[::-2][::-1] if short else method.ladder)
+        for setting in (method.settings[::-2][::-1] if short else method.settings)
     ]
     for n, (method, setting) in enumerate(settings):
         if method.compiles_settings or n == 0 or settings[n - 1][0] is not method:

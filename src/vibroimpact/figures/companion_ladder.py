@@ -13,7 +13,7 @@ from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_pan
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.cells import plane_of_forces
-from vibroimpact.regimes.ladder import EXACT, LEADING, TWO_TERMS, error, harmonics_name, of_harmonics, rungs
+from vibroimpact.regimes.hierarchy import EXACT, LEADING, TWO_TERMS, error, harmonics_name, levels, of_harmonics
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
 SPEC = {
@@ -58,7 +58,7 @@ SPEC = {
         },
         "limits": {
             "file": "results/regimes/ladder_limits.csv",
-            "about": "Limits of the symmetric motions to leading and next order, and exact (docs/ladder.md).",
+            "about": "Limits of the symmetric motions to leading and next order, and exact (docs/hierarchy.md).",
             "columns": {
                 "limit": {"meaning": "C at symmetry breaking; f20_hat at the fold", "unit": "text"},
                 "leading": {"meaning": "its value at leading order", "unit": "dimensionless", "compared": "roots"},
@@ -98,7 +98,7 @@ def compute(systems: dict, harmonics, f10_range, f20_range, points: int, fold_ra
     """
     system = next(iter(systems.values()))
     plane = {
-        (f10, f20): rungs(system.with_(f10_hat=f10, f20_hat=f20), harmonics[:_IN_PLANE])
+        (f10, f20): levels(system.with_(f10_hat=f10, f20_hat=f20), harmonics[:_IN_PLANE])
         for f10, f20 in plane_of_forces(f10_range, f20_range, points)
     }
     rows = [row for case, one in systems.items() for row in _of_case(case, one, harmonics)]
@@ -107,7 +107,7 @@ def compute(systems: dict, harmonics, f10_range, f20_range, points: int, fold_ra
 
 
 def _of_case(case, system, harmonics):
-    found = rungs(system, harmonics)
+    found = levels(system, harmonics)
     exact = found[EXACT].C
     series = {name: THEORY if name in (LEADING, TWO_TERMS) else OF_U for name in found if name != EXACT}
     plain = {harmonics_name(N): of_harmonics(system, N, free_mass=False) for N in harmonics}

@@ -13,7 +13,7 @@ from vibroimpact.system.state import IMPACT
 class Engine(Method):
     """Closed-form flight and certified events (vibroimpact.simulate). It has no tolerance to set."""
 
-    name, family, knob, ladder, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
+    name, family, knob, settings, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
         try:

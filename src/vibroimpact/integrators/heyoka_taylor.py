@@ -30,7 +30,7 @@ class HeyokaTaylor(Method):
 
     name, family, knob = "heyoka", "Taylor", "tolerance"
     careful = float(np.finfo(float).eps)
-    ladder = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-15, careful)
+    settings = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-15, careful)
     limit, compiles_settings = 10_000_000, True
 
     def available(self):

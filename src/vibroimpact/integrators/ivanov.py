@@ -39,8 +39,8 @@ class Ivanov(Method):
 
     family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
 
-    def __init__(self, name: str, located: bool, ladder, careful, order):
-        self.name, self.ladder, self.careful, self.order = name, ladder, careful, order
+    def __init__(self, name: str, located: bool, settings, careful, order):
+        self.name, self.settings, self.careful, self.order = name, settings, careful, order
         self._located = located
 
     def run(self, system, state, cycles, tau0, setting, limit=None):

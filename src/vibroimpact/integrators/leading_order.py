@@ -13,7 +13,7 @@ from vibroimpact.theory.response import impact_times, leading_order
 class LeadingOrder(Method):
     """The steady response of the stable fixed point that lies nearest to the start; its error is O(epsilon)."""
 
-    name, family, knob, ladder, careful = "leading order", "multiple scales", "order", (0,), 0
+    name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
         try:

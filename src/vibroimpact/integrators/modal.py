@@ -32,7 +32,7 @@ class Modal(Method):
     """Setting: looks at the gaps per cycle."""
 
     name, family, knob = "modal scan", "exact flow", "looks per cycle"
-    ladder = (8, 16, 32, 64, 128, 256)
+    settings = (8, 16, 32, 64, 128, 256)
     careful = 256
     limit = 10_000_000
 

@@ -13,7 +13,7 @@ class MoreauJean(Method):
     """Implicit midpoint rule with the restitution law on the velocities of a step; setting: steps per cycle."""
 
     name, family, knob, order = "Moreau-Jean", "time-stepping", "steps per cycle", 1
-    ladder = (100, 300, 1_000, 3_000, 10_000, 30_000, 100_000)
+    settings = (100, 300, 1_000, 3_000, 10_000, 30_000, 100_000)
     careful = 100_000
     limit = 1_000_000_000
 

@@ -29,7 +29,7 @@ SLOWEST = 1e-3
 """A slower contact is damped as one of this speed: a law whose damping grows like 1 / V has no limit at rest."""
 NOTICED = 0.01
 """Speed with which a ball comes just as far as an impact is counted, where a spring all through its box is the wall."""
-LADDER = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
+SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # of a step, to end it where a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
@@ -40,8 +40,8 @@ class Penalty(Method):
     family, knob, order = "compliant contact", "contact duration", 1
     limit = 10_000_000
 
-    def __init__(self, name: str, law: Law, ladder=LADDER, careful=1e-5):
-        self.name, self.ladder, self.careful = name, ladder, careful
+    def __init__(self, name: str, law: Law, settings=SETTINGS, careful=1e-5):
+        self.name, self.settings, self.careful = name, settings, careful
         self._law = law
 
     def run(self, system, state, cycles, tau0, setting, limit=None):
@@ -72,8 +72,10 @@ class PowerLaw(Penalty):
 
     knob = "exponent"
 
-    def __init__(self, name: str, ladder=(10, 30, 100, 300, 1_000, 3_000, 10_000), careful=10_000, speed: float = 1.0):
-        super().__init__(name, None, ladder, careful)
+    def __init__(
+        self, name: str, settings=(10, 30, 100, 300, 1_000, 3_000, 10_000), careful=10_000, speed: float = 1.0
+    ):
+        super().__init__(name, None, settings, careful)
         self._speed = speed
 
     def wall(self, system, setting):

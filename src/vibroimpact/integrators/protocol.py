@@ -1,4 +1,4 @@
-"""What every integrator looks like to the comparisons: a name, a ladder of settings, a run with an honest end."""
+"""Protocol of an integrator: a name, settings from coarse to fine, and runs that report their failures."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
@@ -50,7 +50,7 @@ class MethodRun:
 class Method(ABC):
     """One integrator of (10.1). A new one is one file with a subclass, listed in `integrators.METHODS`.
 
-    name, family: as printed; ladder: settings from coarse to fine, all of one kind (`knob` says which); careful: the
+    name, family: as printed; settings: from coarse to fine, all of one kind (`knob` says which); careful: the
     one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
     expects, or None; limit: steps after which a run is given up, what can be done in roughly half a minute;
     compiles_settings: whether each setting has code of its own, compiled when it is first run.
@@ -59,7 +59,7 @@ class Method(ABC):
     name: str
     family: str
     knob: str
-    ladder: tuple
+    settings: tuple
     careful: float | int | str
     limit: int = 100_000
     order: float | None = None
@@ -73,7 +73,7 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
         """Integrate from a state (8,) at tau0 over so many forcing periods in at most `limit` steps.
 
-        setting: one of the ladder. limit: by default the method's. A run that cannot go on comes back with a failure.
+        setting: one of `settings`. limit: by default the method's. A run that cannot go on comes back with a failure.
         """
 
     def scale(self, setting, run: MethodRun) -> float:

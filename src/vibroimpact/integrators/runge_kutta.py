@@ -28,7 +28,7 @@ class RungeKutta4(Method):
     """Setting: steps per cycle."""
 
     name, family, knob = "RK4, compiled", "Runge-Kutta", "steps per cycle"
-    ladder = (16, 32, 64, 128, 256, 512, 1024, 2048)
+    settings = (16, 32, 64, 128, 256, 512, 1024, 2048)
     careful = 2048
     limit, order = 10_000_000, 4.0
 

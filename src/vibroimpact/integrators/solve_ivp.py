@@ -34,8 +34,8 @@ class SolveIvp(Method):
 
     family, knob = "solve_ivp", "rtol"
 
-    def __init__(self, integrator: str, ladder, careful, order=None, implicit=None):
-        self.name, self.ladder, self.careful, self.order = integrator, ladder, careful, order
+    def __init__(self, integrator: str, settings, careful, order=None, implicit=None):
+        self.name, self.settings, self.careful, self.order = integrator, settings, careful, order
         self._implicit = implicit
 
     def run(self, system, state, cycles, tau0, setting, limit=None):

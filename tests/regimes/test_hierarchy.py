@@ -1,4 +1,4 @@
-"""The rungs from leading order to the exact orbit."""
+"""The model hierarchy from leading order to the exact orbit."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_o
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.epsilon_limit import compare, first_order, order
-from vibroimpact.regimes.ladder import EXACT, LEADING, TWO_TERMS, error, rungs
+from vibroimpact.regimes.hierarchy import EXACT, LEADING, TWO_TERMS, error, levels
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
 
@@ -22,8 +22,8 @@ def chapter_system():
 
 
 @pytest.fixture(scope="module")
-def ladder(chapter_system):
-    return rungs(chapter_system, [1, 3])
+def hierarchy(chapter_system):
+    return levels(chapter_system, [1, 3])
 
 
 def amplitudes(system, response=None):
@@ -97,23 +97,23 @@ def test_how_symmetry_breaking_moves_with_epsilon(chapter_system, kappa):
     assert two_terms.symmetry_breaking(2e-3) == pytest.approx(SYMMETRY_BREAKING_C + 2e-3 * near, abs=2e-5)
 
 
-def test_point_c_gets_its_right_verdict(chapter_system, ladder):
-    """Stable by leading order, unstable by two terms and in truth; they say where it loses its stability."""
-    verdicts = {name: ladder[name].verdicts for name in (LEADING, TWO_TERMS)}
+def test_point_c_gets_its_right_verdict(chapter_system, hierarchy):
+    """Stable by leading order, unstable by two terms and exactly; they say where it loses its stability."""
+    verdicts = {name: hierarchy[name].verdicts for name in (LEADING, TWO_TERMS)}
     assert verdicts == {LEADING: ["unstable", "stable", "unstable"], TWO_TERMS: ["unstable"] * 3}
-    assert ladder[EXACT].verdicts == ["unstable"] * 3
+    assert hierarchy[EXACT].verdicts == ["unstable"] * 3
     point = vi.fixed_points(chapter_system)[1]
     slope = first_order(chapter_system, point, two_terms.STEP)[1]
     onset = (SYMMETRY_BREAKING_C - point.C[1]) / (slope - SYMMETRY_BREAKING_SLOPE)
     assert onset == pytest.approx(0.00218, abs=1e-5)
 
 
-def test_every_rung_is_nearer(ladder):
-    errors = [error(rung.C, ladder[EXACT].C) for rung in ladder.values()]
+def test_every_level_is_nearer(hierarchy):
+    errors = [error(level.C, hierarchy[EXACT].C) for level in hierarchy.values()]
     assert errors == sorted(errors, reverse=True)
     assert errors[0] > 0.05
     assert errors[1] < 0.005
-    assert np.isnan(error(ladder[EXACT].C[1:], ladder[EXACT].C))
+    assert np.isnan(error(hierarchy[EXACT].C[1:], hierarchy[EXACT].C))
 
 
 def test_the_fold_to_the_next_order(chapter_system):

@@ -1,9 +1,9 @@
-"""Hazards: the problems are what their names say, and the verdicts follow from what was measured."""
+"""Stress tests: the problems are what their names say, and the verdicts follow from what was measured."""
 
 import numpy as np
 import pytest
 
-from vibroimpact.accuracy import hazards as table
+from vibroimpact.accuracy import stress_tests as table
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.integrators import METHODS
@@ -33,20 +33,20 @@ def test_a_grazing_start_needs_a_maximum():
         grazing_start(SYSTEM, BOXES, VELOCITY, 3.9, "1e-3")
 
 
-@pytest.mark.parametrize("hazard", [h for h in table.hazards() if h.quick], ids=lambda h: f"{h.group}: {h.name}")
-def test_the_engine_is_right_or_says_that_it_cannot_decide(hazard):
-    (row,) = table.judge(hazard, [ENGINE])
+@pytest.mark.parametrize("test", [h for h in table.stress_tests() if h.quick], ids=lambda h: f"{h.group}: {h.name}")
+def test_the_engine_is_right_or_says_that_it_cannot_decide(test):
+    (row,) = table.judge(test, [ENGINE])
     assert row["verdict"] in (table.RIGHT, table.UNDECIDABLE)
     if row["verdict"] == table.RIGHT:
         assert row["error_state"] < 1e-7
-    if hazard.group != "grazing":
+    if test.group != "grazing":
         assert row["verdict"] == table.RIGHT
 
 
 class Scripted(Method):
     """A method whose result is given beforehand."""
 
-    name, family, knob, ladder, careful = "scripted", "test", "none", (0,), 0
+    name, family, knob, settings, careful = "scripted", "test", "none", (0,), 0
 
     def __init__(self, result):
         self._result = result
@@ -56,7 +56,7 @@ class Scripted(Method):
 
 
 NO_IMPACTS = np.empty(0, IMPACT)
-HAZARD = table.Hazard("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), (0.0,) * 8, 1)
+AT_REST = table.StressTest("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), (0.0,) * 8, 1)
 SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
 
 
@@ -73,11 +73,11 @@ SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
     ],
 )
 def test_verdicts(result, verdict):
-    (row,) = table.judge(HAZARD, [Scripted(result)])
+    (row,) = table.judge(AT_REST, [Scripted(result)])
     assert row["verdict"] == verdict
 
 
 def test_a_motion_that_has_not_settled_is_no_reference():
-    hazard = table.Hazard("test", "transient", SYSTEM, table.REST, 1000, reference_cycles=3)
+    moving = table.StressTest("test", "transient", SYSTEM, table.REST, 1000, reference_cycles=3)
     with pytest.raises(ArithmeticError, match="still changes"):
-        table.reference_of(hazard)
+        table.reference_of(moving)

@@ -1,6 +1,6 @@
-"""The rungs from leading order to the exact orbit: what each says of the symmetric motions, and what it costs.
+"""The levels from leading order to the exact orbit: what each says of the symmetric motions, and what it costs.
 
-Rungs, in order: leading order; two terms; N harmonics of the boxes' centre coordinate U_i at finite epsilon
+Levels, in order: leading order; two terms; N harmonics of the boxes' centre coordinate U_i at finite epsilon
 (`exact.orbits.harmonics`); exact. The cost is counted, not timed: how many terms of the boxes' response are summed
 until all motions at one pair of forces are found. Leading order knows one, the resonant one; the exact response is a
 Taylor series of six. Two terms ask the exact conditions at three small epsilon, once for every epsilon.
@@ -24,8 +24,8 @@ LEADING, TWO_TERMS, EXACT = "leading order", "two terms", "exact"
 _TAYLOR_TERMS = 6
 
 
-class Rung(NamedTuple):
-    """What a rung says of a system.
+class Level(NamedTuple):
+    """What a level says of a system.
 
     C: (n, 2) of its motions; verdicts: on each, none by harmonics; cost: terms summed.
     """
@@ -47,34 +47,34 @@ class _Counted:
 
 
 def harmonics_name(highest: int) -> str:
-    """Name of the rung of N harmonics."""
+    """Name of the level of N harmonics."""
     return f"N = {highest}"
 
 
-def rungs(system, harmonics) -> dict[str, Rung]:
-    """Every rung for one system, by name, from the lowest to the exact one.
+def levels(system, harmonics) -> dict[str, Level]:
+    """Every level for one system, by name, from the lowest to the exact one.
 
     Args:
         harmonics: the numbers N, odd, ascending.
     """
     points = fixed_points(system)
     leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
-    found = {LEADING: Rung(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
+    found = {LEADING: Level(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
     found |= {harmonics_name(N): of_harmonics(system, N, free_mass=True) for N in harmonics}
     roots, asked = _solved(system, impulse_response(system, -1))
     verdicts = [floquet(symmetric_orbit(system, root)) for root in roots]
-    return found | {EXACT: Rung(roots[:, 2:], verdicts, _TAYLOR_TERMS * asked)}
+    return found | {EXACT: Level(roots[:, 2:], verdicts, _TAYLOR_TERMS * asked)}
 
 
-def of_harmonics(system, highest: int, free_mass: bool) -> Rung:
-    """The rung of N harmonics, of U_i or (free_mass False) of the balls' force on the boxes."""
+def of_harmonics(system, highest: int, free_mass: bool) -> Level:
+    """The level of N harmonics, of U_i or (free_mass False) of the balls' force on the boxes."""
     response = HarmonicResponse(system, highest, free_mass)
     roots, asked = _solved(system, response)
-    return Rung(roots[:, 2:], [], response.terms * asked)
+    return Level(roots[:, 2:], [], response.terms * asked)
 
 
 def error(C: np.ndarray, exact: np.ndarray) -> float:
-    """How wrong C (n, 2) of a rung's motions is against (m, 2): the largest relative error; nan if n is not m."""
+    """How wrong C (n, 2) of a level's motions is against (m, 2): the largest relative error; nan if n is not m."""
     if len(C) != len(exact):
         return np.nan
     if not len(C):
@@ -94,7 +94,7 @@ def _two_terms(system, points):
         with suppress(NoOrbit):
             C.append(two_terms.amplitudes(system, point, counted))
             verdicts.append(two_terms.verdict(system, point, C[-1]))
-    return Rung(_stack(C), verdicts, _TAYLOR_TERMS * sum(one.asked for one in asked))
+    return Level(_stack(C), verdicts, _TAYLOR_TERMS * sum(one.asked for one in asked))
 
 
 def _solved(system, response):

@@ -1,6 +1,6 @@
-"""Where methods fail: problems that are hard for a known reason, and the verdict on every method in each of them.
+"""Stress tests, problems that are hard for a known reason, and the verdict on every method in each of them.
 
-Adding a hazard is adding a few lines to `hazards`.
+To add one, add a few lines to `stress_tests`.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 
 @dataclass(frozen=True)
-class Hazard:
+class StressTest:
     """A test problem: group (what is hard), name, system, start (8,) at tau = 0, forcing cycles.
 
     faint: impacts with a slower rebound need not be found (0: every one counts); reference_cycles: how many of the
@@ -60,72 +60,72 @@ MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # what module 1 does, m
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
 
 
-def hazards() -> list[Hazard]:
-    """All hazards, in the order of the table."""
+def stress_tests() -> list[StressTest]:
+    """All stress tests, in the order of the table."""
     system = System(**CHAPTER)
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
     still = system.with_(f10_hat=0.0, f20_hat=0.0)
     problems = [_grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
-    problems += [Hazard("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
+    problems += [StressTest("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
     problems += [
-        Hazard("sticking", "stick and release", system, RESTING, 2),
-        Hazard("sticking", "modulated response", weak, MODULATED, 8),
-        Hazard("coincidence", "both balls, same wall", twins, TOGETHER, 3),
-        Hazard("coincidence", "both balls, opposite walls", twins.with_(f20_hat=-1.0), MIRRORED, 3),
-        Hazard("coincidence", "impact on a step boundary", still, _crossing(still, 0.5), 1),
-        Hazard("coincidence", "impact 1e-9 before the end", still, _crossing(still, 1.0 - 1e-9), 1),
-        Hazard("coincidence", "impact 1e-9 after the end", still, _crossing(still, 1.0 + 1e-9), 1),
-        Hazard("long run", "100 000 cycles", system, SETTLED, 100_000, reference_cycles=2_000, quick=False),
-        Hazard("extreme parameters", "kappa = 1e-3", system.with_(kappa=1e-3), SETTLED, 3),
-        Hazard("extreme parameters", "kappa = 1e-6", system.with_(kappa=1e-6), SETTLED, 3, quick=False),
-        Hazard("extreme parameters", "kappa = 0.999", system.with_(kappa=0.999), SETTLED, 5),
-        Hazard("extreme parameters", "epsilon = 0.5", system.with_(epsilon=0.5), SETTLED, 5),
-        Hazard("extreme parameters", "epsilon = 1", system.with_(epsilon=1.0), SETTLED, 5),
-        Hazard("slow manifold", "near the fold", weak, FOLD, 10),
-        Hazard("chaos", "within the horizon", weak, REST, 20),
-        Hazard("chaos", "far beyond the horizon", weak, REST, 120, quick=False),
+        StressTest("sticking", "stick and release", system, RESTING, 2),
+        StressTest("sticking", "modulated response", weak, MODULATED, 8),
+        StressTest("coincidence", "both balls, same wall", twins, TOGETHER, 3),
+        StressTest("coincidence", "both balls, opposite walls", twins.with_(f20_hat=-1.0), MIRRORED, 3),
+        StressTest("coincidence", "impact on a step boundary", still, _crossing(still, 0.5), 1),
+        StressTest("coincidence", "impact 1e-9 before the end", still, _crossing(still, 1.0 - 1e-9), 1),
+        StressTest("coincidence", "impact 1e-9 after the end", still, _crossing(still, 1.0 + 1e-9), 1),
+        StressTest("long run", "100 000 cycles", system, SETTLED, 100_000, reference_cycles=2_000, quick=False),
+        StressTest("extreme parameters", "kappa = 1e-3", system.with_(kappa=1e-3), SETTLED, 3),
+        StressTest("extreme parameters", "kappa = 1e-6", system.with_(kappa=1e-6), SETTLED, 3, quick=False),
+        StressTest("extreme parameters", "kappa = 0.999", system.with_(kappa=0.999), SETTLED, 5),
+        StressTest("extreme parameters", "epsilon = 0.5", system.with_(epsilon=0.5), SETTLED, 5),
+        StressTest("extreme parameters", "epsilon = 1", system.with_(epsilon=1.0), SETTLED, 5),
+        StressTest("slow manifold", "near the fold", weak, FOLD, 10),
+        StressTest("chaos", "within the horizon", weak, REST, 20),
+        StressTest("chaos", "far beyond the horizon", weak, REST, 120, quick=False),
     ]
     return problems
 
 
-def judge(hazard: Hazard, methods) -> list[dict]:
+def judge(test: StressTest, methods) -> list[dict]:
     """One row per method: the verdict on its careful setting for this problem, and the numbers behind it."""
-    reference = reference_of(hazard)
-    return [_row(hazard, method, reference) for method in methods]
+    reference = reference_of(test)
+    return [_row(test, method, reference) for method in methods]
 
 
-def reference_of(hazard: Hazard):
-    """The reference run of a hazard.
+def reference_of(test: StressTest):
+    """The reference run of a stress test.
 
     Raises:
         ArithmeticError: the motion was claimed to have settled after reference_cycles, but changes in the last of them.
     """
-    if hazard.reference_cycles is None:
-        return proven_run(hazard.system, hazard.state, hazard.cycles).run
-    before = hazard.reference_cycles - 1
-    period = hazard.system.period
+    if test.reference_cycles is None:
+        return proven_run(test.system, test.state, test.cycles).run
+    before = test.reference_cycles - 1
+    period = test.system.period
     times = [before * period]
     # an attracting motion loses no digits, so that the doubling may start from few
-    run = proven_run(hazard.system, hazard.state, hazard.reference_cycles, digits=40, sample_times=times).run
+    run = proven_run(test.system, test.state, test.reference_cycles, digits=40, sample_times=times).run
     change = abs(run.samples[0] - run.final).max()
     if change > SETTLED_CHANGE:
-        raise ArithmeticError(f"{hazard.name}: still changes by {change:.1e} in cycle {before}")
+        raise ArithmeticError(f"{test.name}: still changes by {change:.1e} in cycle {before}")
     return run
 
 
-def _row(hazard, method, reference):
-    row = {"group": hazard.group, "hazard": hazard.name, "method": method.name, "family": method.family}
+def _row(test, method, reference):
+    row = {"group": test.group, "hazard": test.name, "method": method.name, "family": method.family}
     missing = method.available()
     if missing:
         return {**row, "verdict": UNAVAILABLE, "says": missing}
     row["setting"] = str(method.careful)
-    run = method.run(hazard.system, hazard.state, hazard.cycles, 0.0, method.careful)
+    run = method.run(test.system, test.state, test.cycles, 0.0, method.careful)
     row["steps"] = run.steps
     if run.failure:
         return {**row, "verdict": FAILURES[run.failure.kind], "says": run.failure.reason}
-    whole = hazard.reference_cycles is None
-    errors = compare(run, reference, hazard.system.period, hazard.faint, events=whole)
+    whole = test.reference_cycles is None
+    errors = compare(run, reference, test.system.period, test.faint, events=whole)
     doubt = run.doubt()
     wrong = not errors.final <= VISIBLE or errors.missed or errors.spurious
     return {
@@ -143,7 +143,7 @@ def _grazing(system, side, digits):
     """Ball 1 clears its wall (side 1) or would go beyond it (side -1) by 1e-digits; every impact counts."""
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
-    return Hazard("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
+    return StressTest("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
 
 
 def _crossing(system, periods):
