@@ -41,6 +41,11 @@ def with_cases(config: dict) -> dict:
     return config
 
 
+def title_of(config: dict, case: str) -> str:
+    """Return what titles and captions call a case: its title, or its name if it has none."""
+    return config["cases"][case].get("title") or case
+
+
 def _at(config, path):
     """The mapping at "section.key", an empty one if there is none."""
     for key in path.split("."):

@@ -213,3 +213,10 @@ def test_numbers_of_documents_are_those_of_the_build(tmp_path):
     shown = pages.markdown({"source": "docs/some.md"}, "html")
     assert re.findall(r'popovertarget="[^"]+">([^<]+)</button>', shown) == ["0.71", "−3.2", "69"]
     assert shown.endswith("5.")
+
+
+def test_titles_of_cases_go_into_the_words_of_figures():
+    own = {"notebook": "simulation", "model": "simulation", "case": "weak"}
+    cases = CONFIG["cases"] | {"weak": CONFIG["cases"]["weak"] | {"title": "A b (c)"}}
+    said = figure_texts(ROOT, CONFIG | {"cases": cases, "figures": CONFIG["figures"] | {"mine": own}})["mine"]
+    assert all("A b" in said[name] and "weak" not in said[name] for name in ("title", "caption", "alt"))

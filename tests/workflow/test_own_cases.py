@@ -68,7 +68,7 @@ def own(config):
     config = renamed(config, "unequal", "uneven")
     without_case(config, "weak")
     hurried(config)
-    config["cases"]["strong"] = {"f10_hat": 1.0, "f20_hat": 0.95, "simulation": SIMULATION}
+    config["cases"]["strong"] = {"title": "A b", "f10_hat": 1.0, "f20_hat": 0.95, "simulation": SIMULATION}
     config["cases"]["still"] = {"f10_hat": 0.05, "f20_hat": 0.0, "simulation": SIMULATION}
     config["figures"] |= OWN_FIGURES
     config["report"]["animations"]["strong_in_motion"] = {"case": "strong", "cycles": 2}
@@ -83,6 +83,7 @@ def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
     for figure in OWN_FIGURES:
         assert (results / f"figures/{figure}.png").stat().st_size > 10_000
         assert figure in (results / "report/figures.html").read_text(encoding="utf-8")
+    assert "Simulated motion of case A b" in (results / "report/figures.html").read_text(encoding="utf-8")
     still = (results / "notebooks/still_motion.html").read_text(encoding="utf-8")
     assert all(f"Ball {module} has no impact in the window" in still for module in (1, 2))
     assert "no swells</td>" in still

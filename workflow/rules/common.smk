@@ -35,7 +35,7 @@ if os.path.exists(sys.executable):
 
 from vibroimpact_pipeline.specs import case_parameters, made, specs
 from vibroimpact_pipeline import builds
-from vibroimpact_pipeline.cases import with_cases
+from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import fingerprint
 
 if not os.access(".", os.W_OK):

@@ -23,7 +23,7 @@ MADE = made(config, specs())
 def caption(figure, spec):
     """The caption of a figure, with the numbers that it asks for."""
     case = spec["request"]["case"]
-    known = CHAPTER.get(figure, {}) | (system_of(case) if case else config["system"])
+    known = CHAPTER.get(figure, {}) | (system_of(case) | {"case": title_of(config, case)} if case else config["system"])
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
 
 

@@ -56,6 +56,7 @@ def named(kind, least: int, most: int, name: str = NAME):
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
 
+Title = Annotated[str, Field(pattern=TITLE)]
 CaseName = Annotated[str, Field(description="Name of a case; absent: default_case")]
 Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")]
 Force = Annotated[float, Field(ge=-1000, le=1000)]

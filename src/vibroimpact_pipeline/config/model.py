@@ -92,6 +92,7 @@ class Simulation(Section):
 class Case(Section):
     """A pair of forcing amplitudes, and the direct integration with them."""
 
+    title: kinds.Title | None = Field(None, description="What titles and captions call the case; absent: its name")
     f10_hat: kinds.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
     f20_hat: kinds.Force = Field(description="Excitation amplitude of box 2")
     simulation: Simulation

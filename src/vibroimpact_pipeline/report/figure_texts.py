@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 
 from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
 from vibroimpact_pipeline.specs import spec_of, specs
@@ -19,8 +20,10 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
     scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
     for figure, scene in scenes.items():
-        forces = config["cases"].get(scene.get("case"), {})
-        texts[figure] = words(figure, scene, config["system"] | {name: forces[name] for name in FORCES if forces})
+        case = scene.get("case")
+        forces = config["cases"].get(case, {})
+        named = scene | ({"case": title_of(config, case)} if forces else {})
+        texts[figure] = words(figure, named, config["system"] | {name: forces[name] for name in FORCES if forces})
     return texts | data["captions"]
 
 
