@@ -1,4 +1,4 @@
-"""What a check says of a claim: a verdict that follows from its parts, and the numbers behind it."""
+"""The finding of a check on a claim: a verdict that follows from its parts, and the numbers behind it."""
 
 from dataclasses import dataclass, field
 
