@@ -38,7 +38,7 @@ SETTLED = 1e-6
 class Level:
     """One way to compute what a figure shows: its error as a share of the axis, or why it cannot, and the work.
 
-    compiles: whether the first call of the work may take longer than others, for what is compiled or kept.
+    compiles: True if the first call of the work may take longer than others, for compilation or caches.
     """
 
     name: str
@@ -58,7 +58,7 @@ COLUMNS = ["figure", "rung", "error", "tolerance", "meets", "cost_s", "in_use", 
 
 
 def rows(figure: str, tolerance: float, levels: list[Level], level_in_use: str, seconds: float) -> list[dict]:
-    """The rows of the table for one figure: level, error, tolerance, cost in seconds, whether it is in use.
+    """The rows of the table for one figure: level, error, tolerance, cost in seconds, True for the level in use.
 
     Args:
         tolerance: the smallest error that the figure's lines can show, as a share of an axis.
@@ -88,7 +88,7 @@ def _cost(level, seconds):
 
 
 def _share(values, truth, span):
-    """Largest difference as a share of an axis that spans so much."""
+    """Largest difference as a share of an axis of this span."""
     return float(np.abs(np.asarray(values, float) - np.asarray(truth, float)).max() / span)
 
 

@@ -238,7 +238,7 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Fixed points at equal forces, and whether each is the limit of an exact orbit, and there are no more of these."""
+    """Fixed points at equal forces, and True if they are the limits of exact orbits, with no orbit left over."""
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -17,7 +17,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     """A row per fixed point and epsilon, for forces at the centres of points x points cells.
 
     Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
-    theory, admissible (whether its exact orbit stays between the walls) and floquet: the verdict on that orbit,
+    theory, admissible (True if its exact orbit stays between the walls) and floquet: the verdict on that orbit,
     "no orbit" where there is none (see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)

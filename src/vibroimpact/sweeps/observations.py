@@ -107,10 +107,6 @@ def _energy(system, states, asked):
     return energy["impacts"].sum() / work if work else np.nan, np.count_nonzero(~hits)
 
 
-def _fixed_points(system, states, asked):
-    return fixed_point_counts(system)
-
-
 def fixed_point_counts(system) -> tuple[int, int]:
     """Number of fixed points of the theory, and of those that it calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
@@ -129,6 +125,6 @@ OBSERVATIONS = {
     ENVELOPES: _envelopes,
     PEAKS: _peaks,
     ENERGY: _energy,
-    FIXED_POINTS: _fixed_points,
+    FIXED_POINTS: lambda system, states, asked: fixed_point_counts(system),
     ORBITS: _orbits,
 }
