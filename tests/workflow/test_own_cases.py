@@ -88,8 +88,8 @@ def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
     assert all(f"Ball {module} has no impact in the window" in still for module in (1, 2))
     assert "no swells</td>" in still
     assert "None</td>" not in still
-    rungs = (results / "accuracy/scene_models.csv").read_text(encoding="utf-8")
-    assert all(f"\n{figure}," in rungs for figure in OWN_FIGURES)
+    levels = (results / "accuracy/scene_models.csv").read_text(encoding="utf-8")
+    assert all(f"\n{figure}," in levels for figure in OWN_FIGURES)
 
     output = tree.snakemake("figure_check", check=False)
     assert tree.returncode == 1

@@ -1,1 +1,1 @@
-"""What the balls are good for: the linear systems to hold them against, tuned absorbers and free decay."""
+"""Balls as absorbers: linear systems for comparison, tuned absorbers and free decay."""

@@ -1,4 +1,4 @@
-"""Free decay with balls: how long an impulse is felt, and after which impulse it is felt for the shortest time."""
+"""Free decay with balls: the time after an impulse, and the impulse after which it is shortest."""
 
 import math
 
@@ -100,7 +100,7 @@ def _energies(system, states):
 
 
 def _time_within(system, flight, target):
-    """When the energy falls to the target in a flight that ends with no more; 0 where it started so."""
+    """Time in a flight at which the energy falls to the target; 0 if it starts there."""
     stuck = flight[WALLS : WALLS + 2] != 0
     rate, boxes, balls = rate_matrix(system, stuck)[:4, :4], flight[BEFORE : BEFORE + 4], flight[BEFORE + 4 : AFTER]
 

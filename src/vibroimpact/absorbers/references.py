@@ -1,4 +1,4 @@
-"""What the balls are held against: no balls, balls fixed to their boxes, linear absorbers of their mass."""
+"""Linear systems for comparison: no balls, balls fixed to their boxes, linear absorbers of their mass."""
 
 from dataclasses import dataclass
 

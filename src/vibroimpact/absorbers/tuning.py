@@ -1,4 +1,4 @@
-"""How the linear absorbers are tuned: by the textbook, and as well as they can be."""
+"""Tuning of the linear absorbers: by the textbook, and by optimisation."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -7,7 +7,7 @@ from vibroimpact.absorbers.linear import POINTS, Linear, checked_band
 from vibroimpact.absorbers.references import Tuning, fixed_balls, tuned, without_balls
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
-"""Where the search for the best tuning starts: these times the frequencies of the textbook."""
+"""Starts of the search for the best tuning, as multiples of the textbook's frequencies."""
 
 
 def den_hartog(system) -> Tuning:
@@ -61,7 +61,7 @@ def best(system, band: tuple[float, float]) -> Tuning:
 
 
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
-    """All that balls are held against, by name; the best absorbers are those of a band of frequencies.
+    """Return all linear systems for comparison, by name; the best absorbers are those of a band of frequencies.
 
     Raises:
         ValueError, ArithmeticError: as `best`.

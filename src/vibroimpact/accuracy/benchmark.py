@@ -13,9 +13,9 @@ DIGITS = 40
 OURS, CERTIFIED, MODAL, TAYLOR = "this engine", "this engine, certified", "modal scan", "heyoka"
 RUNGE_KUTTA, SCIPY = "RK4, compiled", "DOP853"
 COARSE = 1e-6
-"""The error that the methods of general purpose are asked for."""
+"""The error at which methods of general purpose are compared."""
 ACCURATE, USEFUL = 1e-6, 1e-3
-"""Errors at which the rival is met in every panel."""
+"""Errors at which heyoka is compared in every panel."""
 SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
@@ -71,7 +71,7 @@ def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
 
 
 def panels(rows: list[dict]) -> list[dict]:
-    """How many times faster than heyoka we are in every panel of the chart, from the rows of `work_precision.measure`.
+    """Ratio of heyoka's time to ours in every panel of the chart, from the rows of `work_precision.measure`.
 
     heyoka at the coarsest tolerance whose error of the final state is at most ACCURATE, and at its fastest one with an
     error below USEFUL; nan, with a word on why in "says", where there is none.

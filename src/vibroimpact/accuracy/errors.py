@@ -10,7 +10,7 @@ FAINT = 1e-3
 """Rebound speed |W'| at and below which an impact belongs to the tail of a chatter, which every method cuts short
 somewhere: such impacts are neither required nor counted as spurious."""
 WINDOW = 0.05
-"""How far apart, in forcing periods, two impacts may be and still be the same one."""
+"""Largest distance in time, in forcing periods, of two impacts that count as the same one."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,11 @@ class Errors:
     times: float
     missed: int
     spurious: int
+
+    def columns(self) -> dict[str, float]:
+        """The errors under the names that tables give them."""
+        names = "error_state", "error_time", "missed", "spurious"
+        return dict(zip(names, (self.final, self.times, self.missed, self.spurious), strict=True))
 
 
 def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
@@ -58,7 +63,7 @@ def rebound_speeds(events) -> np.ndarray:
 
 
 def _near(times, others, window) -> np.ndarray:
-    """For each time whether another one is within the window."""
+    """True for each time with another one within the window."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 

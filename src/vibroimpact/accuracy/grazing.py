@@ -1,8 +1,8 @@
-"""Starts whose ball comes as near to a wall as wished, computed with many digits from the exact parameters."""
+"""Starts whose ball comes to within a given distance of a wall, computed with many digits from the exact parameters."""
 
 from fractions import Fraction
 
-from vibroimpact.accuracy.reference.flow import ExactSystem, to_ball
+from vibroimpact.accuracy.reference.flow import ExactSystem, rate_matrix, to_ball
 from vibroimpact.system.extras import need
 
 need("reference", "flint")
@@ -29,10 +29,10 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     Raises:
         ValueError: W_1 has no maximum there.
     """
-    exact_system = ExactSystem.of(system)
+    rates = rate_matrix(ExactSystem.of(system), (False, False))
     with ctx.workprec(BITS):
         start = arb_mat(6, 1, [*(to_ball(Fraction(str(value))) for value in boxes), arb(0), arb(1)])
-        rate = arb_mat(6, 6, [to_ball(entry) for row in _rate(exact_system) for entry in row])
+        rate = arb_mat(6, 6, [to_ball(entry) for row in rates for entry in row])
         speed, tau = to_ball(Fraction(str(ball_velocity))), arb(str(guess))
         for _ in range(NEWTON_STEPS):
             there = (rate * tau).exp() * start
@@ -44,15 +44,3 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
         ball = float(highest - 1 + to_ball(Fraction(str(clearance))))
     x1, x2, v1, v2 = (float(value) for value in boxes)
     return x1, ball, x2, x2, v1, float(ball_velocity), v2, v2
-
-
-def _rate(system: ExactSystem):
-    """Exact rate matrix of [X1, X2, X1', X2', sin, cos], balls in flight."""
-    rows = [[Fraction(0)] * 6 for _ in range(6)]
-    for i in range(2):
-        rows[i][2 + i] = Fraction(1)
-        rows[2 + i][:2] = [-k for k in system.stiffness[i]]
-        rows[2 + i][2:4] = [-c for c in system.damping[i]]
-        rows[2 + i][4] = system.forcing[i]
-    rows[4][5], rows[5][4] = system.Omega, -system.Omega
-    return rows

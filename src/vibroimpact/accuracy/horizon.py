@@ -1,4 +1,4 @@
-"""How long a float64 run follows the true trajectory, measured against a run that is proved to be it."""
+"""Error of a float64 run over time, measured against a run that is proved to follow the true trajectory."""
 
 import numpy as np
 

@@ -6,6 +6,7 @@ needs a level whose error its lines cannot show: less than half their width, as 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -37,7 +38,7 @@ SETTLED = 1e-6
 class Level:
     """One way to compute what a figure shows: its error as a share of the axis, or why it cannot, and the work.
 
-    compiles: whether the first call of the work may take longer than others, for what is compiled or kept.
+    compiles: True if the first call of the work may take longer than others, for compilation or caches.
     """
 
     name: str
@@ -57,7 +58,7 @@ COLUMNS = ["figure", "rung", "error", "tolerance", "meets", "cost_s", "in_use", 
 
 
 def rows(figure: str, tolerance: float, levels: list[Level], level_in_use: str, seconds: float) -> list[dict]:
-    """The rows of the table for one figure: level, error, tolerance, cost in seconds, whether it is in use.
+    """The rows of the table for one figure: level, error, tolerance, cost in seconds, True for the level in use.
 
     Args:
         tolerance: the smallest error that the figure's lines can show, as a share of an axis.
@@ -87,7 +88,7 @@ def _cost(level, seconds):
 
 
 def _share(values, truth, span):
-    """Largest difference as a share of an axis that spans so much."""
+    """Largest difference as a share of an axis of this span."""
     return float(np.abs(np.asarray(values, float) - np.asarray(truth, float)).max() / span)
 
 
@@ -115,26 +116,36 @@ def _true_sawtooth(scene, system):
 
 
 def _true_manifold(scene, system):
-    r = 2 * (1 - mp.mpf(str(system["kappa"]))) / (mp.pi * (1 + mp.mpf(str(system["kappa"]))))
-    return ["SIM unstable", "SIM stable"], "C", "B", lambda C: mp.sqrt(1 - 2 * C + (1 + r**2) * C**2)
+    r = _true_rho(mp.mpf(str(system["kappa"])))
+    return ["SIM unstable", "SIM stable"], "C", "B", lambda C: _true_B(C, r)
 
 
 def _true_limit(scene, system):
-    return ["stable"], "kappa", "C", lambda k: 4 / (4 + mp.pi * 2 * (1 - k) / (mp.pi * (1 + k)))
+    return ["stable"], "kappa", "C", lambda kappa: 4 / (4 + mp.pi * _true_rho(kappa))
+
+
+def _true_rho(kappa):
+    """Factor rho of (10.16)."""
+    return 2 * (1 - kappa) / (mp.pi * (1 + kappa))
+
+
+def _true_B(C, r):
+    """B of the manifold (10.16)."""
+    return mp.sqrt(1 - 2 * C + (1 + r**2) * C**2)
 
 
 def true_fixed_point(system: System, point):
     """A fixed point of the slow flow solved anew with 30 digits: (10.23) as two complex equations, written out."""
     with mp.workdps(DIGITS):
         s = {name: mp.mpf(str(value)) for name, value in vars(system).items()}
-        r = 2 * (1 - s["kappa"]) / (mp.pi * (1 + s["kappa"]))
+        r = _true_rho(s["kappa"])
         coupling = s["alpha12_hat"] + 1j * s["gamma12_hat"]
         tuning = 2 * s["sigma_e_hat"] - s["alpha12_hat"], 2 * s["sigma_e_hat"] - s["alpha12_hat"] - s["sigma20_hat"]
         damping = s["gamma1_hat"] + s["gamma12_hat"], s["gamma2_hat"] + s["gamma12_hat"]
         force = s["f10_hat"], s["f20_hat"]
 
         def residual(C1, psi1, C2, psi2):
-            C, B = (C1, C2), [mp.sqrt(1 - 2 * c + (1 + r**2) * c**2) for c in (C1, C2)]
+            C, B = (C1, C2), [_true_B(C1, r), _true_B(C2, r)]
             b = [B[0] * mp.expj(-psi1), B[1] * mp.expj(-psi2)]
             found = []
             for i in range(2):
@@ -144,8 +155,7 @@ def true_fixed_point(system: System, point):
             return found
 
         C1, psi1, C2, psi2 = mp.findroot(residual, [point.C[0], point.psi[0], point.C[1], point.psi[1]])
-        B = [mp.sqrt(1 - 2 * c + (1 + r**2) * c**2) for c in (C1, C2)]
-        return SimpleNamespace(C=(C1, C2), B=B, psi=(psi1, psi2), rho=r)
+        return SimpleNamespace(C=(C1, C2), B=[_true_B(C1, r), _true_B(C2, r)], psi=(psi1, psi2), rho=r)
 
 
 def slow_flow_levels(scene: dict, system: System, points: list) -> list[Level]:
@@ -192,11 +202,9 @@ def motion_levels(system: System, settings: dict, summary: dict, points: list, s
         points: fixed points of the case. stable: states (n, 8) at tau = 0 of its stable 1:1 orbits.
         samples: of the window, columns tau and those of the state.
     """
-    if "digits" in settings:
-        return _proved_levels(system, settings, points, len(stable), samples, summary["trust"]["agreement"])
-    if summary["largest_change_after_cycles"]["1"] <= SETTLED:
+    if "digits" not in settings and summary["largest_change_after_cycles"]["1"] <= SETTLED:
         return _settled_levels(system, settings, points, stable, samples)
-    return _unproved_levels(system, settings, points, len(stable), samples, summary["trust"]["certificate"])
+    return _unsettled_levels(system, settings, points, len(stable), samples, summary["trust"])
 
 
 def _settled_levels(system, settings, points, stable, samples):
@@ -210,16 +218,15 @@ def _settled_levels(system, settings, points, stable, samples):
     def error(X2, W2):
         return max(_share(X2, truth[:, 0], span), _share(W2, truth[:, 1], 2.0))
 
-    theory = []
-    for point in points:
-        response = leading_order(system, point, phase)
-        theory.append(error(response.X[:, 1], response.W[:, 1]))
+    theory = [error(r.X[:, 1], r.W[:, 1]) for r in (leading_order(system, point, phase) for point in points)]
     drawn_error = error(drawn["X2"], drawn["X2"] - drawn["Y2"])
+    cycles = settings["transient_cycles"] + settings["window_cycles"]
+    work = partial(simulate, system, settings["initial_state"], cycles)
     followed = [simulate(system, state, 1, sample_times=phase).samples for state in stable]
     orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
     return [
         *_theory(system, theory),
-        Level("simulation", drawn_error, _integration(system, settings)),
+        Level("simulation", drawn_error, work),
         Level("orbit", orbit_error, lambda: orbits(system), "the stable one; an unstable one is never drawn"),
     ]
 
@@ -234,44 +241,35 @@ def _settled_truth(system, state, phase, digits=40):
     return np.column_stack([samples[:, 2], samples[:, 2] - samples[:, 3]])
 
 
-def _proved_levels(system, settings, points, stable, samples, agreement):
-    """X_2 and W_2 over the window, against the proved trajectory that the figure shows."""
+def _unsettled_levels(system, settings, points, stable, samples, trust):
+    """X_2 and W_2 over the window of a motion that does not repeat, against what the figure shows.
+
+    The error of a trajectory that is not proved is the one that its certificate expects, inf past the horizon.
+    """
     tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
     W2 = X2 - samples["Y2"].to_numpy()
-    cycles = settings["transient_cycles"] + settings["window_cycles"]
 
     def error(other_X2, other_W2):
         return max(_share(other_X2, X2, _span(X2)), _share(other_W2, W2, 2.0))
 
-    theory = [leading_order(system, point, tau) for point in points]
-    floating = simulate(system, settings["initial_state"], cycles, sample_times=tau)
-    away = error(floating.samples[:, 2], floating.samples[:, 2] - floating.samples[:, 3])
-    digits = settings["digits"]
+    theory = [error(r.X[:, 1], r.W[:, 1]) for r in (leading_order(system, point, tau) for point in points)]
+    start, cycles, proven = settings["initial_state"], settings["transient_cycles"] + settings["window_cycles"], []
+    if "digits" in settings:
+        digits = settings["digits"]
+        floating = simulate(system, start, cycles, sample_times=tau)
+        away = error(floating.samples[:, 2], floating.samples[:, 2] - floating.samples[:, 3])
+        horizon, note = floating.certificate.horizon, f"{digits} digits, proved by doubling them"
+        work = partial(reference_run, system, start, cycles, digits)
+        proven = [Level("proven simulation", trust["agreement"], work, note, compiles=False)]
+    else:
+        horizon = trust["certificate"].get("horizon", np.inf)
+        away = trust["certificate"].get("error", np.inf) / min(_span(X2), 2.0)
+    doubt = "float64" if np.isinf(horizon) else "float64: beyond its horizon"
     return [
-        *_theory(system, [error(r.X[:, 1], r.W[:, 1]) for r in theory]),
-        Level("simulation", away, _integration(system, settings), _trust(floating.certificate.horizon)),
+        *_theory(system, theory),
+        Level("simulation", away, partial(simulate, system, start, cycles), doubt),
         Level("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
-        Level(
-            "proven simulation",
-            agreement,
-            lambda: reference_run(system, settings["initial_state"], cycles, digits),
-            f"{digits} digits, proved by doubling them",
-            compiles=False,
-        ),
-    ]
-
-
-def _unproved_levels(system, settings, points, stable, samples, certificate):
-    """A motion that neither repeats nor is proved: its error is what its certificate expects, inf past its horizon."""
-    tau, X2 = samples["tau"].to_numpy(), samples["X2"].to_numpy()
-    W2, span = X2 - samples["Y2"].to_numpy(), min(_span(X2), 2.0)
-    theory = [leading_order(system, point, tau) for point in points]
-    horizon = certificate.get("horizon", np.inf)
-    expected = certificate.get("error", np.inf) / span
-    return [
-        *_theory(system, [max(_share(r.X[:, 1], X2, _span(X2)), _share(r.W[:, 1], W2, 2.0)) for r in theory]),
-        Level("simulation", expected, _integration(system, settings), _trust(horizon)),
-        Level("orbit", np.inf, lambda: orbits(system), f"{stable} stable orbits"),
+        *proven,
     ]
 
 
@@ -286,13 +284,3 @@ def _theory(system, errors):
             "nearest fixed point, leading order" if errors else "there is no fixed point",
         ),
     ]
-
-
-def _integration(system, settings):
-    cycles = settings["transient_cycles"] + settings["window_cycles"]
-    return lambda: simulate(system, settings["initial_state"], cycles)
-
-
-def _trust(horizon):
-    """What is to be known of a simulation that has not settled."""
-    return "float64" if np.isinf(horizon) else "float64: beyond its horizon"

@@ -131,10 +131,7 @@ def _row(test, method, reference):
     return {
         **row,
         "verdict": UNDECIDABLE if doubt else WRONG if wrong else RIGHT,
-        "error_state": errors.final,
-        "error_time": errors.times,
-        "missed": errors.missed,
-        "spurious": errors.spurious,
+        **errors.columns(),
         "says": doubt or "",
     }
 

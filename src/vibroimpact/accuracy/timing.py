@@ -32,7 +32,7 @@ def shortest_time(work, seconds: float, most: int = 5000) -> float:
 
 
 def versions() -> dict[str, str]:
-    """What was measured: Python, the processor's architecture, and the packages that are installed."""
+    """Versions behind a measurement: Python, the processor's architecture, and the packages installed."""
     found = {"python": platform.python_version(), "machine": platform.machine()}
     for package in PACKAGES:
         try:

@@ -56,13 +56,9 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, run, time, reference):
-    """What a run is like: errors, time and steps."""
-    errors = compare(run, reference, problem.system.period)
+    """Errors, time and steps of a run."""
     return {
-        "error_state": errors.final,
-        "error_time": errors.times,
-        "missed": errors.missed,
-        "spurious": errors.spurious,
+        **compare(run, reference, problem.system.period).columns(),
         "seconds_per_cycle": time / problem.cycles,
         "steps": run.steps,
         "evaluations": run.evaluations,

@@ -19,7 +19,7 @@ FAINT = 1e-3
 SWINGS = 3
 """Cycles within which the largest swing after a shock is over."""
 NOTICED = 0.99
-"""What is called shorter, or lower, is so by a hundredth at least."""
+"""A time is called shorter, or a swing lower, from a hundredth on."""
 SURE = 2
 """Spreads by which a peak has to be lower than another."""
 
@@ -92,14 +92,15 @@ def can_be_optimised(evidence):
     Both at the clearance that is best for each coefficient, measured again there. Over small coefficients the lowest
     peak is level: which of them is best is left to chance.
     """
-    clearance = _per_force(evidence.system, evidence.clearance)
+    force = evidence.clearance["f10_hat"]
+    ratio = evidence.clearance["peak"] / (evidence.system.epsilon * force)
     lowest = evidence.absorber.query("quantity == 'lowest peak'")
     peaks = evidence.absorber.query("quantity == 'peak'").set_index("who")
     balls, best = peaks.loc["balls"], peaks.loc["balls, best kappa"]
-    own = clearance.loc[clearance["f10_hat"].sub(evidence.system.f10_hat).abs().idxmin(), "ratio"]
+    own = ratio[force.sub(evidence.system.f10_hat).abs().idxmin()]
     uncertain = math.hypot(balls["spread"], best["spread"])
     parts = {
-        "by the clearance": _inside(clearance, "f10_hat"),
+        "by the clearance": force.min() < force[ratio.idxmin()] < force.max(),
         "by the restitution coefficient": best["value"] + SURE * uncertain < balls["value"],
         "to a lower peak than at the chapter's": best["value"] + SURE * best["spread"] < own,
     }
@@ -109,12 +110,3 @@ def can_be_optimised(evidence):
     numbers |= {"level up to": evidence.absorber.set_index("quantity").loc["plateau", "value"]}
     numbers |= {"peak, of the chapter's": best["value"] / own}
     return Finding(parts, numbers | {"regime there": best["regime"], "at its own kappa": balls["regime"]})
-
-
-def _per_force(system, table):
-    return table.assign(ratio=table["peak"] / (system.epsilon * table["f10_hat"]))
-
-
-def _inside(table, name):
-    """Whether the lowest peak is at neither end of what was tried."""
-    return table[name].min() < table.loc[table["ratio"].idxmin(), name] < table[name].max()

@@ -1,5 +1,7 @@
 """Checks of sections 10.2 and 10.3: the equations as printed, put to the test at random states and on simulations."""
 
+from itertools import product
+
 import numpy as np
 from scipy.integrate import quad
 
@@ -58,7 +60,7 @@ def common_impact_instants(evidence):
     """One sequence tau_j for both modules in (10.2), against one for each: how far each ball is from its wall."""
     own, other = [], []
     for simulation in evidence.simulations.values():
-        impacts = simulation.events[simulation.events["kind"] == "impact"]
+        impacts = simulation.impacts
         from_wall = np.column_stack([1 - (impacts[f"X{i}"] - impacts[f"Y{i}"]).abs() for i in (1, 2)])
         place = impacts["module"].to_numpy() - 1
         rows = np.arange(len(place))
@@ -111,41 +113,39 @@ def _errors_of_jumps(system):
 
 def leading_order_solution(evidence):
     """(10.9)-(10.11) in (10.8), by its own conditions, with B and phase by (10.16), (10.17); (10.19) by quadrature."""
-    residuals = {"flight": 0.0, "walls": 0.0, "impacts": 0.0, "harmonics": _error_of_the_harmonics()}
-    t = np.linspace(0.1, np.pi - 0.1, 50)
-    for kappa in KAPPAS:
-        r = rho(kappa)
-        for C in (0.3, 0.9, 1.1, 1.6):
-            B, phase = B_of_C(C, r), impact_phase(C, r)
-            Z = sawtooth(np.array([t - 0.05, t, t + 0.05]), C, 0.0)
-            at_walls = [B * np.sin(j * np.pi + phase) + sawtooth(j * np.pi, C, 0.0) - (-1) ** j for j in (0, 1)]
-            slope = 2 * C / np.pi
-            before = B * np.cos(phase) + slope
-            residuals["flight"] = max(residuals["flight"], np.abs(Z[0] - 2 * Z[1] + Z[2]).max())
-            residuals["walls"] = max(residuals["walls"], np.abs(at_walls).max())
-            residuals["impacts"] = max(residuals["impacts"], abs(2 * slope - (1 + kappa) * before))
-    return Finding({name: value < ROUNDING for name, value in residuals.items()}, _floats(residuals))
+    t, found = np.linspace(0.1, np.pi - 0.1, 50), []
+    for kappa, C in product(KAPPAS, (0.3, 0.9, 1.1, 1.6)):
+        B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
+        Z = sawtooth(np.array([t - 0.05, t, t + 0.05]), C, 0.0)
+        at_walls = [B * np.sin(j * np.pi + phase) + sawtooth(j * np.pi, C, 0.0) - (-1) ** j for j in (0, 1)]
+        before = B * np.cos(phase) + slope
+        found.append({"flight": Z[0] - 2 * Z[1] + Z[2], "walls": at_walls, "impacts": 2 * slope - (1 + kappa) * before})
+    return _vanish(found, harmonics=_error_of_the_harmonics())
+
+
+def _vanish(found, **others):
+    """Finding that all residuals vanish to rounding: of each name the largest of those found, then the others."""
+    worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
+    parts = {name: value < ROUNDING for name, value in worst.items()}
+    return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
 
 
 def manifold_from_impact_conditions(evidence):
     """(10.15) and (10.16) against (10.12) and (10.14) at random phases: the same relation, and (10.17) with it."""
-    errors = {"(10.16)": 0.0, "(10.15)": 0.0, "(10.17)": 0.0}
+    found = []
     for kappa in KAPPAS:
         r = rho(kappa)
         for C in np.random.default_rng(3).uniform(0.05, 2.5, 50):
             sine = 1 - C  # B times it, by (10.12)
             cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B times it, by (10.14)
             B = np.hypot(sine, cosine)
-            arms = C_of_B(B, r)
-            errors["(10.16)"] = max(errors["(10.16)"], abs(B**2 - (1 - 2 * C + (1 + r**2) * C**2)))
+            residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
             # Close to the fold the root of (10.15) halves the digits.
-            off = min(abs(arm - C) for arm in arms) * min(1, abs(C - C_min(r)))
-            errors["(10.15)"] = max(errors["(10.15)"], off)
-            errors["(10.17)"] = max(errors["(10.17)"], abs(sine - B * np.sin(impact_phase(C, r))))
-            errors["(10.17)"] = max(errors["(10.17)"], abs(cosine - r * C))
+            residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
+            residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
+            found.append(residuals)
     lowest = max(abs(B_of_C(C_min(rho(kappa)), rho(kappa)) - B_min(rho(kappa))) for kappa in KAPPAS)
-    errors["B_min at C_min"] = lowest
-    return Finding({name: value < ROUNDING for name, value in errors.items()}, _floats(errors))
+    return _vanish(found, **{"B_min at C_min": lowest})
 
 
 def _error_of_the_harmonics():
@@ -168,7 +168,3 @@ def orders_of_the_expansion(evidence):
     parts = {f"{name}: error of order {order}": (off[name] < 0.01).all() for order, name in enumerate(_TERMS, start=1)}
     numbers = {f"largest error of the order, {name}": off[name].max() for name in _TERMS}
     return Finding(parts, {"points": len(off["one term"])} | numbers)
-
-
-def _floats(values):
-    return {f"residual of {name}": value for name, value in values.items()}

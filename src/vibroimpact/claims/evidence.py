@@ -1,10 +1,12 @@
-"""What the checks of claims look at: the cases and the tables that the pipeline has written."""
+"""The results of a build that the checks of claims read: the cases and the tables that the pipeline has written."""
 
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
 from vibroimpact.system import System
+from vibroimpact.theory.criteria import fast_and_slow
 
 
 @dataclass(frozen=True, eq=False)
@@ -14,6 +16,11 @@ class Simulation:
     samples: pd.DataFrame
     events: pd.DataFrame
     summary: dict
+
+    @property
+    def impacts(self) -> pd.DataFrame:
+        """The events that are impacts."""
+        return self.events[self.events["kind"] == "impact"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,3 +61,12 @@ class Evidence:
         """Rows of the table of modulation for one quantity, of spread starts or the one from rest."""
         table = self.modulation
         return table[(table["case"] == case) & (table["start"] == start) & (table["quantity"] == quantity)]
+
+    def shares(self, case: str) -> pd.Series:
+        """Share of the spread starts that end in each regime, by its name."""
+        return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]
+
+
+def by_theory(table: pd.DataFrame) -> np.ndarray:
+    """Verdict of the theory on both time scales for every row of a table of criteria, shape (n,)."""
+    return np.array([fast_and_slow(row) for _, row in table.iterrows()])

@@ -1,4 +1,4 @@
-"""What a check says of a claim: a verdict that follows from its parts, and the numbers behind it."""
+"""The finding of a check on a claim: a verdict that follows from its parts, and the numbers behind it."""
 
 from dataclasses import dataclass, field
 
@@ -16,7 +16,7 @@ class Finding:
 
     parts: what the claim asserts, piece by piece: true, false, or None where the text leaves open what it asserts.
     numbers: what was measured, by name.
-    corrected: whether the statement holds with its misprint corrected; None where no correction is at hand.
+    corrected: True if the statement holds with its misprint corrected; None where no correction is at hand.
     """
 
     parts: dict[str, bool | None]
@@ -51,6 +51,6 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the finding on a statement as printed, with whether the corrected one holds beside it."""
+    """Return the finding on a statement as printed, with the verdict on the corrected one beside it."""
     numbers["as corrected"] = HOLDS if corrected else REFUTED
     return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

@@ -17,7 +17,7 @@ FIELDS = ("id", "place", "statement", "check", "refuted_by")
 
 
 def problems(claims: list[dict]) -> list[str]:
-    """What is wrong with a list of claims, a line each: missing or unknown fields, ids given twice, unknown checks."""
+    """Return problems of a list of claims, a line each: missing or unknown fields, ids given twice, unknown checks."""
     found = []
     ids = [claim.get("id") for claim in claims]
     for place, claim in enumerate(claims, start=1):

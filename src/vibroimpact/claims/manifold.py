@@ -63,18 +63,16 @@ def printed_condition(evidence):
     It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q).
     """
     kappa = evidence.system.kappa
-    limit, squared, end = printed_limit(rho(kappa)), limit_with_squares(rho(kappa)), largest_C(kappa)
+    limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
     at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
-    above = np.linspace(limit, end, 500)[1:]
-    stable = np.array([_is_stable(C, kappa) for C in above])
-    below = np.array([_is_stable(C, kappa) for C in np.linspace(0.0, limit, 200)[1:]])
+    stable, below = _stable_above(limit, kappa), _stable(np.linspace(0.0, limit, 200)[1:], kappa)
     parts = {
         "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
         "all motions above it are stable": stable.all(),
     }
     readings = [4 / (4 + np.pi**p * rho(kappa) ** q) for p, q in product(EXPONENTS, repeat=2)]
     at_readings = np.array([_largest_multiplier(C, kappa) for C in readings])
-    right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa) for C in readings]
+    right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa).all() for C in readings]
     numbers = {
         "(10.26)": limit,
         "largest multiplier there": at_limit,
@@ -95,20 +93,20 @@ def _largest_multiplier(C, kappa):
     return np.abs(impact_multipliers(C, kappa)).max()
 
 
-def _is_stable(C, kappa):
-    return _largest_multiplier(C, kappa) < 1
+def _stable(C, kappa):
+    """True where the impact map at C, kappa is stable, arrays (n,) or numbers, shape (n,)."""
+    return np.array([_largest_multiplier(*one) < 1 for one in np.broadcast(C, kappa)])
 
 
 def _stable_above(limit, kappa):
-    """Whether all motions above a limit are stable that stay between the walls."""
-    return all(_is_stable(C, kappa) for C in np.linspace(limit, largest_C(kappa), 500)[1:])
+    """True where motions above a limit that stay between the walls are stable, shape (499,)."""
+    return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
 
 
 def two_branches(evidence):
     """One stable and one unstable branch: stability changes once along the curve."""
     kappa = evidence.system.kappa
-    C = np.linspace(0.0, largest_C(kappa), 4001)[1:]
-    stable = np.array([_is_stable(c, kappa) for c in C])
+    stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
     changes = int(np.sum(stable[1:] != stable[:-1]))
     return Finding({"stability changes once": changes == 1}, {"changes": changes})
 
@@ -118,7 +116,7 @@ def right_arm_is_stable(evidence):
     kappa = evidence.system.kappa
     fold, end = lower_limit(kappa), largest_C(kappa)
     C = np.linspace(fold, end, 2002)[1:-1]
-    stable = np.array([_is_stable(c, kappa) for c in C])
+    stable = _stable(C, kappa)
     parts = {"just right of the fold": stable[0], "all the way": stable.all()}
     return Finding(parts, {"stable up to C": C[stable].max(), "stable share of the arm": stable.mean()})
 
@@ -127,10 +125,10 @@ def left_arm_has_a_stable_piece(evidence):
     """The left arm, and its piece right of (10.26) above all."""
     kappa = evidence.system.kappa
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
-    piece = [_is_stable(C, kappa) for C in np.linspace(limit, fold, 502)[1:-1]]
-    arm = [_is_stable(C, kappa) for C in np.linspace(0, fold, 2002)[1:-1]]
-    numbers = {"from": limit, "to": fold, "stable share of the piece": np.mean(piece)}
-    return Finding({"a piece of the left arm is stable": any(piece) or any(arm)}, numbers)
+    piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
+    arm = _stable(np.linspace(0, fold, 2002)[1:-1], kappa)
+    numbers = {"from": limit, "to": fold, "stable share of the piece": piece.mean()}
+    return Finding({"a piece of the left arm is stable": piece.any() or arm.any()}, numbers)
 
 
 def stability_regions(evidence):
@@ -138,10 +136,9 @@ def stability_regions(evidence):
 
     The border itself is drawn below the curve C_min(kappa) throughout.
     """
-    inside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) < C]
-    outside = [(k, C) for k in KAPPAS for C in np.linspace(0.5, 1.1, 61) if printed_limit(rho(k)) > C]
-    shaded = np.mean([_is_stable(C, k) for k, C in inside])
-    white = np.mean([not _is_stable(C, k) for k, C in outside])
+    kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
+    border, stable = printed_limit(rho(kappa)), _stable(C, kappa)
+    shaded, white = stable[border < C].mean(), (~stable[border > C]).mean()
     gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
     parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1, "border below C_min": (gap > 0).all()}
     numbers = {"stable share of the shaded": shaded, "unstable share of the white": white}

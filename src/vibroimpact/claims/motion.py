@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from vibroimpact.claims.evidence import by_theory
 from vibroimpact.claims.finding import Finding
 from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.search import orbits
@@ -11,7 +12,6 @@ from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
-from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.fixed_points.search import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
@@ -46,7 +46,7 @@ def steady_two_impacts(evidence, case):
     cycles = simulation.summary["settings"]["window_cycles"]
     change = simulation.summary["largest_change_after_cycles"]["1"]
     counts = [simulation.summary["events"]["impact"][str(module)] for module in (1, 2)]
-    impacts = _impacts(simulation)
+    impacts = simulation.impacts
     alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
     parts = {
         "repeats every cycle": change < 1e-6,
@@ -56,14 +56,11 @@ def steady_two_impacts(evidence, case):
     return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})
 
 
-def _impacts(simulation):
-    return simulation.events[simulation.events["kind"] == "impact"]
-
-
 def numerical_results_are_similar(evidence, case, label):
     """A simulated response against the predicted one: amplitudes C and B, and the symmetry that the prediction has."""
     row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
-    measured = _measured(evidence.systems[case], simulation)
+    tau, displacements = (simulation.samples.iloc[:-1][names].to_numpy() for names in ("tau", DISPLACEMENTS))
+    measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
     predicted = {name: row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B")}
     off = {name: np.abs(getattr(measured, name) / value - 1) for name, value in predicted.items()}
     lean = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
@@ -78,12 +75,6 @@ def numerical_results_are_similar(evidence, case, label):
     return Finding(parts, numbers)
 
 
-def _measured(system, simulation):
-    """Slow variables of a simulated window."""
-    whole = simulation.samples.iloc[:-1]
-    return measure(system, whole["tau"].to_numpy(), whole[DISPLACEMENTS].to_numpy(), _impacts(simulation))
-
-
 def transients_are_long(evidence, case):
     """Cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
     motions = evidence.motions(case)
@@ -94,7 +85,7 @@ def transients_are_long(evidence, case):
 
 def only_possible_behaviour(evidence, case):
     """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest."""
-    shares = evidence.measured(case, "spread", "share of starts").set_index("regime")["mean"]
+    shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
     motions = evidence.motions(case)
     parts = {
@@ -140,40 +131,35 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """From case to case: fixed points stable by the theory and in truth, and where the last motion ends."""
+    """From case to case: fixed points stable by theory and by their exact orbits, and where the last motion ends."""
     points = [evidence.points(case) for case in sequence]
-    by_theory = [sum(fast_and_slow(row) == STABLE for _, row in rows.iterrows()) for rows in points]
+    in_theory = [int((by_theory(rows) == STABLE).sum()) for rows in points]
     in_truth = [int((rows["floquet"] == STABLE).sum()) for rows in points]
     others = [int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in sequence]
-    share = _modulated_share(evidence, sequence[-1])
+    share = evidence.shares(sequence[-1]).get(STRONGLY_MODULATED, 0.0)
     parts = {
-        "a stable fixed point at first, by theory": by_theory[0] > 0,
+        "a stable fixed point at first, by theory": in_theory[0] > 0,
         "a stable fixed point at first, in truth": in_truth[0] > 0,
-        "none at last": by_theory[-1] == in_truth[-1] == 0,
+        "none at last": in_theory[-1] == in_truth[-1] == 0,
         "modulated response at last": share > 0,
     }
-    numbers = {"stable by theory": by_theory, "stable in truth": in_truth, "stable 1:1 orbits of any kind": others}
+    numbers = {"stable by theory": in_theory, "stable in truth": in_truth, "stable 1:1 orbits of any kind": others}
     return Finding(parts, numbers | {"modulated share at last": share})
 
 
 def unstable_means_modulated(evidence, case):
-    """The unstable case: its fixed points are unstable in truth, and spread starts end modulated.
+    """The unstable case: the exact orbits of its fixed points are unstable, and spread starts end modulated.
 
     The chapter does not say it of every case; the shares of all cases without a stable fixed point stand beside.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["floquet"] == UNSTABLE).all()]
-    shares = {name: _modulated_share(evidence, name) for name in unstable}
+    shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (*unstable, case)}
     parts = {
         "its fixed points are unstable": case in unstable,
-        "strongly modulated from all spread starts": _modulated_share(evidence, case) == 1,
+        "strongly modulated from all spread starts": shares[case] == 1,
     }
-    return Finding(parts, {f"modulated share, {name}": share for name, share in shares.items()})
-
-
-def _modulated_share(evidence, case):
-    shares = evidence.measured(case, "spread", "share of starts").set_index("regime")["mean"]
-    return shares.get(STRONGLY_MODULATED, 0.0)
+    return Finding(parts, {f"modulated share, {name}": shares[name] for name in unstable})
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):
@@ -213,7 +199,7 @@ def assesses_stability(evidence):
 
     Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable.
     """
-    grid = evidence.verdict_grid.assign(theory=[fast_and_slow(row) for _, row in evidence.verdict_grid.iterrows()])
+    grid = evidence.verdict_grid.assign(theory=by_theory(evidence.verdict_grid))
     judged = grid[grid["floquet"].isin(SAYINGS)]
     parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["floquet"] == NO_ORBIT).sum())}
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
@@ -228,8 +214,7 @@ def assesses_stability(evidence):
     points = evidence.fixed_points
     numbers["of the chapter's points"] = len(points)
     numbers["right by (10.26)"] = int((points["printed_10_26"] == points["floquet"]).sum())
-    both = np.array([fast_and_slow(row) for _, row in points.iterrows()])
-    numbers["right by fast and slow"] = int((both == points["floquet"]).sum())
+    numbers["right by fast and slow"] = int((by_theory(points) == points["floquet"]).sum())
     return Finding(parts, numbers)
 
 
@@ -253,7 +238,7 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Fixed points at equal forces, and whether each is the limit of an exact orbit, and there are no more of these."""
+    """Fixed points at equal forces, and True if they are the limits of exact orbits, with no orbit left over."""
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -1,4 +1,4 @@
-"""What interval arithmetic proves of every exact orbit of a case, beside what floats say in verdict_table.py."""
+"""Proofs by interval arithmetic for every exact orbit of a case; verdict_table.py has the verdicts by floats."""
 
 import pandas as pd
 
@@ -19,7 +19,7 @@ def proof_rows(orbits) -> pd.DataFrame:
 
 
 def counts(table: pd.DataFrame) -> dict:
-    """How many orbits of a table are listed, and of how many existence, motion and verdict are proved.
+    """Count the orbits of a table, and those whose existence, motion and verdict are proved.
 
     Stable ones count if their motion is proved legal too.
     """

@@ -5,6 +5,7 @@ from itertools import permutations
 import numpy as np
 from scipy.optimize import brentq
 
+from vibroimpact.claims.evidence import by_theory
 from vibroimpact.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.criteria import fast_and_slow
@@ -30,7 +31,7 @@ CAPTIONS = {
     "unequal": {"a": UNSTABLE, "b": UNSTABLE, "c": STABLE},
     "weak": {"a": UNSTABLE},
 }
-"""What the captions of Figs. 10.6, 10.9 and 10.10 call each fixed point."""
+"""Stability of each fixed point by the captions of Figs. 10.6, 10.9 and 10.10."""
 STEPS = 111
 """Of the second amplitude, along which a fixed point is followed from one case to another."""
 
@@ -55,7 +56,7 @@ def phases_can_be_eliminated(evidence):
 
 
 def label_of_a_point(evidence, case, label, says):
-    """What a caption calls a point: against the theory with both time scales, and against its exact orbit."""
+    """A caption's verdict on a point: against the theory with both time scales, and against its exact orbit."""
     row = evidence.points(case).loc[label]
     said = fast_and_slow(row)
     parts = {
@@ -67,7 +68,7 @@ def label_of_a_point(evidence, case, label, says):
 
 
 def stable_points(evidence, case, number):
-    """How many fixed points of a case are stable: by each criterion of the theory, and in truth.
+    """The number of stable fixed points of a case: by each criterion of the theory, and by their exact orbits.
 
     The fast criterion, derived, is what the chapter means: stability of the impacts with B and phase held. It is held
     against the captions too.
@@ -76,7 +77,7 @@ def stable_points(evidence, case, number):
     counts = {
         "by the derived fast criterion": int((points["masri_derived"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
-        "by theory, fast and slow": sum(fast_and_slow(row) == STABLE for _, row in points.iterrows()),
+        "by theory, fast and slow": int((by_theory(points) == STABLE).sum()),
         "in truth": int((points["floquet"] == STABLE).sum()),
     }
     right = {name: _captions_right(evidence.points(name)["masri_derived"], name) for name in CAPTIONS}
@@ -87,7 +88,7 @@ def stable_points(evidence, case, number):
 
 
 def _captions_right(verdicts, case):
-    """How many captions of a case say of a point what its verdict, by label, says."""
+    """Number of a case's captions that agree with the verdicts on its points, by label."""
     return sum(verdicts.get(label) == said for label, said in CAPTIONS[case].items())
 
 

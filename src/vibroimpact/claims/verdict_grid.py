@@ -17,8 +17,8 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     """A row per fixed point and epsilon, for forces at the centres of points x points cells.
 
     Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
-    theory, admissible (whether its exact orbit stays between the walls) and floquet: the verdict on that orbit,
-    "no orbit" where there is none (see `companion_verdicts.partners`).
+    theory, admissible (True if its exact orbit stays between the walls) and floquet: the verdict on that orbit,
+    "no orbit" where there is none (see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -47,6 +47,6 @@ def exact_orbits(system, points, roots):
 
 
 def exact_verdicts(system, points, roots):
-    """What is true of the orbit of each fixed point: "admissible" and "floquet", as in `compute`."""
+    """Yield "admissible" and "floquet" of the orbit of each fixed point, as in `compute`."""
     for orbit in exact_orbits(system, points, roots):
         yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, "floquet": floquet(orbit)}

@@ -13,24 +13,10 @@ NO_ORBIT = "no orbit"
 REACH = 1.0
 """An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
 next are above 2.5, where the orbits next to two fixed points have merged."""
-_SIDES = [(module, wall) for module in (1, 2) for wall in ("plus", "minus")]
-_PHASES = [f"phase{module}_{wall}" for module, wall in _SIDES]
-_SPEEDS = [f"speed{module}_{wall}" for module, wall in _SIDES]
-_MODULI = [f"modulus_{k}" for k in range(1, 9)]
-_OF_ORBIT = [
-    "case",
-    "label",
-    "symmetric",
-    "admissible",
-    "C1",
-    "C2",
-    *_PHASES,
-    *_SPEEDS,
-    *_MODULI,
-    *NAMES,
-    "residual",
-    *CRITERIA,
-]
+_SIDES = [f"{module}_{wall}" for module in (1, 2) for wall in ("plus", "minus")]
+_NUMBERS = [*(f"phase{side}" for side in _SIDES), *(f"speed{side}" for side in _SIDES)]
+_NUMBERS += [*(f"modulus_{k}" for k in range(1, 9)), *NAMES, "residual"]
+_OF_ORBIT = ["case", "label", "symmetric", "admissible", "C1", "C2", *_NUMBERS, *CRITERIA]
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:

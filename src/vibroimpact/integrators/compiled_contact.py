@@ -31,7 +31,7 @@ def acceleration(tau, s, q, walls, i):
 
 @inlined()
 def guard(tau, s, q, walls, i):
-    """What falls below zero at the next event of module i: its gap, or the push on a ball that sticks."""
+    """Function that falls below zero at the next event of module i: its gap, or the push on a ball that sticks."""
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
     return 1.0 - abs(s[2 * i] - s[2 * i + 1])

@@ -41,7 +41,7 @@ def _impacts(run):
 
 
 def _doubt(run):
-    """What the certificate of a run leaves open, in words."""
+    """Return the doubt that a run's certificate leaves, in words, or None."""
     certificate = run.certificate
     if certificate.horizon < run.tau0 + run.cycles * run.system.period:
         return f"known up to tau = {certificate.horizon:.6g}"

@@ -75,7 +75,7 @@ def right_hand_side(numbers, stuck=(False, False)):
 
 
 class _Flight:
-    """Where an integrator stopped; module: whose event stopped it, or None at the end; failure: outcome or None."""
+    """End of a flight. module: the one whose event ended it, or None at the end; failure: outcome or None."""
 
     def __init__(self, tau, state, steps, module, failure):
         self.tau, self.state, self.steps, self.module, self.failure = tau, state, steps, module, failure

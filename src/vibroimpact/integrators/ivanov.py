@@ -34,7 +34,7 @@ class Ivanov(Method):
     """Steps of equal length in Ivanov's coordinates, setting: steps per cycle.
 
     Args:
-        located: whether a step ends where the right-hand side jumps.
+        located: True if a step ends where the right-hand side jumps.
     """
 
     family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
@@ -118,7 +118,7 @@ def _look(z, boxes, ways):
 
 @kept()
 def _impact(tau, i, box, way, speed, k):
-    """What the protocol says of running out of a box."""
+    """The row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * way, (1.0 + k) * abs(speed)
 
 
@@ -184,7 +184,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
 
 @kept()
 def _beyond(z, boxes, ways):
-    """Also where the step is so long that R vanishes on the way and the coordinates are no numbers."""
+    """True if the right-hand side should have jumped, or a step so long that R vanishes has left no numbers."""
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, ways)
@@ -194,7 +194,7 @@ def _beyond(z, boxes, ways):
 
 @kept()
 def _ahead_of(z, i, boxes, ways):
-    """How far the next wall is, and the size of v: negative once the right-hand side should have jumped."""
+    """Distance of the next wall, and the size of v: negative once the right-hand side should have jumped."""
     return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
 
 

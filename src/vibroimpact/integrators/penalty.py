@@ -151,7 +151,7 @@ def _step(stages, tau, s, h, q, law, dampings):
 
 @kept()
 def _reach(s, i, law):
-    """How far beyond the beginning of contact ball i is."""
+    """Depth of ball i beyond the beginning of contact; negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 

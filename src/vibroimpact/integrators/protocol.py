@@ -30,7 +30,7 @@ class MethodRun:
     evaluations: evaluations of the right-hand side, where the method counts them, else 0; failure: None, or why there
     is no result; doubt(): None, or what the method itself says that it cannot decide about the result it gives.
 
-    What is asked after the run, `impacts` and doubt(), whoever times the run does not time.
+    `impacts` and doubt() are evaluated after the run, so that its time does not include them.
     """
 
     final: np.ndarray | None
@@ -42,7 +42,7 @@ class MethodRun:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """What was noted as one table, (n,) IMPACT."""
+        """The noted impacts as one table, (n,) IMPACT."""
         rows = self.noted() if callable(self.noted) else self.noted
         return np.array([tuple(row) for row in rows], IMPACT)
 

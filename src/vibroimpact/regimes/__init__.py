@@ -1,1 +1,1 @@
-"""What the system does: recognising regimes, continuation, maps, measures of modulation."""
+"""Regimes of the motion: recognition, continuation, basins, measures of modulation."""

@@ -1,4 +1,4 @@
-"""Basins of coexisting regimes on a plane of starts: where in their cavities the balls begin."""
+"""Basins of coexisting regimes on a plane of starts: the positions of both balls in their cavities."""
 
 import numpy as np
 

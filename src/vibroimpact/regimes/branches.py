@@ -53,7 +53,7 @@ class Branch:
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Pieces between special points, both included, each with a node from its inside, which speaks for all."""
+        """Pieces between special points, both included, each with an inner node, whose stability is that of all."""
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
         for a, b in pairwise([0, *cuts, len(self.nodes) - 1]):
@@ -136,7 +136,7 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _meets_mirror_image(path, before, after):
-    """Whether an asymmetric branch has just passed the symmetric orbit that it springs from."""
+    """True if an asymmetric branch has just passed the symmetric orbit that it springs from."""
     lean = [flight_fractions(path(z[-1]), z[:-1]) - 0.5 for z in (before, after)]
     return lean[0] @ lean[1] < 0
 
@@ -160,7 +160,7 @@ def _crossings(family, path, curve, before, after):
 
 
 def _passes(branch, path, p, root):
-    """Whether a root at p lies on the branch."""
+    """True if a root at p lies on the branch."""
     for (p0, x0), (p1, x1) in pairwise((node.p, node.x) for node in branch.nodes):
         if p0 != p1 and min(p0, p1) <= p <= max(p0, p1):
             chord = x1 - x0
@@ -180,7 +180,7 @@ def _polished(family, system, x):
 
 
 def same_root(family, system, x, root) -> bool:
-    """Whether two roots of a family are one, times compared on their circle."""
+    """True if two roots of a family are one, times compared on their circle."""
     gap, turn = x - root, family.turn(system)
     gap[family.angles] -= turn * np.rint(gap[family.angles] / turn)
     return bool(np.abs(gap).max() < _SAME)

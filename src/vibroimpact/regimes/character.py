@@ -1,12 +1,11 @@
-"""What a motion that does not repeat is called: by its Lyapunov exponent, its time in resonance, and its recurrence."""
+"""Name motions that do not repeat: by Lyapunov exponent, time in resonance, and recurrence."""
 
 import numpy as np
 
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
 from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
-from vibroimpact.regimes.modulation import bursts
-from vibroimpact.system.state import IMPACT
+from vibroimpact.regimes.modulation import bursts_in
 
 CERTAIN = 3.0
 """So many standard errors are counted as the uncertainty of an exponent."""
@@ -19,7 +18,7 @@ RESONANT = (0.1, 0.9)
 DISCARDED = 1
 """Blocks before those that count."""
 LONGER = 10
-"""How many times longer the second look at an exponent is, where the first leaves its sign open."""
+"""Factor by which the second estimate of an exponent is longer, where the first leaves its sign open."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
@@ -41,10 +40,9 @@ def character(run: Run, blocks: int, block: int) -> str:
     Args:
         blocks, block: of the exponent, so many blocks of so many cycles.
     """
-    exponent = largest_exponent(run.system, run.final, blocks, block, DISCARDED)
-    if sign(exponent) != POSITIVE:
-        exponent = largest_exponent(run.system, run.final, blocks, LONGER * block, DISCARDED)
-    found = sign(exponent)
+    found = sign(largest_exponent(run.system, run.final, blocks, block, DISCARDED))
+    if found != POSITIVE:
+        found = sign(largest_exponent(run.system, run.final, blocks, LONGER * block, DISCARDED))
     if found == ZERO and not recurs(run.system, run.final, LONGER * blocks * block):
         return UNSETTLED
     return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
@@ -59,7 +57,10 @@ def sign(exponent: Exponent) -> str:
 
 
 def resonance(shares) -> str:
-    """When modules are in resonance, from the part of the time of each, shape (2,): one that comes and goes decides."""
+    """NEVER, AT_TIMES or ALWAYS, from the part of the time that each module is in resonance, shape (2,).
+
+    A module that comes and goes decides.
+    """
     low, high = RESONANT
     shares = np.asarray(shares)
     if ((low <= shares) & (shares <= high)).any():
@@ -69,15 +70,12 @@ def resonance(shares) -> str:
 
 def resonant_shares(run: Run) -> np.ndarray:
     """Part of the time that each module is in bursts of resonance, shape (2,)."""
-    shares = np.zeros(2)
-    for module in (1, 2):
-        mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
-        shares[module - 1] = np.diff(bursts(mine["tau"], mine["wall"], run.system.period)).sum()
-    return shares / (run.cycles * run.system.period)
+    resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
+    return resonant / (run.cycles * run.system.period)
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Whether a motion is near its start again in the second half of so many cycles; a decaying one is not."""
+    """True if a motion is near its start again in the second half of so many cycles; a decaying one is not."""
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)

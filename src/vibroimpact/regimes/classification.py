@@ -76,7 +76,7 @@ def observe(system, state, window: int, nearness: float) -> Regime:
     unsettled here (see `settling`).
     """
     run = _window(system, state, window)
-    if not _idle(run):
+    if not _at_rest(run).any():
         repeats = repeats_after(run.samples[:, :4], _PER_CYCLE, nearness)
         cycle = None if repeats is None else attracting_cycle(system, run.final, repeats, reach=10 * nearness)
         if cycle is None:
@@ -119,7 +119,7 @@ def classify(run: Run) -> tuple[str, int | None]:
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
-    at_rest = ~run.samples[:, [5, 7]].any(axis=0)
+    at_rest = _at_rest(run)
     if at_rest.all():
         return (UNSETTLED if repeats is None else NO_IMPACTS), repeats
     if at_rest.any():
@@ -137,9 +137,9 @@ def _window(system, state, cycles):
     return simulate(system, state, cycles, sample_times=times)
 
 
-def _idle(run):
-    """Whether one of the balls is at rest at all samples."""
-    return bool((~run.samples[:, [5, 7]].any(axis=0)).any())
+def _at_rest(run):
+    """True for each ball that is at rest at all samples, shape (2,)."""
+    return ~run.samples[:, [5, 7]].any(axis=0)
 
 
 def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
@@ -156,7 +156,7 @@ def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
 
 
 def _two_impacts(run):
-    """Whether each ball meets each wall once a cycle, but for an impact on the edge of the window."""
+    """True if each ball meets each wall once a cycle, but for an impact on the edge of the window."""
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in (1, 2) for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

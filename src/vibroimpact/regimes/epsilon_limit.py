@@ -71,7 +71,7 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def first_order(system, point, step: float, response=impulse_response) -> np.ndarray:
-    """What the second term of (10.7) adds to a fixed point, per epsilon: C and impact phases [rad], (4,).
+    """Return the second term of (10.7) at a fixed point, per epsilon: C and impact phases [rad], (4,).
 
     The derivative of the exact orbit by epsilon at 0: the conditions of the orbit are solved from the fixed point.
 
@@ -107,9 +107,9 @@ def order(epsilon, errors) -> tuple[float, float]:
         raise ValueError(f"epsilon: an order needs at least 2 points, got {len(epsilon)}")
     if len(epsilon) == 2:
         return float(np.diff(np.log(errors))[0] / np.diff(np.log(epsilon))[0]), np.nan
-    (slope, _), covariance = np.polyfit(np.log(epsilon), np.log(errors), 1, cov="unscaled")
-    residual = np.log(errors) - np.polyval(np.polyfit(np.log(epsilon), np.log(errors), 1), np.log(epsilon))
-    return float(slope), float(np.sqrt(covariance[0, 0] * np.sum(residual**2) / (len(epsilon) - 2)))
+    fit, covariance = np.polyfit(np.log(epsilon), np.log(errors), 1, cov="unscaled")
+    residual = np.log(errors) - np.polyval(fit, np.log(epsilon))
+    return float(fit[0]), float(np.sqrt(covariance[0, 0] * np.sum(residual**2) / (len(epsilon) - 2)))
 
 
 def _nearest(system, point):

@@ -30,6 +30,7 @@ class SymmetricOrbits:
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
 
     name, angles = "symmetric orbit", slice(0, 2)
+    _conditions, _orbit = SymmetricConditions, staticmethod(symmetric_orbit)
 
     @staticmethod
     def turn(system) -> float:
@@ -46,51 +47,46 @@ class SymmetricOrbits:
         """Roots that are the same motion or its mirror image."""
         return [x]
 
-    @staticmethod
-    def equations(system, x):
-        """Residual (4,) and Jacobian (4, 4)."""
-        residual, jacobian = SymmetricConditions(system)(x[None])
+    @classmethod
+    def equations(cls, system, x):
+        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,)."""
+        residual, jacobian = cls._conditions(system)(x[None])
         return residual[0], jacobian[0]
 
-    @staticmethod
-    def speed(x) -> float:
-        """What vanishes with the least ball speed."""
-        return x[2:].min()
+    @classmethod
+    def speed(cls, x) -> float:
+        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        return x[cls.angles.stop :].min()
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
         return x[2:]
 
-    @staticmethod
-    def member(system, x):
-        """The Orbit that a root stands for."""
-        return symmetric_orbit(system, _in_first_period(x, system.period, 2))
+    @classmethod
+    def member(cls, system, x):
+        """The Orbit of a root, its impact times brought into the first period."""
+        times = cls.angles.stop
+        return cls._orbit(system, np.concatenate([wrapped(x[:times], system.period), x[times:]]))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
         """Functions that vanish at special points, by name."""
-        half = half_period_multipliers(orbit)
-        return {
-            FOLD: _product(1 - half),
-            SYMMETRY_BREAKING: _product(1 + half),
-            NEIMARK_SACKER: _pairs(half),
-            GRAZING: 1 - orbit.excursion,
-        }
+        return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING, orbit)
 
     @staticmethod
     def stable(system, orbit) -> bool:
-        """Whether all multipliers are inside the unit circle."""
+        """True if all multipliers are inside the unit circle."""
         return bool(abs(orbit.multipliers[0]) < 1)
 
     @staticmethod
     def admissible(orbit) -> bool:
-        """Whether it is a motion of the system."""
+        """True if the orbit is a motion of the system."""
         return orbit.admissible
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Whether a zero is what its name says: a pair on the unit circle must be complex."""
+        """True if a zero is what its name says: a pair on the unit circle must be complex."""
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
@@ -99,6 +95,7 @@ class AsymmetricOrbits(SymmetricOrbits):
     """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
 
     name, angles = "asymmetric orbit", slice(0, 4)
+    _conditions, _orbit = AsymmetricConditions, staticmethod(asymmetric_orbit)
 
     @staticmethod
     def roots(system) -> np.ndarray:
@@ -111,37 +108,15 @@ class AsymmetricOrbits(SymmetricOrbits):
         return [x, np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])]
 
     @staticmethod
-    def equations(system, x):
-        """Residual (6,) and Jacobian (6, 6)."""
-        residual, jacobian = AsymmetricConditions(system)(x[None])
-        return residual[0], jacobian[0]
-
-    @staticmethod
-    def speed(x) -> float:
-        """What vanishes with the least ball speed."""
-        return x[4:].min()
-
-    @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
         u = flight_fractions(system, x)
         return sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
 
     @staticmethod
-    def member(system, x):
-        """The Orbit that a root stands for."""
-        return asymmetric_orbit(system, _in_first_period(x, system.period, 4))
-
-    @staticmethod
     def tests(system, orbit) -> dict[str, float]:
         """Functions that vanish at special points, by name."""
-        mu = orbit.multipliers
-        return {
-            FOLD: _product(1 - mu),
-            PERIOD_DOUBLING: _product(1 + mu),
-            NEIMARK_SACKER: _pairs(mu),
-            GRAZING: 1 - orbit.excursion,
-        }
+        return _tests(orbit.multipliers, PERIOD_DOUBLING, orbit)
 
 
 class FixedPoints:
@@ -173,7 +148,7 @@ class FixedPoints:
 
     @staticmethod
     def speed(x) -> float:
-        """What vanishes with the least ball speed."""
+        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
         return x[0::2].min()
 
     @staticmethod
@@ -183,7 +158,7 @@ class FixedPoints:
 
     @staticmethod
     def member(system, x):
-        """The FixedPoint that a root stands for."""
+        """The FixedPoint of a root."""
         C, psi = x[0::2], x[1::2]
         values = slow_eigenvalues(system, psi, C)
         return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
@@ -207,18 +182,18 @@ class FixedPoints:
 
     @staticmethod
     def stable(system, point) -> bool:
-        """Whether slow flow and impact map both say so."""
+        """True if slow flow and impact map are both stable."""
         fast = (C_min(rho(system.kappa)) < point.C) & (point.C < SYMMETRY_BREAKING_C)
         return bool(fast.all() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod
     def admissible(point) -> bool:
-        """All of them are shown."""
+        """True: all fixed points are shown."""
         return True
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Whether a zero is what its name says: a pair on the imaginary axis must be complex."""
+        """True if a zero is what its name says: a pair on the imaginary axis must be complex."""
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
@@ -231,13 +206,8 @@ def flight_fractions(system, x) -> np.ndarray:
     return wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
 
 
-def _in_first_period(x, period, count):
-    return np.concatenate([wrapped(x[:count], period), x[count:]])
-
-
-def _product(factors):
-    return float(np.prod(factors).real)
-
-
-def _pairs(multipliers):
-    return _product(np.array([1 - a * b for a, b in combinations(multipliers, 2)]))
+def _tests(mu, at_minus_one, orbit):
+    """Functions of an orbit's multipliers mu and of its excursion; `at_minus_one`: the name of the point at mu = -1."""
+    found = {FOLD: 1 - mu, at_minus_one: 1 + mu}
+    found[NEIMARK_SACKER] = np.array([1 - a * b for a, b in combinations(mu, 2)])
+    return {name: float(np.prod(factors).real) for name, factors in found.items()} | {GRAZING: 1 - orbit.excursion}

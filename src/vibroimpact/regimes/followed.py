@@ -1,4 +1,4 @@
-"""Stable asymmetric orbits and what becomes of them as a parameter moves from value to value."""
+"""Follow stable asymmetric orbits as a parameter moves from value to value."""
 
 from collections.abc import Iterator
 
@@ -48,7 +48,7 @@ def _stable(system):
 
 
 def _known(x, roots, system):
-    """Whether a root or its mirror image is among others."""
+    """True if a root or its mirror image is among others."""
     images = AsymmetricOrbits.images(system, x)
     return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
 

@@ -1,4 +1,4 @@
-"""The levels from leading order to the exact orbit: what each says of the symmetric motions, and what it costs.
+"""The levels from leading order to the exact orbit: symmetric motions by each, and their cost.
 
 Levels, in order: leading order; two terms; N harmonics of the boxes' centre coordinate U_i at finite epsilon
 (`exact.orbits.harmonics`); exact. The cost is counted, not timed: how many terms of the boxes' response are summed
@@ -25,7 +25,7 @@ _TAYLOR_TERMS = 6
 
 
 class Level(NamedTuple):
-    """What a level says of a system.
+    """The motions that a level finds in a system.
 
     C: (n, 2) of its motions; verdicts: on each, none by harmonics; cost: terms summed.
     """
@@ -36,7 +36,7 @@ class Level(NamedTuple):
 
 
 class _Counted:
-    """A response of the boxes that counts how often it is asked."""
+    """A response of the boxes that counts its evaluations."""
 
     def __init__(self, response):
         self._response, self.asked = response, 0
@@ -74,7 +74,7 @@ def of_harmonics(system, highest: int, free_mass: bool) -> Level:
 
 
 def error(C: np.ndarray, exact: np.ndarray) -> float:
-    """How wrong C (n, 2) of a level's motions is against (m, 2): the largest relative error; nan if n is not m."""
+    """Largest relative error of a level's C (n, 2) against the exact (m, 2); nan if n is not m."""
     if len(C) != len(exact):
         return np.nan
     if not len(C):

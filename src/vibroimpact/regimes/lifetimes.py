@@ -1,4 +1,4 @@
-"""How long chaos lives that starts leave for a periodic motion: the censored estimate of a mean life."""
+"""Mean lifetime of a chaotic transient that ends in a periodic motion: a censored estimate."""
 
 from dataclasses import dataclass
 
@@ -81,6 +81,6 @@ def bracket(values, escapes) -> tuple[float, float]:
 
 
 def _staying(system, states, step, window, nearness):
-    """Where those starts are after a step that no periodic motion has caught."""
+    """States after a step (k, 8) of the starts that no periodic motion has caught."""
     ends = finals(system, states, step)
     return [state for state in ends if observe(system, state, window, nearness).name == UNSETTLED]

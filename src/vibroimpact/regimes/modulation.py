@@ -1,4 +1,4 @@
-"""Measures of a modulated response."""
+"""Measures of a modulated response: amplitudes cycle by cycle, their variation, bursts of resonance."""
 
 import numpy as np
 
@@ -69,13 +69,19 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
     return np.stack([tau[first[long]], tau[last[long]]], axis=1)
 
 
+def bursts_in(run: Run, module: int) -> np.ndarray:
+    """Resonant bursts of a module's ball in a run: start and end time of each, shape (b, 2)."""
+    mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
+    return bursts(mine["tau"], mine["wall"], run.system.period)
+
+
 def sampled(system, state, cycles: int) -> Run:
     """So many cycles from a state at a cycle's start, with PER_CYCLE samples in each and one at the end."""
     return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
 
 
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
-    """What a modulated motion is like, by (quantity, module), over so many cycles from a state at a cycle's start.
+    """Return measures of a modulated motion by (quantity, module), over so many cycles from a state at a cycle's start.
 
     amplitude variation: of the box cycle by cycle (see `variation`). impacts per cycle; sticks per 1000 cycles.
     resonant share: part of the time within bursts (see `bursts`). burst length [cycles]: mean, nan if there are none.
@@ -84,13 +90,12 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
     found = {}
     for module in (1, 2):
         mine = run.events[run.events["module"] == module]
-        impacts, sticks = mine[mine["kind"] == IMPACT], mine[mine["kind"] == STICK]
         amplitudes = cycle_amplitudes(run.samples[:, 2 * module - 2], PER_CYCLE)
-        lengths = np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
+        lengths = np.diff(bursts_in(run, module), axis=1)[:, 0] / system.period
         found |= {
             ("amplitude variation", module): variation(amplitudes),
-            ("impacts per cycle", module): len(impacts) / cycles,
-            ("sticks per 1000 cycles", module): 1000 * len(sticks) / cycles,
+            ("impacts per cycle", module): np.count_nonzero(mine["kind"] == IMPACT) / cycles,
+            ("sticks per 1000 cycles", module): 1000 * np.count_nonzero(mine["kind"] == STICK) / cycles,
             ("resonant share", module): float(lengths.sum() / cycles),
             ("burst length", module): float(lengths.mean()) if len(lengths) else np.nan,
         }
@@ -99,9 +104,7 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 def burst_lengths(system, state, cycles: int, module: int) -> np.ndarray:
     """Lengths in cycles, shape (b,), of the bursts of a module's ball over so many from a state at a cycle's start."""
-    events = simulate(system, state, cycles).events
-    impacts = events[(events["module"] == module) & (events["kind"] == IMPACT)]
-    return np.diff(bursts(impacts["tau"], impacts["wall"], system.period), axis=1)[:, 0] / system.period
+    return np.diff(bursts_in(simulate(system, state, cycles), module), axis=1)[:, 0] / system.period
 
 
 def mean_and_error(values) -> tuple[float, float, int]:

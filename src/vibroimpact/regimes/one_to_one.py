@@ -1,4 +1,4 @@
-"""What the symmetric 1:1 responses of a system amount to, by the theory and exact."""
+"""Largest displacements and impact shares of the symmetric 1:1 responses: by the theory, and exact."""
 
 from dataclasses import dataclass
 
@@ -15,10 +15,10 @@ SAMPLES = 512
 
 @dataclass(frozen=True, eq=False)
 class Amounts:
-    """What a response amounts to.
+    """Summary of a response.
 
-    largest: (2,), the largest |X_i|. impact_share: what impacts take of the work of the forces. stable: by slow flow
-    and impact map, or by all multipliers.
+    largest: (2,), the largest |X_i|. impact_share: part of the work of the forces that impacts dissipate.
+    stable: by slow flow and impact map, or by all multipliers.
     """
 
     largest: np.ndarray

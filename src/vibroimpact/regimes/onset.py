@@ -1,4 +1,4 @@
-"""At which forces along a path the response is modulated: what the slow flow predicts, and what starts end in."""
+"""Forces along a path at which the response is modulated: predicted by the slow flow, and observed in simulations."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ _FOLLOWED = 300, 300
 
 
 def predicted(path, values) -> np.ndarray:
-    """Whether the slow flow takes a ball in and out of resonance for good, see `theory.relaxation`, shape (n,).
+    """True where the slow flow takes a ball in and out of resonance for good, see `theory.relaxation`, shape (n,).
 
     Args:
         path: value -> system, along forces alone. values: (n,).
@@ -24,7 +24,11 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Whether a start at each of the values (n,) ends in a modulated or chaotic response, of starts at p named so."""
+    """True where a start ends in a modulated or chaotic response, shape (n,).
+
+    Args:
+        values: (n,). p, names: parameter and regime of each start.
+    """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
@@ -39,7 +43,7 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Where along a path modulated responses are, by both, and at what part of its values both say the same.
+    """Return the range of modulated responses along a path, by slow flow and simulation, and the share of agreement.
 
     Args:
         path, values: as for `predicted`, values evenly spaced. p, names: where starts are, and what they end in.

@@ -1,4 +1,7 @@
-"""Which regime each start ends in: rounds until it repeats, a name for what does not, longer runs to try the name."""
+"""Find the regime that each start ends in.
+
+A motion is followed in rounds until it repeats; one that does not is named, and longer runs test the name.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -14,7 +17,7 @@ MOST_WITNESSES = 5
 
 @dataclass(frozen=True)
 class Observation:
-    """How long motions are looked at.
+    """Settings of an observation: lengths of runs, in cycles, and tolerance.
 
     cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness: as in
     `observe`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
@@ -77,7 +80,7 @@ def named(run, observation: Observation) -> Regime:
 
 
 def _passing(regime):
-    """Whether a longer run may end in another regime."""
+    """True if a longer run may end in another regime."""
     return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
 
 
@@ -107,5 +110,5 @@ def _run_on(system, regimes, places, observation):
 
 
 def _same_kind(before, after):
-    """Whether a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
+    """True if a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
     return before == after or (before in CHAOS and after in CHAOS)

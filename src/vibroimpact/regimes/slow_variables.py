@@ -1,4 +1,4 @@
-"""The slow variables of (10.9)-(10.12) as they are found in a sampled motion, for comparison with fixed points."""
+"""Measure the slow variables of (10.9)-(10.12) in a sampled motion, for comparison with fixed points."""
 
 from dataclasses import dataclass
 
@@ -36,7 +36,7 @@ def mean_phase(phases) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SlowVariables:
-    """What a sampled motion shows of the slow variables.
+    """The slow variables of a sampled motion.
 
     Attributes:
         B, psi: amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).

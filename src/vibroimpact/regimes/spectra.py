@@ -1,4 +1,4 @@
-"""Lyapunov spectra of the motions that starts end in, as rows of a table."""
+"""Lyapunov spectra of motions, as rows of a table."""
 
 from typing import NamedTuple
 

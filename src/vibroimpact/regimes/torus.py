@@ -35,7 +35,7 @@ def sweep(path, values, cycles: int, discarded: int) -> list[tuple[str, float, f
 
 
 def onset(values, sizes) -> tuple[float, float]:
-    """Where the squared size of a torus, linear in the parameter next to its onset, vanishes; with standard error.
+    """Parameter at which a torus sets in, by a straight line through its squared sizes; with standard error.
 
     Args:
         values, sizes: of at least 3 tori.

@@ -1,4 +1,4 @@
-"""The theory with the second term of (10.7): where the motion of a fixed point is, whether it is stable, where it ends.
+"""The theory with the second term of (10.7): amplitudes, stability and folds of the motions of fixed points.
 
 The second terms are derivatives of exact conditions by epsilon at 0. An asymptotic series is unique: that is the series
 which multiple scales give.

@@ -1,4 +1,4 @@
-"""What a sweep asks for at every point; it takes no simulation to say so."""
+"""The observations that a sweep makes at every point, and their settings; loads without the engine."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ POINT, FAILED = "point", "failed"
 
 @dataclass(frozen=True)
 class Asked:
-    """What is observed at every point.
+    """Observations at every point.
 
     observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
     amplitudes are observed, forcing periods; those before `settle` are left out. band: arguments of `grid.axis`, of the

@@ -11,7 +11,7 @@ from vibroimpact.system import System
 
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
-"""How the values of an axis lie between its ends."""
+"""Spacings of the values of an axis between its ends."""
 LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
 """Steps that, taken again and again modulo 1, spread evenly over a line, over a square (Roberts 2018)."""
 

@@ -1,4 +1,4 @@
-"""What a sweep may observe at a point: each is one function from a system to the numbers of its columns."""
+"""Observations of a sweep at a point: each is one function from a system to the numbers of its columns."""
 
 import numpy as np
 
@@ -95,7 +95,7 @@ def _one_ball(runs):
 
 
 def _energy(system, states, asked):
-    """What impacts take of the work of the forces, over starts with a ball that meets a wall; how many are without.
+    """Share of the impacts in the work of the forces, over starts with impacts; number of starts without.
 
     A start whose balls rest is another motion, without impacts: its work is in no share.
     """
@@ -107,18 +107,14 @@ def _energy(system, states, asked):
     return energy["impacts"].sum() / work if work else np.nan, np.count_nonzero(~hits)
 
 
-def _fixed_points(system, states, asked):
-    return fixed_point_counts(system)
-
-
 def fixed_point_counts(system) -> tuple[int, int]:
-    """How many fixed points the theory has, and how many of them it calls stable."""
+    """Number of fixed points of the theory, and of those that it calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 
 
 def _orbits(system, states, asked):
-    """How many 1:1 orbits are motions of the system, and how many of them have all multipliers inside the circle."""
+    """Number of 1:1 orbits that are motions of the system, and of those with all multipliers inside the circle."""
     found = [orbit for orbit in orbits(system) if orbit.admissible]
     return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
 
@@ -129,6 +125,6 @@ OBSERVATIONS = {
     ENVELOPES: _envelopes,
     PEAKS: _peaks,
     ENERGY: _energy,
-    FIXED_POINTS: _fixed_points,
+    FIXED_POINTS: lambda system, states, asked: fixed_point_counts(system),
     ORBITS: _orbits,
 }

@@ -1,4 +1,4 @@
-"""What a sweep asks for, as plain data: parameters, axes and observations, in a form that jobs hand on."""
+"""The request of a sweep as plain data that jobs hand on: parameters, axes and observations."""
 
 import hashlib
 import json
@@ -24,5 +24,5 @@ def parsed(request: Mapping) -> tuple[Grid, Asked]:
 
 
 def fingerprint(request: Mapping) -> str:
-    """The same for the same request and no other: tiles bear it, so that none is taken for that of another sweep."""
+    """Return a hash of the request, which its tiles bear, so that no tile is taken for one of another sweep."""
     return hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""The table of a sweep: a row per point, and whether the rows that came back are those that were asked for."""
+"""The table of a sweep: names of its columns, and a row per point."""
 
 from collections.abc import Iterable, Iterator
 

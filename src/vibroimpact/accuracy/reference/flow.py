@@ -84,7 +84,7 @@ class Flow:
 
     def __init__(self, system: ExactSystem, stuck, bits: int):
         self.bits = bits
-        rate = _rate_matrix(system, stuck)
+        rate = rate_matrix(system, stuck)
         weights, self.norm = _weighted_norm(rate)
         self._weights = [to_ball(weight) for weight in weights]
         self.terms = _terms(bits)
@@ -122,7 +122,8 @@ class Flow:
         return arb_poly([*entries[: self.terms], tail]), arb_poly([*entries[self.terms :], tail])
 
 
-def _rate_matrix(system: ExactSystem, stuck):
+def rate_matrix(system: ExactSystem, stuck) -> list:
+    """Exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin, cos], for balls in flight or stuck, (2,) bool."""
     rows = [[Fraction(0)] * 6 for _ in range(6)]
     for i in range(2):
         mass = 1 + system.epsilon if stuck[i] else Fraction(1)

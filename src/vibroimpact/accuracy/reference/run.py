@@ -118,7 +118,7 @@ def proven_run(
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """How two runs of the same motion part: event times of the fine run (n,) and differences there (n,).
+    """Return the departure of two runs of the same motion: event times of the fine run (n,) and differences there (n,).
 
     The difference is the largest in time and state; it is inf from the first event that is not the same.
     """
