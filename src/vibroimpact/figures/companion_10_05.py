@@ -85,9 +85,9 @@ def draw(table: pd.DataFrame) -> Figure:
             at = (kappa, np.interp(kappa, line["kappa"], line["C"]))
             axes.annotate(name, at, offset, textcoords="offset points", fontsize=10, ha=side, linespacing=1.0)
     axes.text(0.62, 1.3, "stable", ha="center")
-    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 1, "shrinkB": 0}
-    beyond = "the ball would\nleave the box"
-    axes.annotate(beyond, (0.05, 1.98), (0.22, 2.06), fontsize=10, va="center", linespacing=1.0, arrowprops=leader)
+    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 0, "relpos": (0.1, 0)}
+    above = {"xytext": (0.0, 1.03), "textcoords": "axes fraction", "fontsize": 10, "arrowprops": leader}
+    axes.annotate("the ball would leave the box", (0.05, 1.98), **above)  # the region there is too narrow for the words
     frame = select(table, "regions", "range")
     axes.set(xlim=frame["kappa"], ylim=frame["C"], xlabel=r"$\kappa$", ylabel="$C_i$")
     return figure

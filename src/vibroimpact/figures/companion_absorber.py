@@ -26,9 +26,9 @@ SPEC = {
         "f_{i0}`, in a band of frequencies. a: over the clearance; triangles: from rest only one ball ever meets a "
         "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the lowest peak over "
         "the clearance, for each restitution, measured again from rest and seven other starts at twice as many "
-        "frequencies; upright bars: its spread, if these starts were drawn again. c: the peak over both. Stars: where "
-        "a sweep has its lowest peak, in a and b as high as measured again; level bars: clearances whose peak is at "
-        "most 1.25 times as high.",
+        "frequencies; upright bars: its spread, if these starts were drawn again. c: the peak over both, lighter is "
+        "better. Stars: where a sweep has its lowest peak, in a and b as high as measured again; level bars: "
+        "clearances whose peak is at most 1.25 times as high.",
     "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
         "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
@@ -103,11 +103,11 @@ SWEPT = {
     BALLS: {**DOTS, "linestyle": "-", "linewidth": 0.6},
     ONE_BALL: {**DOTS, "marker": "^", "markersize": 6.5, "markerfacecolor": "none"},
 }
-_MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": "its margin"}
 PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
 """Quantities of the summary, beside those of `_held_against`."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
+_MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": f"at most {NEARLY} times the lowest"}
 LEVEL = 1.2
 """The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
 FRESH = 8
@@ -301,7 +301,7 @@ def _draw_design(axes, cells, best, darkest):
     hatch_gaps(axes)
     sides = edges(square.columns, {"scale": LOGARITHMIC}), edges(square.index, {})
     mesh = axes.pcolormesh(*sides, square, cmap="Greys", vmin=0.0, vmax=darkest, rasterized=True)
-    axes.figure.colorbar(mesh, ax=axes, label="peak $|X_i|\\,/\\,f$ of the band")
+    axes.figure.colorbar(mesh, ax=axes, label="peak $|X_i|\\,/\\,f$ (lighter is better)")
     _mark(axes, best, best["kappa"])
     logarithmic(axes, "x")
     axes.set(xlabel="clearance $1/f$", ylabel=SYMBOLS["kappa"])

@@ -259,7 +259,7 @@ def draw(tables: dict) -> Figure:
     table, special = tables["csv"], tables["special_points"]
     panels = [panel for panel in dict.fromkeys(table["panel"]) if panel != LIVES]
     along = dict(zip(panels, dict.fromkeys(special["path"]), strict=True))
-    figure = new_figure(DOUBLE_COLUMN, 165.0)
+    figure = new_figure(DOUBLE_COLUMN, 148.0)
     grid = figure.subplots(3, len(panels), sharex="col", squeeze=False, height_ratios=(3, 3, 2))
     lives, letters = table[table["panel"] == LIVES], iter("abcdefghijklmnop"[2 * len(panels) :])
     for axes in grid[:2].flat:
@@ -279,7 +279,12 @@ def draw(tables: dict) -> Figure:
             grid[row, column].set_title(what, loc="right", pad=3)
     for axes in grid[:2, 0]:
         axes.set_ylabel("$C_2$")
-    figure.legend(handles=_legend(grid[:2].flat), loc="outside lower center", ncols=4, fontsize=8.5, columnspacing=1.0)
+    empty = [axes for axes in grid[2] if not axes.axison]
+    key = {"handles": _legend(grid[:2].flat), "fontsize": 8.5, "columnspacing": 1.0}
+    if empty:  # below a path without a known life there is room
+        empty[-1].legend(**key, loc="lower center", ncols=2)
+    else:
+        figure.legend(**key, loc="outside lower center", ncols=4)
     return figure
 
 

@@ -102,4 +102,5 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
         line = select(table, f"module {module}", f"{name}_{module}")
         axes.plot(line["tau"], line["value"], **style, label=f"${name}_{module}$")
     axes.set_xlim(line["tau"].min(), line["tau"].max())
+    axes.set_ylabel(f"$U_{module},\\ X_{module},\\ W_{module},\\ Y_{module}$")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(COORDINATES))
