@@ -54,7 +54,11 @@ end
 
 function Image(image)
   local name = figure(image.src)
-  if name then image.src = "figures/" .. name .. ".svg" end
+  if name then
+    image.src = "figures/" .. name .. ".svg"
+  elseif image.src:match("^[%w_]+%.png$") then -- beside the document
+    image.src = "figures/" .. image.src
+  end
   return image
 end
 
@@ -76,6 +80,7 @@ function Link(link)
   if not name then name, anchor = link.target:match("^([%w_]+)%.html(#?.*)$") end
   if not name then return nil end
   if name == "findings" then name = "index" end
+  if next(titles) and not titles[name] then return link.content end -- a document that the report lacks
   -- In the repository a document is called by its file, in the report by its title.
   if titles[name] and pandoc.utils.stringify(link.content) == name .. ".md" then
     link.content = pandoc.Inlines(titles[name])

@@ -123,6 +123,14 @@ def test_a_wide_table_is_read_as_cards_where_its_heads_can_be_said(head, heads):
     assert ("cards" in text) == bool(heads)
 
 
+def test_a_picture_beside_a_document_is_found_and_a_document_that_the_report_lacks_is_no_link():
+    source = "# Title\n\n![What it is](motion.png)\n\n[see](errata.md), [sweeps](howto_sweep.md)\n"
+    text = convert(source, "html", SOURCES, KNOWN | {"titles": {"errata": "Errata"}})
+    assert 'src="figures/motion.png"' in text
+    assert re.findall(r'href="(.*?)"', text) == ["errata.html"]
+    assert "sweeps" in text
+
+
 @pytest.mark.parametrize("target", ["html", "typst"])
 def test_figures_of_the_results_are_those_of_the_report(target):
     source = "# Title\n\n![What it is](../results/figures/one.png)\n\n[two](../results/accuracy/two.png)\n"

@@ -51,7 +51,7 @@ rule report:
         rules.force_sweep.output,
         [f"results/animations/{name}.{kind}" for name in MOVING["animations"] for kind in (*PICTURES, "json")],
         sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),
-        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "docs").glob("*.md")),
+        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "docs").glob("*.*")),
     output:
         site=directory("results/report"),
     params:

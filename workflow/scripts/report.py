@@ -67,6 +67,8 @@ with running(snakemake) as out:
     tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
     for figure in (figure for group in shown.values() for figure in group):
         collect(results, figure, folder)
+    for picture in (ROOT / "docs").glob("*.png"):
+        copy(picture, folder / "figures")
     for table in tables:
         copy(table, folder / "data")
     pages = Pages(ROOT, results, settings, params.config, shown, tables, departures(params.config))
