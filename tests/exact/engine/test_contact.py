@@ -1,5 +1,7 @@
 """Chatter, sticking, release and contact at the start, against closed forms and high precision."""
 
+from fractions import Fraction
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.engine.constraints import acceleration_rounding
+from vibroimpact.exact.engine.contact import impact
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
@@ -137,6 +140,19 @@ def test_impact_law_conserves_momentum_and_never_gains_energy():
     energy = 0.5 * (box**2 + epsilon * ball**2) - 0.5 * (new_box**2 + epsilon * new_ball**2)
     np.testing.assert_allclose(energy, energy_lost(epsilon, kappa, box - ball), atol=1e-14)
     assert (energy_lost(epsilon, kappa, box - ball) >= 0).all()
+
+
+def test_an_impact_is_rounded_no_more_than_its_velocities_are(chapter):
+    """Light balls and heavy ones, against rational numbers."""
+    rng = np.random.default_rng(1)
+    for _ in range(300):
+        epsilon, kappa = 10 ** rng.uniform(-6, 6), rng.uniform(0.001, 0.999)
+        q = flow_of(chapter(0.0, 0.0, epsilon=epsilon, kappa=kappa, sigma_e_hat=0.0, **ALONE)).coefficients
+        box, ball = rng.normal(size=2)
+        e, k, v, u = map(Fraction, (epsilon, kappa, box, ball))
+        gained = (1 + k) / (1 + e) * (v - u)
+        errors = np.subtract(impact(q, box, ball), (v - e * gained, u + gained))
+        assert np.abs(errors).max() < 4 * np.finfo(float).eps * max(abs(box), abs(ball)), (epsilon, kappa, box, ball)
 
 
 @pytest.mark.parametrize("multiple", [1.2, 1.3, 1.4])

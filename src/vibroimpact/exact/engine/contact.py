@@ -43,10 +43,15 @@ class Moment(NamedTuple):
 def impact(q, box, ball):
     """Velocities (X', Y') just after an impact, as `restitution.after_impact`.
 
-    A factor rounded once would err alike at every impact; its rest is added, and the relative velocity taken by kappa.
+    A factor rounded once would err alike at every impact, so its rest is added. The velocity of the heavier one changes
+    less and is the first to be computed; that of the other follows by kappa.
     """
     relative = box - ball
-    box = box - q.epsilon * (q.impulse * relative + q.impulse_rest * relative)
+    gained = q.impulse * relative + q.impulse_rest * relative
+    if q.epsilon > 1.0:
+        ball = ball + gained
+        return ball - q.kappa * relative, ball
+    box = box - q.epsilon * gained
     return box, box + q.kappa * relative
 
 
