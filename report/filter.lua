@@ -94,7 +94,7 @@ function Link(link)
   return link
 end
 
--- In HTML a wide table scrolls by itself, and can be reached by keyboard. On paper its columns share the width by what they
+-- In HTML a wide table scrolls by itself (live/scroll.js). On paper its columns share the width by what they
 -- hold, with room for the longest word, since equal shares would leave long text in a narrow one.
 local LINE, LONGEST, PADDING, WORD = 110, 70, 4, 12
 
@@ -154,7 +154,8 @@ end
 function Table(tbl)
   local columns, wide = shares(tbl)
   if not is_typst() then
-    local attributes = { { "tabindex", "0" }, { "role", "region" }, { "aria-label", "Table" } }
+    local heads = tbl.head.rows[1].cells:map(function(cell) return pandoc.utils.stringify(cell.contents) end)
+    local attributes = { { "role", "region" }, { "aria-label", "Table: " .. table.concat(heads, ", ") } }
     local classes = wide and #columns > 2 and as_cards(tbl) or {}
     return pandoc.Div({ tbl }, pandoc.Attr("", { "scroll", table.unpack(classes) }, attributes))
   end

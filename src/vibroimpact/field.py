@@ -23,6 +23,22 @@ MATRIX, MODES = 1, 2
 """Coupling of their stiffness matrix, and of their modes, over kappa_c."""
 STABLE_AT = 0.983
 """A frequency at which the upper response is stable."""
+PUBLISHED = (
+    (0.98, 1.295545, False, 1.109518, -0.0223438),
+    (0.98, 1.392096, True, 1.378723, -1.45826e-05),
+    (0.985, 1.360884, False, 1.172214, 0.397354),
+    (0.985, 1.533725, True, 1.520319, -6.59591e-07),
+    (0.9875, 1.417973, False, 1.157546, -0.25637),
+    (0.9875, 1.631437, True, 1.619762, 1.59176e-12),
+    (0.9885, 1.448259, False, 1.199536, -0.0322313),
+    (0.9885, 1.678322, True, 1.644944, 0.107374),
+    (0.99, 1.505541, False, 1.173281, 0.0883085),
+    (0.99, 1.759425, True, 1.653377, 0.20818),
+    (0.992, 1.617034, False, 1.174543, 0.0655739),
+    (0.992, 1.891745, True, 1.665244, 0.289937),
+)
+"""Of their program at commit c4c8a3a: r, theta of harmonic balance, whether it says stable, and of its time stepping
+from there theta and the difference of the speeds of the ball to either side over their sum."""
 
 
 def two_sectors(

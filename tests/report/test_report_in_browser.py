@@ -18,8 +18,6 @@ PAGES = [page["name"] for page in SETTINGS["pages"]]
 LIBRARY = ["api/vibroimpact", "api/vibroimpact.regimes"]
 WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]
 NARROW = 400
-DECENT_CONTRAST = 4.5
-"""Of text, by the Web Content Accessibility Guidelines, level AA."""
 
 
 @pytest.fixture(scope="module")
@@ -32,36 +30,14 @@ def address(site, page):
     return (site / f"{page}.html").as_uri()
 
 
-def luminance(colour):
-    parts = [value / 255 for value in colour]
-    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in parts]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-
-
-COLOURS = """[...document.querySelectorAll('body *')].filter(
-  e => e instanceof HTMLElement && e.getClientRects().length
-    && [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim())
-).map(element => {
-  const paper = e => getComputedStyle(e).backgroundColor;
-  let behind = element;
-  while (behind && paper(behind) === 'rgba(0, 0, 0, 0)') behind = behind.parentElement;
-  const numbers = text => text.match(/[\\d.]+/g).slice(0, 3).map(Number).join();
-  return [numbers(getComputedStyle(element).color), behind ? numbers(paper(behind)) : '255,255,255'].join(' ');
-})"""
-
 PROSE = """[...document.querySelectorAll('article p, article li, article td, article h1, article h2, article h3')].map(
   block => [...block.childNodes].filter(n => n.nodeName !== 'CODE').map(n => n.textContent).join('')
 ).join('\\n')"""
 
 
-def contrast(pair):
-    light, dark = sorted((luminance([float(x) for x in part.split(",")]) for part in pair.split()), reverse=True)
-    return (light + 0.05) / (dark + 0.05)
-
-
 @pytest.mark.parametrize("page", PAGES + LIBRARY)
 def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site, screenshots, page):
-    """It asks nobody else; pictures are described, headings in order, text in contrast; a narrow window fits it."""
+    """It asks nobody else; axe finds no barrier; pictures are described, headings in order; a narrow window fits it."""
     browser.open(address(site, page))
     browser.screenshot(screenshots / f"{page.replace('/', '_')}.png")
     assert browser.problems == []
@@ -69,7 +45,7 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
     for scheme in ("dark", "light"):
         browser.page.emulate_media(color_scheme=scheme)
-        assert min(map(contrast, set(browser.run(COLOURS)))) >= DECENT_CONTRAST, scheme
+        assert browser.barriers() == [], scheme
     if page in PAGES:
         pictures = browser.run(
             "[...document.images].map(i => [i.getAttribute('src'), i.complete && i.naturalWidth, i.alt])"
@@ -85,6 +61,7 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
     browser.page.set_viewport_size({"width": NARROW, "height": 900})
     browser.screenshot(screenshots / f"{page.replace('/', '_')}_narrow.png")
     assert browser.run("document.documentElement.scrollWidth") <= NARROW
+    assert browser.barriers() == []
 
 
 def assert_order(browser):
@@ -94,14 +71,6 @@ def assert_order(browser):
     levels = browser.run("[...document.querySelectorAll('h1, h2, h3, h4')].map(head => Number(head.tagName[1]))")
     assert levels.count(1) == 1
     assert all(after - before <= 1 for before, after in pairwise(levels))
-    unlabelled = "[...document.querySelectorAll('article input')].filter(i => i.labels.length === 0).length"
-    assert browser.run(unlabelled) == 0
-    assert (
-        browser.run(
-            "[...document.querySelectorAll('button')].filter(b => !(b.ariaLabel || b.textContent).trim()).length"
-        )
-        == 0
-    )
     browser.press("Tab")
     assert "skip" in browser.run("document.activeElement.className")
     browser.press("Enter")

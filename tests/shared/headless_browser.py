@@ -1,7 +1,9 @@
 """A real browser without a window: the Chromium of this machine, led by Playwright."""
 
 import shutil
+from pathlib import Path
 
+import axe_playwright_python
 from playwright.sync_api import sync_playwright
 
 FLAGS = [
@@ -16,6 +18,8 @@ FLAGS = [
 ]
 TROUBLE = ("error", "warning", "assert")
 """Kinds of messages on the console that a page must not have."""
+AXE = Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+"""The rules of axe-core, by which browsers judge if everybody can read a page."""
 TWO_FRAMES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -56,6 +60,17 @@ class Browser:
             playwright.sync_api.Error: it throws.
         """
         return self.page.evaluate(expression)
+
+    def barriers(self) -> list[tuple[str, str]]:
+        """What axe calls serious or critical on the page: rule and place."""
+        self.run(AXE)
+        found = self.run("axe.run().then(result => result.violations)")
+        return [
+            (rule["id"], str(node["target"]))
+            for rule in found
+            if rule["impact"] in ("serious", "critical")
+            for node in rule["nodes"]
+        ]
 
     def press(self, key: str, times: int = 1):
         """Press a key on what has the focus."""

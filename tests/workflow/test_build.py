@@ -25,7 +25,7 @@ def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
     (rebuilt / "results/figures/companion_10_04.png").unlink()
     said = rebuilt.snakemake("companion_10_04")
     assert "1 of 1 steps (100%) done" in said
-    assert "All results are in results/" in said
+    assert f"All results are in {rebuilt / 'results'}/." in said
 
 
 def test_every_result_has_a_record_and_every_record_its_result(built):

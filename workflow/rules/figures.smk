@@ -20,10 +20,15 @@ def figure_params(figure, spec):
 MADE = made(config, specs())
 
 
+def titled(case):
+    """What words call the case of a figure, if it has one."""
+    return {"case": title_of(config, case)} if case else {}
+
+
 def caption(figure, spec):
     """The caption of a figure, with the numbers that it asks for."""
     case = spec["request"]["case"]
-    known = CHAPTER.get(figure, {}) | (system_of(case) | {"case": title_of(config, case)} if case else config["system"])
+    known = CHAPTER.get(figure, {}) | (system_of(case) if case else config["system"]) | titled(case)
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
 
 
@@ -46,7 +51,7 @@ for figure, spec in MADE.items():
                 html=f"results/notebooks/{figure}.html",
             params:
                 **figure_params(figure, spec),
-                scene=CHAPTER[figure],
+                scene=CHAPTER[figure] | titled(spec["request"]["case"]),
                 code=FIGURES | {"pipeline": PIPELINE["pipeline"]},
             priority: 10
             log:

@@ -20,7 +20,7 @@ xi = linspace(1.001 * rho / sqrt(1 + rho^2), 5, 200001);
 [TRANSIENT, WATCHED] = deal(600, 100);  % forcing periods
 file = fopen(argv(){2}, 'w');
 fprintf(file, 'r,xi,theta,stable,impacts_per_period,spread,theta_simulated,leans\n');
-for r = [0.980, 0.985, 0.990]
+for r = [0.980, 0.985, 0.9875, 0.9885, 0.990, 0.992]
     exc.harmonic.r = r;
     level = AllSectorsFRS(xi, r, sys, exc) - sys.Gamma_Scale;
     for k = find(level(1:end-1) .* level(2:end) < 0)

@@ -24,8 +24,10 @@ with running(snakemake):
         with replacing(FOLDER / name) as partial:
             partial.write_text(text, encoding="utf-8")
     print(*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html", sep="\n")
-    if failed := [verdict["figure"] for verdict in found if verdict["status"] == FAILED]:
-        print(f"To take a change on purpose into the reference set: {command(failed)}")
+    if failed := [verdict for verdict in found if verdict["status"] == FAILED]:
+        drawing = all(reason.startswith(("picture:", "pdf:", "svg:")) for one in failed for reason in one["reasons"])
+        said = command(one["figure"] for one in failed) + " PICTURES=1" * drawing
+        print(f"To take a change on purpose into the reference set: {said}")
     if others := [verdict["figure"] for verdict in found if verdict["status"] == NOT_COMPARABLE]:
         print("Pictures are comparable with the versions that drew the reference, those of environment.lock.")
         print(f"To keep the tables and draw these anew: {command(others)} PICTURES=1")

@@ -147,4 +147,6 @@ def _name(axes, points, module, fold):
         below = fold < C < 0.8 * axes.get_xlim()[1]
         rightwards = below or fold > C
         offset, side = ((5, -9 if below else 2), "left") if rightwards else ((-5, 2), "right")
+        if fold > C and len(close) > 1:  # to the right are the names of those
+            offset, side = (3, -12), "right"
         axes.annotate(f"${kind}_{module}$", (C, B), offset, **NAME, ha=side)

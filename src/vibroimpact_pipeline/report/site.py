@@ -36,6 +36,12 @@ OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
 """A warning that is not about a docstring, nor about a name that is shown where it is imported, too."""
 THEME_FOOTER = re.compile(r'<div class="bottom-of-page">.*?</footer>', re.DOTALL)
 """What the theme says of itself below a page, with links that lead outside."""
+UNNAMED = {
+    '<p class="caption" role="heading">': '<p class="caption" role="heading" aria-level="2">',
+    '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Pages">',
+    '<aside class="toc-drawer">': '<aside class="toc-drawer" aria-label="On this page">',
+}
+"""What those who hear a page miss in what Sphinx and the theme write."""
 GENERATED = re.compile(r'<script src="([^"?]+)(?:\?[^"]*)?"(?: defer(?:="defer")?)?></script>')
 """A script that Sphinx or the theme has in a file beside the page."""
 INLINE = re.compile(r"<script>(.*?)</script>", re.DOTALL)
@@ -77,9 +83,10 @@ def write_site(folder: Path, sources: Path, pages, settings: dict, titles: dict,
 
     for path in [*folder.glob("*.html"), *folder.glob("api/*.html")]:
         below = footer.replace(f'href="{PDF}"', f'href="{"../" * (path.parent != folder)}{PDF}"')
-        text = THEME_FOOTER.sub(
-            f'<div class="built">{below}</div></footer>'.replace("\\", r"\\"), path.read_text("utf-8")
-        )
+        text = path.read_text(encoding="utf-8")
+        for theirs, better in UNNAMED.items():
+            text = text.replace(theirs, better)
+        text = THEME_FOOTER.sub(f'<div class="built">{below}</div></footer>'.replace("\\", r"\\"), text)
         path.write_text(finished(text, path.parent, sources), encoding="utf-8")
     shutil.rmtree(folder / "_sources", ignore_errors=True)
 
