@@ -173,7 +173,7 @@ def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
     ("page", "folder", "figures", "number"),
     [
         ("figures", "figures", ("fig10_", "machines"), 12),
-        ("companions", "figures", "companion_", 16),
+        ("companions", "figures", "companion_", 17),
         ("accuracy", "accuracy", ("work_precision", "hazards"), 2),
     ],
 )

@@ -83,7 +83,8 @@ def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
     for figure in OWN_FIGURES:
         assert (results / f"figures/{figure}.png").stat().st_size > 10_000
         assert figure in (results / "report/figures.html").read_text(encoding="utf-8")
-    assert "Simulated motion of case A b" in (results / "report/figures.html").read_text(encoding="utf-8")
+    for page in ("report/figures.html", "notebooks/strong_motion.html"):
+        assert "Simulated motion of case A b" in (results / page).read_text(encoding="utf-8")
     still = (results / "notebooks/still_motion.html").read_text(encoding="utf-8")
     assert all(f"Ball {module} has no impact in the window" in still for module in (1, 2))
     assert "no swells</td>" in still
