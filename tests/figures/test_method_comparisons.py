@@ -38,16 +38,20 @@ def test_fitted_orders_are_in_the_legend():
     assert "b" in shown
 
 
-def test_every_verdict_has_its_mark_and_number():
-    rows = [
-        dict(group="g", hazard=verdict, method="m", verdict=verdict, error_state=3e-5, missed=1, spurious=2)
-        for verdict in hazards.VERDICTS
-    ]
+def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_ones():
+    verdicts = list(hazards.VERDICTS)
+    rows = [dict(group=worst, method="m", verdict=verdict) for worst in verdicts for verdict in ("right", worst)]
     shown = texts(hazards.draw(pd.DataFrame(rows)))
     for verdict, (mark, _) in hazards.VERDICTS.items():
-        assert mark in shown
         assert f"{mark}  {verdict}" in shown
-    assert shown.count("3e-5\n−1+2") == len(rows)
+        assert shown.count(mark) == (0 if verdict == "unavailable" else 2 if verdict == "right" else 1)
+    assert [shown.count("2/2"), shown.count("1/2")] == [1, len(verdicts) - 1]
+
+
+def test_a_verdict_has_its_numbers_behind_it():
+    row = dict(verdict="silently wrong", error_state=3e-5, missed=1, spurious=2)
+    table = pd.DataFrame([row, row | dict(verdict="right", missed=0, spurious=0), row | dict(error_state=float("nan"))])
+    assert [hazards.cell(row) for row in table.itertuples()] == ["× 3e-5 −1+2", "✓ 3e-5", "×"]
 
 
 def test_no_text_is_too_small_to_read():

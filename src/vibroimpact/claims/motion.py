@@ -134,16 +134,20 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
     """From case to case: fixed points stable by theory and by their exact orbits, and where the last motion ends."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((by_theory(rows) == STABLE).sum()) for rows in points]
-    in_truth = [int((rows["floquet"] == STABLE).sum()) for rows in points]
+    exactly = [int((rows["floquet"] == STABLE).sum()) for rows in points]
     others = [int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in sequence]
     share = evidence.shares(sequence[-1]).get(STRONGLY_MODULATED, 0.0)
     parts = {
         "a stable fixed point at first, by theory": in_theory[0] > 0,
-        "a stable fixed point at first, in truth": in_truth[0] > 0,
-        "none at last": in_theory[-1] == in_truth[-1] == 0,
+        "a stable fixed point at first, by its exact orbit": exactly[0] > 0,
+        "none at last": in_theory[-1] == exactly[-1] == 0,
         "modulated response at last": share > 0,
     }
-    numbers = {"stable by theory": in_theory, "stable in truth": in_truth, "stable 1:1 orbits of any kind": others}
+    numbers = {
+        "stable by theory": in_theory,
+        "stable by their exact orbits": exactly,
+        "stable 1:1 orbits of any kind": others,
+    }
     return Finding(parts, numbers | {"modulated share at last": share})
 
 

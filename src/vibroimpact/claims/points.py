@@ -61,7 +61,7 @@ def label_of_a_point(evidence, case, label, says):
     said = fast_and_slow(row)
     parts = {
         f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
-        f"{says} in truth": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
+        f"{says} by its exact orbit": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
     }
     criteria = ("printed_10_26", "masri_derived", "slow_flow", "floquet")
     return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
@@ -78,7 +78,7 @@ def stable_points(evidence, case, number):
         "by the derived fast criterion": int((points["masri_derived"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
         "by theory, fast and slow": int((by_theory(points) == STABLE).sum()),
-        "in truth": int((points["floquet"] == STABLE).sum()),
+        "by their exact orbits": int((points["floquet"] == STABLE).sum()),
     }
     right = {name: _captions_right(evidence.points(name)["masri_derived"], name) for name in CAPTIONS}
     parts = {f"{number} {name}": count == number for name, count in counts.items()}

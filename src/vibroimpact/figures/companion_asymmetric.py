@@ -152,8 +152,10 @@ def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below
     for case, system in systems.items():
         points = fixed_points(system)
         pairs = _pairs(system, orbits[orbits["case"] == case])
-        ladder = np.sort(np.geomspace(*epsilon, values))[::-1]
-        ways = {label: asymmetric_limit.follow(system, root, ladder[ladder < system.epsilon]) for label, root in pairs}
+        falling = np.sort(np.geomspace(*epsilon, values))[::-1]
+        ways = {
+            label: asymmetric_limit.follow(system, root, falling[falling < system.epsilon]) for label, root in pairs
+        }
         ends = {label: asymmetric_limit.leads_to(way, points) for label, way in ways.items()}
         for number, point in enumerate(points, start=1):
             label = next((name for name, end in ends.items() if end is point), "")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from vibroimpact.figures import hazards
 from vibroimpact.system.verdict import STABLE
 
 KINDS = {"csv": "numbers (CSV)", "svg": "SVG", "pdf": "PDF", "png": "PNG"}
@@ -92,11 +93,12 @@ class Results:
         keys = ["problem", "method", "outcome", "reason"]
         return failed.groupby(keys, sort=False).size().rename("runs").reset_index()
 
-    def verdict_counts(self) -> pd.DataFrame:
-        """How often each verdict falls to each method over all hazards; a row per method."""
+    def stress_tests(self) -> pd.DataFrame:
+        """Verdict and numbers of every method in every stress test; a row per test, a column per method."""
         table = self.table("accuracy/hazards.csv")
-        order = list(dict.fromkeys(table["method"]))
-        return pd.crosstab(table["method"], table["verdict"]).reindex(order)
+        table = table.assign(cell=[hazards.cell(row) for row in table.itertuples()])
+        cells = table.set_index(["group", "hazard", "method"])["cell"].unstack(sort=False)
+        return cells.reset_index(names=["group", "stress test"])
 
     def value(self, file: str, *path: str):
         """A number in a table (file, query, column) or in JSON (file, key, key ...; an id picks an entry of a list).
