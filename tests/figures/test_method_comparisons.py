@@ -51,7 +51,7 @@ def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_o
 def test_a_verdict_has_its_numbers_behind_it():
     row = dict(verdict="silently wrong", error_state=3e-5, missed=1, spurious=2)
     table = pd.DataFrame([row, row | dict(verdict="right", missed=0, spurious=0), row | dict(error_state=float("nan"))])
-    assert [hazards.cell(row) for row in table.itertuples()] == ["× 3e-5 −1+2", "✓ 3e-5", "×"]
+    assert [hazards.cell(row) for row in table.itertuples()] == ["×\xa03e−5\xa0−1+2", "✓\xa03e−5", "×"]
 
 
 def test_no_text_is_too_small_to_read():

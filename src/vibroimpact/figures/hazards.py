@@ -80,4 +80,5 @@ def cell(row) -> str:
         return mark
     impacts = "".join(f"{sign}{count:.0f}" for sign, count in (("−", row.missed), ("+", row.spurious)) if count)
     mantissa, exponent = f"{row.error_state:.0e}".split("e")
-    return " ".join(filter(None, [mark, f"{mantissa}e{int(exponent)}", impacts]))
+    number = f"{mantissa}e{int(exponent)}".replace("-", "−")
+    return "\N{NO-BREAK SPACE}".join(filter(None, [mark, number, impacts]))
