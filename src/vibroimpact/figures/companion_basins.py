@@ -27,12 +27,11 @@ from vibroimpact.system.state import NAMES
 
 SPEC = {
     "title": "Basins of coexisting responses",
-    "caption": "Basins: in which response a start ends, on the plane of starts whose boxes and velocities, printed "
-        "below, are those of the stable asymmetric orbit (circle). Diamond: its mirror image, whose boxes are "
-        "elsewhere at that time.",
+    "caption": "Basins: in which response a start ends, on the plane of starts whose boxes and velocities are those of "
+        r"the stable asymmetric orbit (circle) at :math:`\tau = 0`; the CSV has them in its row `shared`. Diamond: its "
+        "mirror image, whose boxes are elsewhere at that time.",
     "alt": "Map of a plane of starts, each cell in the shade of the response in which the start ends, with the case as "
-        "heading. A circle marks the stable orbit in its own shade, a diamond its mirror image. Below, the coordinates "
-        "that all starts share, and a key.",
+        "heading. A circle marks the stable orbit in its own shade, a diamond its mirror image. Below, a key.",
     "method": "direct integration of (10.1) from many starts, until it repeats",
     "case": "regimes.basins.case",
     "settings": {"case": "regimes.basins.case", "points": "regimes.basins.points", "observation": "regimes.observation"
@@ -117,10 +116,10 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 def draw(tables: dict) -> Figure:
     """Draw the table of `compute`: a shade per regime, the orbit itself as a circle, its mirror image as a diamond."""
     table = tables["csv"]
-    starts, (shared,) = table[table["series"] == "start"], table[table["series"] == "shared"][SHARED].to_dict("records")
+    starts = table[table["series"] == "start"]
     order = [name for name in SHADES if (starts["label"] == name).any()]
     codes = starts.assign(code=starts["label"].map(order.index)).pivot(index="W2", columns="W1", values="code")
-    figure = new_figure(SINGLE_COLUMN, 112.0)
+    figure = new_figure(SINGLE_COLUMN, 98.0)
     axes = figure.add_subplot()
     axes.pcolormesh(
         codes.columns,
@@ -137,16 +136,5 @@ def draw(tables: dict) -> Figure:
     letter_panel(axes, table["panel"].iloc[0])
     axes.set(xlabel="$W_1(0)$", ylabel="$W_2(0)$", aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
     patches = [Patch(facecolor=SHADES[name], edgecolor=BLACK, linewidth=0.6, label=name) for name in order]
-    legend = {"loc": "outside lower center", "ncols": 2, "fontsize": 8.5, "title_fontsize": 10}
-    figure.legend(handles=patches + marks, title=_common(shared), **legend)
+    figure.legend(handles=patches + marks, loc="outside lower center", ncols=2, fontsize=8.5)
     return figure
-
-
-def _common(shared):
-    """The coordinates that all starts share, a line per module."""
-    said = {
-        name: f"${name[-2]}_{name[-1]}{name[:-2].replace('d', chr(39))} = {value:.3f}$"
-        for name, value in shared.items()
-    }
-    lines = (", ".join(text for name, text in said.items() if name[-1] == module) for module in "12")
-    return "all starts: " + "\n".join(lines)

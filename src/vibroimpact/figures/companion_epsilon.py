@@ -169,6 +169,5 @@ def _slope(axes, epsilon, error):
     """A triangle of slope 1 over a decade, above a curve that ends here, as plots of convergence have it."""
     x, y = epsilon * np.array([0.05, 0.5]), error * np.array([1.0, 10.0])
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))
-    axes.annotate(
-        "slope 1", (np.sqrt(x.prod()), y[0]), (0, -2), textcoords="offset points", ha="center", va="top", fontsize=8.5
-    )
+    above = {"xytext": (-2, 3), "textcoords": "offset points", "ha": "right", "va": "bottom"}
+    axes.annotate("slope 1", (np.sqrt(x.prod()), np.sqrt(y.prod())), fontsize=8.5, **above)

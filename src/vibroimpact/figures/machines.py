@@ -158,7 +158,8 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     for name, marker in zip(balls, MARKERS, strict=False):
         line = select(table, "response", name)
         look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
-        response.plot(line["frequency"], line["swing"], label=f"balls, ${name[:-3]}$ mm", **look)
+        every = max(1, len(line) // 16)
+        response.plot(line["frequency"], line["swing"], label=f"balls, ${name[:-3]}$ mm", markevery=every, **look)
     response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm", ylim=(0.0, None))
     for name, look in MOTION.items():
         line = select(table, "motion", name)
