@@ -98,6 +98,18 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
 
 
 @pytest.mark.thorough
+def test_report_and_check_of_a_module_stay_below_its_prefix(tree, tmp_path):
+    outer = Tree(tmp_path / "outer")
+    outer.path.mkdir()
+    (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile").replace("configfile", "#"))
+    outer.snakemake("weaker_report", prefix=[interpreter_in(outer)], check=False)
+    outer.snakemake("weaker_figure_check", prefix=[interpreter_in(outer)], check=False)
+    for page in ("report", "figure_check"):
+        assert (outer / f"weaker/results/{page}/index.html").is_file()
+    assert not (outer / "results").exists()
+
+
+@pytest.mark.thorough
 def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     """Sockets have names of 107 characters at most, the line that starts a script 127 or 255."""
     there = Tree(tree.path.rename(long(tmp_path, 150) / "zwei Kästen"))

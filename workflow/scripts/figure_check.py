@@ -11,12 +11,13 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results import replacing
 from vibroimpact_pipeline.specs import made, specs
 
-FOLDER = Path("results/figure_check")
+BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module
+FOLDER = BUILD / "results/figure_check"
 
 with running(snakemake):
-    found = check_all(made(snakemake.params.config, specs()), ROOT / "figures", ".", snakemake.threads)
+    found = check_all(made(snakemake.params.config, specs()), ROOT / "figures", BUILD, snakemake.threads)
     texts = {
-        "index.html": page(found, ROOT / "figures", "."),
+        "index.html": page(found, ROOT / "figures", BUILD),
         "figure_check.json": json.dumps(found, indent=1, allow_nan=False) + "\n",
         "summary.md": "### Figure check\n\n" + "".join(f"- {line}\n" for line in lines(found)),
     }

@@ -70,6 +70,6 @@ with running(snakemake) as out:
     for picture in (ROOT / "docs").glob("*.png"):
         copy(picture, folder / "figures")
     for table in tables:
-        copy(table, folder / "data")
+        copy(results_folder / Path(table).relative_to("results"), folder / "data")
     pages = Pages(ROOT, results, settings, params.config, shown, tables, departures(params.config))
     write(folder, ROOT, pages, settings, f"Built from {plain(version(ROOT))}.")
