@@ -85,6 +85,18 @@ def test_the_engine_leaves_the_unstable_response_for_an_asymmetric_one():
     assert abs((right - left) / (right + left)) == pytest.approx(abs(asymmetric(0.99)[0]["lean"]), rel=0.01)
 
 
+@pytest.mark.parametrize(("r", "least"), [(0.98, 0.00154), (0.985, 0.00193)])
+def test_unequal_sectors_need_a_weak_coupling_and_are_unstable(r, least):
+    def unequal(kappa_c):
+        found = [one for one in vi.orbits(two_sectors(r, kappa_c=kappa_c)) if one.admissible]
+        assert max(found, key=lambda one: one.C.sum()).stable  # in phase
+        return [one for one in found if abs(one.C[0] - one.C[1]) > 1e-3]
+
+    assert not any(one.stable for kappa_c in (1e-5, least - 5e-6) for one in unequal(kappa_c))
+    assert [len(unequal(kappa_c)) for kappa_c in (1e-5, least - 5e-6, least + 5e-6)] == [2, 2, 0]
+    assert f"{least:.5f}" in PAGE
+
+
 def test_the_page_says_the_same():
     cells = [line.strip("| ").split(" | ") for line in PAGE.splitlines() if line.startswith("| 0.9")]
     said = [[float(cell.strip("*")) for cell in (row[0], row[1], row[3], row[4])] for row in cells]
