@@ -229,8 +229,8 @@ def test_basins_name_every_start_and_the_orbit_in_its_own(tables):
     assert nearest["label"] == orbit["label"]
 
 
-def test_basins_show_the_mirror_image_and_say_what_all_starts_share(tables, figures):
-    """The mirror image against the twin that the search for orbits finds; the case and six numbers in words."""
+def test_basins_show_the_mirror_image_and_their_table_has_what_all_starts_share(tables, figures):
+    """The mirror image against the twin that the search for orbits finds."""
     table = tables["basins"]["csv"].set_index("series")
     stable = [o for o in vi.orbits(SYSTEMS["unequal"]) if not o.symmetric and np.abs(o.multipliers).max() < 1]
     twins = np.array([[o.state[0] - o.state[1], o.state[2] - o.state[3]] for o in stable])
@@ -240,8 +240,7 @@ def test_basins_show_the_mirror_image_and_say_what_all_starts_share(tables, figu
     np.testing.assert_allclose(
         table.loc["shared", basins.SHARED].to_numpy(float), own.state[[0, 2, 4, 5, 6, 7]], atol=1e-12
     )
-    (legend,), (axes,) = figures["basins"].legends, figures["basins"].axes
-    assert f"$X_1 = {own.state[0]:.3f}$" in legend.get_title().get_text()
+    (axes,) = figures["basins"].axes
     assert axes.get_title("left") == "unequal"
 
 
