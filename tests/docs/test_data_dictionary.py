@@ -26,7 +26,8 @@ def made(built):
 
 def table(path) -> tuple[list[str], list[dict]]:
     with open(path, encoding="utf-8", newline="") as file:
-        rows = csv.DictReader(file, delimiter=SEPARATORS[path.suffix])
+        lines = (line for line in file if not line.startswith("#"))
+        rows = csv.DictReader(lines, delimiter=SEPARATORS[path.suffix])
         return list(rows.fieldnames), list(rows)
 
 
