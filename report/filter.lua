@@ -1,5 +1,5 @@
 -- What a page needs beyond plain Markdown, for HTML and for Typst alike.
-local page, titles, paper = nil, {}, nil
+local page, titles, paper, equations = nil, {}, nil, {}
 
 local function is_typst() return FORMAT:match("typst") ~= nil end
 
@@ -7,6 +7,20 @@ function Meta(meta)
   page = pandoc.utils.stringify(meta.page)
   titles = meta.titles or titles
   paper = meta.paper
+  equations = meta.equations or equations
+end
+
+-- In HTML the number of an equation of the chapter says what that is.
+local function Explained(str)
+  local before, number, after = str.text:match("^(.-)%((10%.%d+)%)(.*)$")
+  if is_typst() or not number or not equations[number] then return nil end
+  local said = pandoc.Span("(" .. number .. ")", { class = "equation", title = pandoc.utils.stringify(equations[number]) })
+  return { pandoc.Str(before), said, pandoc.Str(after) }
+end
+
+-- Headings are names, too, of navigation and search.
+local function Plain(header)
+  return header:walk({ Span = function(span) if span.classes:includes("equation") then return span.content end end })
 end
 
 -- Bars come in pairs; told apart, they are set as the delimiters they are and not as relations.
@@ -165,4 +179,4 @@ function Table(tbl)
   return tbl
 end
 
-return { { Meta = Meta }, { Math = Math, Header = Header, Span = Span, Link = Link, Image = Image, Table = Table } }
+return { { Meta = Meta }, { Str = Explained }, { Header = Plain, Link = Plain }, { Math = Math, Header = Header, Span = Span, Link = Link, Image = Image, Table = Table } }

@@ -124,7 +124,7 @@ def test_every_table_of_a_figure_can_be_downloaded(site, pages):
     offered = {link for page in pages.values() for link in page.links}
     made = [path for folder in ("figures", "accuracy", "force_sweep") for path in (site.parent / folder).glob("*.csv")]
     assert len(made) > 10
-    for path in (path for path in made if "full" not in path.stem):
+    for path in (path for path in made if path.with_suffix(".provenance.json").exists()):
         assert f"figures/{path.name}" in offered
         assert (site / "figures" / path.name).read_bytes() == path.read_bytes()
 
@@ -252,3 +252,14 @@ def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(report
     assert "This page holds what one run of the pipeline made of it" in html
     assert "The vibro-impact system" in html
     assert "Accuracy against speed" in html
+
+
+def test_an_equation_of_the_chapter_is_explained_where_it_is_named(site):
+    assert list(SETTINGS["equations"]) == [f"10.{n}" for n in range(1, 27)]
+    for name in PAGES:
+        html = (site / f"{name}.html").read_text(encoding="utf-8")
+        assert not re.search(r'<(h[1-6]|a)\b[^>]*>[^<]*<span class="equation"', html)  # names in navigation and search
+    article = (site / "index.html").read_text(encoding="utf-8")
+    said = re.findall(r'<span class="equation" title="([^"]+)">\(10\.26\)</span>', article)
+    assert said
+    assert all("C_i &gt; 4 / (4 + π ρ)" in one for one in said)

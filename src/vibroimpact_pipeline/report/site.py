@@ -127,7 +127,7 @@ def tables_of_contents(settings: dict, library: list[str]) -> str:
 
 def body_of(page: dict, sources: Path, pages, settings: dict) -> str:
     """The HTML of one page of the site, from its first heading on, with the scripts of all pages at its end."""
-    known = {"page": page["name"], "titles": titles_of(settings)}
+    known = {"page": page["name"], "titles": titles_of(settings), "equations": settings["equations"]}
     text = convert(pages.markdown(page, "html"), "html", sources, known, reader_of(page))
     return text + "".join(f'\n<script src="{name}"></script>' for name in settings.get("scripts", []))
 
