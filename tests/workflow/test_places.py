@@ -101,7 +101,8 @@ def test_as_a_module_of_another_workflow(tree, built, tmp_path):
 def test_report_and_check_of_a_module_stay_below_its_prefix(tree, tmp_path):
     outer = Tree(tmp_path / "outer")
     outer.path.mkdir()
-    (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile").replace("configfile", "#"))
+    module = OUTER.format(snakefile=tree / "workflow/Snakefile").partition("module weaker:")
+    (outer / "Snakefile").write_text("".join(module[1:]))
     with_library = [interpreter_in(outer)]
     outer.snakemake("weaker_report", prefix=with_library)
     outer.snakemake("weaker_figure_check", prefix=with_library, check=False)  # its figures differ
