@@ -44,7 +44,7 @@ def hurried(config):
     regimes["branches"]["attractors"] |= {"values": 3, "starts": 2}
     regimes["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
     regimes["basins"]["points"] = 5
-    regimes["epsilon"]["values"] = 4  # an order has an uncertainty from three on that are small
+    regimes["epsilon"]["values"] = 5  # three of them are small: the order has an uncertainty
     problems = config["accuracy"]["problems"]
     config["accuracy"]["problems"] = {"transient": problems["transient"]}
 
