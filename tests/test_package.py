@@ -184,7 +184,7 @@ def test_the_stub_names_what_the_package_exports():
     assert imported == vi._PUBLIC
 
 
-WHERE = "from vibroimpact.exact.engine import code_cache as c; print(c.code_folder(c.PACKAGE / 'exact/engine'))"
+WHERE = "from vibroimpact.exact.engine import compiled as c; print(c.code_folder(c.PACKAGE / 'exact/engine'))"
 ADVANCE = """
 import vibroimpact as vi
 from vibroimpact.exact.engine.flow import advance, flow_of

@@ -5,10 +5,10 @@ Numba keeps the code beside the library, else in the user's cache, else in a tem
 
 import numpy as np
 
-from vibroimpact.exact.engine.compile_notice import NOTICE
+from vibroimpact.exact.engine.compiled import NOTICE
 from vibroimpact.exact.engine.ensemble import ensemble
-from vibroimpact.exact.engine.growth import growth
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.engine.variation import growth
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
 

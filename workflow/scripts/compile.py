@@ -11,7 +11,7 @@ NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf
 
 
 def beforehand():
-    from vibroimpact.exact.engine.compile_notice import NOTICE
+    from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.beforehand()
 
@@ -39,7 +39,7 @@ def certificate(system, start):
     """Compile the certificate with a made-up run without events, so that it need not wait for the engine."""
     import numpy as np
 
-    from vibroimpact.exact.engine.event_log import ENTRIES, ROW
+    from vibroimpact.exact.engine.motion import ENTRIES, ROW
     from vibroimpact.exact.engine.simulation import Run
 
     state, samples = np.array(start, dtype=float), np.empty((0, 8))

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 
 inlined = partial(kept, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """For what runs at every look: code from a cache is inlined only where it is told to be."""

@@ -21,7 +21,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES

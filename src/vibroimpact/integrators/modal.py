@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 from vibroimpact.integrators.compiled_contact import (
     ROOM,
     acceleration,

@@ -9,7 +9,7 @@ import math
 import numpy as np
 from scipy.integrate import RK45
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 from vibroimpact.integrators.contact_laws import (
     HERTZ,
     HUNT_CROSSLEY,

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 from vibroimpact.system.matrices import damping_matrix, masses, rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 from vibroimpact.integrators.compiled_contact import (
     ROOM,
     accelerations,

@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.growth import growth
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.engine.variation import growth
 from vibroimpact.system.matrices import damping_matrix
 
 SIZE, BOTH = 8, 2

@@ -14,7 +14,7 @@ from numba import config
 from pipeline_trees import ROOT
 
 FUNCTION = """
-from vibroimpact.exact.engine.code_cache import kept
+from vibroimpact.exact.engine.compiled import kept
 
 @kept()
 def cube(x):

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.constraints import LOOKAHEAD, gap, gap_rounding, own_remainder, push, remainder
+from vibroimpact.exact.engine.exclusion import LOOKAHEAD, gap, gap_rounding, own_remainder, push, remainder
 from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, jet
 from vibroimpact.system.matrices import rate_matrix
 

@@ -8,8 +8,8 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.constraints import acceleration_rounding
 from vibroimpact.exact.engine.contact import impact
+from vibroimpact.exact.engine.exclusion import acceleration_rounding
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 

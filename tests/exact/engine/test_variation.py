@@ -7,9 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.errors import errors_of
-from vibroimpact.exact.engine.margins import margins_of
-from vibroimpact.exact.engine.turning_points import GAP
+from vibroimpact.exact.engine.certificate import errors_of
+from vibroimpact.exact.engine.margins import GAP, margins_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 STEP = Fraction(1, 10**25)

@@ -1,16 +1,202 @@
-"""What a run can vouch for: that no impact was missed, and how far its states can be trusted."""
+"""What a run can vouch for: that no impact was missed, and how far its states can be trusted.
 
+Rounding errors are estimated by a unit error at the start and after every event, carried by the variational flow.
+"""
+
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.engine import event_log
-from vibroimpact.exact.engine.errors import errors_of
+from vibroimpact.exact.engine import motion
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.flow import flow_of
-from vibroimpact.exact.engine.margins import DEPTH, DOUBT, hits_of, margins_of
-from vibroimpact.exact.engine.phase import phase_at
-from vibroimpact.exact.engine.turning_points import DOUBTS, GAP, turning_points
+from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
+from vibroimpact.exact.engine.phase import ahead, phase_at
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, land, start_of
+from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
 from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.state import IMPACT
+
+UNIT = np.finfo(float).eps
+ALIKE = 0.02
+"""How much alike two roundings by the same entry of the flow tables are."""
+
+
+@compiled
+def errors_of(flow, flights, events, limit):
+    """Estimated error, the root mean square of the whole state's, at the start and the end of every flight of a course:
+    rows (m + 1, 2); and after the last one, the final state rounded. inf from the first event (or the end) on after
+    which it is above the limit.
+    """
+    q = flow.coefficients
+    errors, known, repeated = np.full((len(flights), 2), math.inf), limit / UNIT, 0
+    covariance, matrix, product, part = np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
+    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
+    for n in range(len(flights)):
+        errors[n, 0] = errors[n, 1] = UNIT * _root(covariance)
+        if flights[n, LENGTH] > 0.0:
+            _copy(flights[n], part)
+            repeated = _fly(flow, part, repeated, covariance, matrix, product)
+            errors[n, 1] = UNIT * _root(covariance)
+        if n < len(events):
+            _pass(q, flights, events, n, covariance, matrix, product)
+            reached = flights[n + 1, BEFORE:AFTER]
+        else:
+            _add_lateness(q, covariance, flights[n], 0.0, product[0])
+            reached = flights[n, AFTER:]
+        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], reached, 0)
+        if not _root(covariance) <= known:  # also where it is no number: an impact without velocity
+            return errors, math.inf
+    return errors, UNIT * _root(covariance)
+
+
+@compiled
+def errors_at(flow, flights, events, times, limit):
+    """Estimated errors (n,) of the states of a course at ascending times since its start: what `errors_of` would say of
+    the end of a run that ends there.
+    """
+    q = flow.coefficients
+    errors, known, start, k, repeated = np.full(len(times), math.inf), limit / UNIT, 0.0, 0, 0
+    covariance, there, matrix, product = np.zeros((8, 8)), np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8))
+    part = np.empty(COLUMNS)
+    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
+    for n in range(len(flights)):
+        last = n == len(events)
+        while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
+            _copy(flights[n], part)
+            _copy(covariance.flat, there.flat)
+            part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
+            _fly(flow, part, repeated, there, matrix, product)
+            land(flow, part)
+            _add_lateness(q, there, part, times[k], product[0])
+            _add_rounding(q, there, part[BEFORE:AFTER], part[AFTER:], 0)
+            if _root(there) <= known:
+                errors[k] = UNIT * _root(there)
+            k += 1
+        if last:
+            break
+        _copy(flights[n], part)
+        repeated = _fly(flow, part, repeated, covariance, matrix, product)
+        _pass(q, flights, events, n, covariance, matrix, product)
+        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], flights[n + 1, BEFORE:AFTER], 0)
+        if not _root(covariance) <= known:
+            break
+        start += flights[n, LENGTH]
+    return errors
+
+
+@inlined
+def _fly(flow, flight, repeated, covariance, matrix, product):
+    """Carry a covariance over a flight, with a rounding wherever the tables end; the row becomes its last part.
+
+    repeated: how often the tables ended before. Returns how often they have by now.
+    """
+    left = flight[LENGTH]
+    while left > 0.0:
+        flight[LENGTH] = min(left, flow.longest)
+        fill_flight(flow, flight, matrix)
+        _carry(matrix, covariance, product)
+        left -= flight[LENGTH]
+        if left > 0.0:
+            repeated += 1
+            land(flow, flight)
+            _add_rounding(flow.coefficients, covariance, flight[BEFORE:AFTER], flight[AFTER:], repeated)
+            _copy(flight[AFTER:], flight[BEFORE:AFTER])
+            flight[FORCING], _ = ahead(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
+    return repeated
+
+
+@inlined
+def _pass(q, flights, events, n, covariance, matrix, product):
+    """Carry a covariance over event n."""
+    _add_miss(covariance, flights[n], events[n])
+    fill_event(q, flights, events, n, matrix)
+    _carry(matrix, covariance, product)
+
+
+@inlined
+def _carry(matrix, covariance, product):
+    """Replace a covariance C by that of the error times a matrix M, M (M C)^T."""
+    _multiply(matrix, covariance, product)
+    for i in range(8):
+        for j in range(i):
+            product[i, j], product[j, i] = product[j, i], product[i, j]
+    _multiply(matrix, product, covariance)
+
+
+@inlined
+def _multiply(a, b, product):
+    """The product of two matrices (8, 8), of which the first is mostly zeros."""
+    for i in range(8):
+        for j in range(8):
+            product[i, j] = 0.0
+        for k in range(8):
+            weight = a[i, k]
+            if weight != 0.0:
+                for j in range(8):
+                    product[i, j] += weight * b[k, j]
+
+
+@inlined
+def _copy(source, target):
+    """One by one: for an array into an array Numba compiles the words of an error, 2 s and never said."""
+    for i in range(len(source)):
+        target[i] = source[i]
+
+
+@inlined
+def _root(covariance):
+    """Root of the trace."""
+    trace = 0.0
+    for k in range(8):
+        trace += covariance[k, k]
+    return math.sqrt(trace)
+
+
+@unfolded
+def _add_miss(covariance, flight, event):
+    """Add to a covariance before an impact that the ball was put on its wall from where it was found."""
+    if event[3] == IMPACT:
+        i = int(event[1]) - 1
+        miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
+        covariance[4 + i, 4 + i] += (miss / UNIT) ** 2
+
+
+@inlined
+def _add_lateness(q, covariance, flight, elapsed, rate):
+    """Add to the covariance at the end of a flight that the flight is too long or short by a rounding of time.
+
+    A run ends, and is sampled, at a difference of phases or times: of the phase since the run began its last cycle, and
+    of the time elapsed (zero: only the phase counts).
+    """
+    late = 2.0 / q.omega + flight[LENGTH] + elapsed
+    _, _, walls = start_of(flight)
+    fill_rate(q, walls, flight[AFTER:], flight[FORCING] + q.omega * flight[LENGTH], rate)
+    for k in range(8):
+        covariance[k, k] += (late * rate[k]) ** 2
+
+
+@inlined
+def _add_rounding(q, covariance, began, state, repeated):
+    """Add a unit rounding error of a flight, from one state (8,), [boxes, balls], to another, to a covariance.
+
+    A flight sums what the force does on the way, F / Omega^2 to a position and F / Omega to a velocity, and loses the
+    last digits of it however little of it is left. So it does with the velocities that a stiff spring gives the boxes.
+    Where it is that of the whole table once more, as so many times before (repeated), a part of it adds linearly.
+    """
+    speed = q.drive / max(1.0, q.omega)
+    place = speed / max(1.0, q.omega)
+    farthest = max(abs(began[0]), abs(state[0])) + max(abs(began[1]), abs(state[1]))
+    speed += (math.sqrt(max(q.k11, q.k22, 1.0)) - 1.0) * farthest
+    if repeated > 0:
+        for j in range(8):
+            for k in range(8):
+                covariance[j, k] *= 1.0 + ALIKE / repeated
+    for k in range(8):
+        swing = 0.0 if k > 3 else (place if k < 2 else speed)
+        covariance[k, k] += (1.0 + ALIKE * repeated) * (1.0 + abs(state[k]) + swing) ** 2
+
 
 KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
@@ -58,15 +244,15 @@ class Certificate(Glance):
         errors, error = errors_of(flow, flights, rows, KNOWN)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
-            flights=int(ledger[event_log.FLIGHTS]),
-            exclusions=int(ledger[event_log.EVALUATIONS]),
-            chatters=int(ledger[event_log.CHATTERS]),
-            neglected=float(ledger[event_log.NEGLECTED]),
-            wall_residual=float(ledger[event_log.RESIDUAL]),
+            flights=int(ledger[motion.FLIGHTS]),
+            exclusions=int(ledger[motion.EVALUATIONS]),
+            chatters=int(ledger[motion.CHATTERS]),
+            neglected=float(ledger[motion.NEGLECTED]),
+            wall_residual=float(ledger[motion.RESIDUAL]),
             nearest_miss=float(turns[:, GAP].min()),
             shallowest_hit=float(hits[:, DEPTH].min(initial=np.inf)),
             clearance=_least_ratio(margins, errors),
-            undecided=int(ledger[event_log.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
+            undecided=int(ledger[motion.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
             error=error,
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )

@@ -1,4 +1,4 @@
-"""How the inner loops are compiled: cached on disk, without the interpreter's lock and its checks of division.
+"""How the inner loops are compiled and where their code is kept: on disk, without the interpreter's lock.
 
 What a step of a run is computed by is rounded as it is written, so that the run has the same bits alone and in a lane
 beside others (`lanes`). What is `compiled`, and unfolded into it, may round product and sum as one.
@@ -12,11 +12,169 @@ compiled first.
 Only what is `compiled` makes arrays or gives them back, and what is `unfolded` into it alone. All else works in memory
 that is given, and counts no references to it: a count is a locked operation and a call, for which all numbers at hand
 are put away.
+
+Compiled code is kept by the content of all sources that may be compiled into it: Numba looks at the file of a function,
+not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation. Each file ends with a
+sum of its content, which is checked before Numba reads it, since Numba would run a damaged one.
 """
 
-from functools import partial
+import hashlib
+import os
+import sys
+import tempfile
+from contextlib import contextmanager
+from functools import cache, partial
+from io import BytesIO
+from pathlib import Path
 
-from vibroimpact.exact.engine.code_cache import kept
+from numba import config, njit
+from numba.core import caching, event
+
+SIMULATION = "the simulation, some 15 s"
+ON_DEMAND = "what certificates, energies and Jacobians of runs need, some 10 s"
+ENSEMBLE = "the simulation of ensembles, some 25 s"
+APART = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMBLE}
+"""What is compiled apart, by the modules that it starts from, and about how long it takes."""
+
+
+class _Notice(event.Listener):
+    """Hears of all that Numba compiles, a function within another included, just before it does."""
+
+    def __init__(self):
+        self.within, self.said, self.hint = 0, set(), " (python -m vibroimpact.compile does it beforehand)"
+
+    def beforehand(self) -> None:
+        """Who compiles on purpose needs no hint."""
+        self.hint = ""
+
+    def on_start(self, compilation):
+        module = compilation.data["dispatcher"].py_func.__module__ or ""
+        what = APART.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
+        if not self.within and module.startswith(__package__) and what not in self.said:
+            self.said.add(what)
+            say(f"compiling {what}, once{self.hint}")
+        self.within += 1
+
+    def on_end(self, compilation):
+        self.within -= 1
+
+
+def say(words: str) -> None:
+    """One line on standard error."""
+    print(f"vibroimpact: {words}", file=sys.stderr, flush=True)
+
+
+NOTICE = _Notice()
+event.register("numba:compile", NOTICE)
+
+
+PACKAGE = Path(__file__).parents[2]
+SHARED = ("system", "exact/engine")
+
+
+def kept(**options):
+    """Numba's `njit` for a function whose code is kept on disk."""
+
+    def decorate(function):
+        with _numba_keeping_sound_code_in(code_folder(Path(function.__code__.co_filename).parent)):
+            return njit(cache=True, **options)(function)
+
+    return decorate
+
+
+@cache
+def code_folder(package: Path) -> Path | None:
+    """The folder for the code of a package; None where NUMBA_CACHE_DIR says it."""
+    return None if config.CACHE_DIR else _writable() / f"compiled-{_fingerprint(package)}"
+
+
+@contextmanager
+def _numba_keeping_sound_code_in(folder):
+    """Numba reads both settings when a function is decorated; functions of others keep theirs."""
+    before = config.CACHE_DIR, caching.IndexDataCacheFile
+    config.CACHE_DIR, caching.IndexDataCacheFile = str(folder or config.CACHE_DIR), SummedFiles
+    try:
+        yield
+    finally:
+        config.CACHE_DIR, caching.IndexDataCacheFile = before
+
+
+class SummedFiles(caching.IndexDataCacheFile):
+    """Numba's files of a function: an index and one for each signature, each ending with the SHA-256 of its content.
+
+    Numba ignores what comes after the content. A file that it does not find is compiled anew.
+    """
+
+    def _load_index(self):
+        _remove_if_damaged(self._index_path)
+        return super()._load_index()
+
+    def _load_data(self, name):
+        _remove_if_damaged(self._data_path(name))
+        return super()._load_data(name)
+
+    @contextmanager
+    def _open_for_write(self, filepath):
+        content = BytesIO()
+        yield content
+        with super()._open_for_write(filepath) as file:
+            file.write(content.getvalue() + _sum(content.getvalue()))
+
+
+def _remove_if_damaged(path):
+    try:
+        content = Path(path).read_bytes()
+    except FileNotFoundError:
+        return
+    size = len(content) - len(_sum(b""))
+    if content[size:] != _sum(content[:size]):
+        Path(path).unlink(missing_ok=True)
+        say(f"{path} is damaged: removed, what it held is compiled anew")
+
+
+def _sum(content):
+    return hashlib.sha256(content).digest()
+
+
+@cache
+def _fingerprint(package):
+    """Hash of all sources that a function of this package may be compiled from."""
+    files = {path for folder in (*(PACKAGE / name for name in SHARED), package) for path in folder.glob("*.py")}
+    digest = hashlib.sha256()
+    for path in sorted(files):
+        digest.update(path.name.encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _writable() -> Path:
+    """Beside the library, else in the user's own cache, else a private temporary folder, which is said."""
+    own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
+    for folder in (PACKAGE / "__pycache__", own / "vibroimpact"):
+        if folder.is_absolute() and _takes_files(folder):  # "~" stays where nobody knows the home
+            return folder
+    folder = _temporary()
+    say(f"neither the installation nor {own} can be written to; compiled code is kept in {folder}")
+    return folder
+
+
+def _takes_files(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError:
+        return False
+    return True
+
+
+def _temporary():
+    """The same for all processes of this user, unless somebody else might write to it: code in it is run."""
+    folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
+    folder.mkdir(mode=0o700, exist_ok=True)
+    state = folder.lstat()
+    private = folder.is_dir() and not folder.is_symlink() and state.st_uid == os.getuid() and not state.st_mode & 0o022
+    return folder if private else Path(tempfile.mkdtemp(prefix="vibroimpact-"))
+
 
 _alike = partial(kept, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
 _given_memory = partial(_alike, _nrt=False, fastmath=False)

@@ -3,21 +3,24 @@
 from typing import NamedTuple
 
 from vibroimpact.exact.engine.compiled import inlined, unfolded
-from vibroimpact.exact.engine.constraints import (
+from vibroimpact.exact.engine.exclusion import (
     LOOKAHEAD,
     RESOLUTION,
     acceleration_rounding,
     gap_rounding,
     module_time,
     remainder,
+    spread,
 )
-from vibroimpact.exact.engine.event_log import CHATTERS, NEGLECTED, RESIDUAL, record
-from vibroimpact.exact.engine.exclusion import spread
 from vibroimpact.exact.engine.flow import acceleration, inverse_masses, jet
 from vibroimpact.exact.engine.motion import (
+    CHATTERS,
+    NEGLECTED,
+    RESIDUAL,
     glide,
     mode_of,
     pair,
+    record,
     with_boxes_and_balls,
     with_contacts,
     with_position,

@@ -8,21 +8,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.compiled import compiled, unfolded
-from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, account, energies, powers_of
-from vibroimpact.exact.engine.event_log import (
-    APPROACH,
-    COSINE,
-    EVALUATIONS,
-    EVENTS,
-    FLIGHTS,
-    PHASE,
-    RESIDUAL,
-    ROW,
-    SINE,
-    Log,
-    pack,
-)
-from vibroimpact.exact.engine.event_log import ENTRIES as LEDGER
+from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, Squares, account, energies, powers_of, squares_of
 from vibroimpact.exact.engine.event_loop import (
     EARLIER,
     FAILURES,
@@ -45,12 +31,25 @@ from vibroimpact.exact.engine.lane_step import RESIDUAL as MISSED
 from vibroimpact.exact.engine.lane_step import SINE as SINE_AT
 from vibroimpact.exact.engine.lane_step import TIME as WHEN
 from vibroimpact.exact.engine.lane_step import WALL as HIT
+from vibroimpact.exact.engine.lanes import WIDTH
+from vibroimpact.exact.engine.motion import (
+    APPROACH,
+    COSINE,
+    EVALUATIONS,
+    EVENTS,
+    FLIGHTS,
+    PHASE,
+    RESIDUAL,
+    ROW,
+    SINE,
+    Log,
+    pack,
+)
+from vibroimpact.exact.engine.motion import ENTRIES as LEDGER
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
 from vibroimpact.exact.engine.replay import departures
-from vibroimpact.exact.engine.request import MOST_CYCLES, checked_window, within_walls
-from vibroimpact.exact.engine.squares import Squares, squares_of
-from vibroimpact.exact.engine.vectors import WIDTH
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, checked_window, within_walls
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals, whole
 from vibroimpact.system.state import IMPACT

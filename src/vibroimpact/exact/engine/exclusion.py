@@ -1,6 +1,6 @@
-"""How long a constraint certainly holds, and when it certainly ends.
+"""How long the constraints of a flight certainly hold, and when they certainly end.
 
-A constraint is a smooth g(t) >= 0 (the gap to a wall, or the contact force of a sticking ball). With its Taylor
+A constraint is a smooth g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. With its Taylor
 polynomial of degree 6 and a bound on its seventh derivative it stays above a polynomial c (8,), c0 + ... + c7 t^7, and
 that is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are (conservative advancement: repeated
 from the safe side, the times T converge to the first zero of g and never pass it). Where the rate of g certainly keeps
@@ -12,8 +12,11 @@ The tests are carried out in floating point. Callers lower c0 by a margin, the r
 
 import math
 
-from vibroimpact.exact.engine.compiled import inlined
-from vibroimpact.exact.engine.flow import half_curvature, slope, value
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import inlined, unfolded
+from vibroimpact.exact.engine.flow import half_curvature, jet, slope, value
+from vibroimpact.exact.engine.motion import mode_of
 
 MOMENT = 1e-300  # times do not go on shrinking below it
 
@@ -145,3 +148,187 @@ def spread(c, remainder, t):
     """Bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder
     return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))
+
+
+RESOLUTION = 4.0 * np.finfo(float).eps
+LOOKAHEAD = 2.5
+NOTHING = 1e-300  # a margin of a force that stays zero
+SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
+
+
+@inlined
+def remainder(q, mode, jets, growth):
+    """Bound on |X_i^(7)| / 7! of both boxes while the seventh derivative of the force adds up to no more than growth.
+
+    The sixth derivative of the boxes obeys the boxes' equations under that of the force, so the square root of twice
+    its energy, which bounds its velocity, grows no faster than that force: dampings only take away.
+    """
+    one, two = jets
+    m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
+    y1, y2, z1, z2 = one[6] * (1 / 7), two[6] * (1 / 7), one[7], two[7]
+    energy = m1 * z1 * z1 + m2 * z2 * z2 + y1 * y1 + q.ground * y2 * y2 - q.k12 * ((y1 - y2) * (y1 - y2))
+    return (math.sqrt(energy) + growth * (1 / 5040)) * (1.0 + 1e-12)
+
+
+@inlined
+def own_remainder(q, mode, jets, both, i, force, horizon):
+    """`remainder` of box i alone, the sixth derivative of whose force is at most force; both: that of both boxes.
+
+    The energy of a box is raised by its own force, and by what the coupling passes on: next to a box that the other one
+    cannot reach, or hardly, the energy of the other one does not count.
+    """
+    m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
+    passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
+    own = math.sqrt(m * p[7] * p[7] + k * (p[6] * (1 / 7)) ** 2) + horizon * (force * (1 / 5040) + passed)
+    return min(both, own * (1.0 + 1e-12))
+
+
+@inlined
+def acceleration_rounding(q, boxes, i):
+    """Size below which the acceleration of box i is rounding."""
+    x1, x2, v1, v2 = abs(boxes[0]), abs(boxes[1]), abs(boxes[2]), abs(boxes[3])
+    coupling = abs(q.k12) * (x2 if i == 0 else x1) + abs(q.c12) * (v2 if i == 0 else v1)
+    if i == 0:
+        return RESOLUTION * (abs(q.f1) + q.k11 * x1 + q.c11 * v1 + coupling)
+    return RESOLUTION * (abs(q.f2) + q.k22 * x2 + q.c22 * v2 + coupling)
+
+
+@inlined
+def gap_rounding(q, boxes, balls, i):
+    """Size below which a gap of module i is rounding: of all that a flight makes it of."""
+    x1, x2, v1, v2 = boxes  # velocities enter like positions over a unit of time
+    return RESOLUTION * (1.0 + abs(x1) + abs(x2) + abs(v1) + abs(v2) + abs(balls[i]) + abs(balls[2 + i]) + q.shift)
+
+
+@inlined
+def gap(p, position, velocity, w):
+    """The gap between a ball in free flight and wall w of its box, whose jet is p (8,), as a polynomial (8,)."""
+    near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
+    return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
+
+
+@inlined
+def push(q, mode, jets, i, wall, sine, cosine, horizon):
+    """(polynomial (8,), remainder) of the force, per unit of ball mass, with which a wall pushes a ball that sticks.
+
+    It is the acceleration of the box, which obeys the boxes' equations under the second derivative of the force.
+    """
+    one, two = jets
+    fall = -q.omega * q.omega
+    start = (2.0 * one[2], 2.0 * two[2], 6.0 * one[3], 6.0 * two[3])
+    bent = jet(q, mode, start, fall * sine, fall * cosine)
+    both = remainder(q, mode, bent, horizon * q.growth * q.omega**2)
+    bound = own_remainder(q, mode, bent, both, i, abs(q.f1 if i == 0 else q.f2) * q.omega**8, horizon)
+    p = bent[0] if i == 0 else bent[1]
+    return (
+        wall * p[0],
+        wall * p[1],
+        wall * p[2],
+        wall * p[3],
+        wall * p[4],
+        wall * p[5],
+        wall * p[6],
+        wall * p[7],
+    ), bound
+
+
+@inlined
+def _safe_time(c, bound, margin, horizon):
+    """(time the constraint certainly holds, whether it is met at once, being within rounding of zero).
+
+    Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
+    """
+    if c[0] > 2.0 * margin:
+        return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
+    if c[1] < 0.0:
+        return 0.0, True
+    rises = c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin)
+    return _leaving_time(c, bound, margin, horizon, rises), False
+
+
+@inlined
+def _leaving_time(c, bound, margin, horizon, rises):
+    """How long a constraint that starts within rounding of zero certainly holds.
+
+    If it rises, its zero at the start is divided out. If it does not, or where it is the bound alone that makes that
+    time short, it holds, within rounding, as long as it stays above minus its margin.
+    """
+    time = 0.0
+    if rises:
+        time = safe_time((c[1], c[2], c[3], c[4], c[5], c[6], -bound, 0.0), horizon)
+        if time == horizon or safe_time((c[1], c[2], c[3], c[4], c[5], c[6], 0.0, 0.0), horizon) <= 2.0 * time:
+            return time
+    return max(time, safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon))
+
+
+@unfolded
+def _hop_time(c, bound, margin, horizon, short):
+    """(time, whether it is the end of the hop) for the wall that the ball touches; c[1] >= 0 is its velocity away.
+
+    A hop no longer than short is timed to its end.
+    """
+    if c[1] == 0.0:
+        rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
+        return max(rise, _leaving_time(c, bound, margin, horizon, False)), False
+    t = return_time(c, bound, horizon)
+    if t <= short:
+        return t, True
+    return _leaving_time(c, bound, margin, horizon, True), False
+
+
+@inlined
+def module_time(q, motion, i, jets, bound, horizon, short):
+    """How far module i may fly: (time, width, undecided).
+
+    With width inf the module has no event before time. Else it certainly has its next event at time +- width (slightly
+    negative when just passed), width 0 being rounding; undecided marks a tangential meeting that rounding cannot tell
+    from a miss. jets: of both boxes; bound: their remainder over the horizon; short: the longest time over which a jet
+    is exact to rounding.
+    """
+    if motion.walls[i] != 0:
+        return _sticking_time(q, motion, i, jets, horizon, short)
+    velocity = motion.boxes[2 + i] - motion.balls[2 + i]
+    if velocity != 0.0:  # as long as it keeps its sign only the wall ahead matters
+        ahead = 1.0 if velocity > 0.0 else -1.0
+        c = gap(jets[0] if i == 0 else jets[1], motion.balls[i], motion.balls[2 + i], ahead)
+        certain, t, width = crossing(c, bound, gap_rounding(q, motion.boxes, motion.balls, i), horizon, short)
+        if certain:
+            return t, width, False
+    return _turning_time(q, motion, i, jets, bound, horizon, short)
+
+
+@unfolded
+def _sticking_time(q, motion, i, jets, horizon, short):
+    """module_time of a ball that sticks: its constraint is that the wall pushes it."""
+    c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
+    # where the box is at rest as yet: the rounding of what its force may become meanwhile
+    margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
+    if c[1] < 0.0:
+        certain, t, width = crossing(c, bound, margin, horizon, short)
+        if certain:
+            return t, width, False
+    t, met = _safe_time(c, bound, margin, horizon)
+    return t, (0.0 if met else math.inf), met
+
+
+@unfolded
+def _turning_time(q, motion, i, jets, bound, horizon, short):
+    """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
+    boxes, balls = motion.boxes, motion.balls
+    margin = gap_rounding(q, boxes, balls, i)
+    force = abs(q.f1 if i == 0 else q.f2) * q.omega**6
+    bound = own_remainder(q, mode_of(motion.walls), jets, bound, i, force, horizon)
+    time, width, undecided = horizon, math.inf, False
+    for w in (1, -1):
+        c = gap(jets[0] if i == 0 else jets[1], balls[i], balls[2 + i], w)
+        if w != motion.touching[i]:
+            t, met = _safe_time(c, bound, margin, time)
+            doubt = met
+        else:
+            if c[1] == 0.0 and abs(2.0 * c[2]) <= acceleration_rounding(q, boxes, i):
+                c = (c[0], c[1], 0.0, c[3], c[4], c[5], c[6], c[7])
+            t, met = _hop_time(c, bound, margin, time, short)
+            doubt = False
+        if t < time:
+            time, width, undecided = t, (0.0 if met else math.inf), doubt
+    return time, width, undecided

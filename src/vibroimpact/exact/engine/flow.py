@@ -15,7 +15,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from vibroimpact.exact.engine.compiled import inlined, unfolded
 from vibroimpact.exact.engine.flow_tables import ORDERS, tables
-from vibroimpact.exact.engine.vectors import weighted_sum
+from vibroimpact.exact.engine.lanes import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))

@@ -9,9 +9,8 @@ a run has the same bits as alone. Where any doubt remains nothing is done.
 import math
 
 from vibroimpact.exact.engine.compiled import inlined
-from vibroimpact.exact.engine.constraints import LOOKAHEAD, RESOLUTION, SHORT, gap, gap_rounding, remainder
 from vibroimpact.exact.engine.contact import impact
-from vibroimpact.exact.engine.exclusion import CONVERGING
+from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD, RESOLUTION, SHORT, gap, gap_rounding, remainder
 from vibroimpact.exact.engine.flow import acceleration, along, half_curvature, slope, value
 from vibroimpact.exact.engine.lanes import entries, load, some, store, weighted_sums, where
 from vibroimpact.exact.engine.phase import (

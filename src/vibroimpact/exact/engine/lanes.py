@@ -1,7 +1,7 @@
-"""Eight floats as one number of the compiled loops: sums, products and comparisons of eight runs at once.
+"""Vectors of eight floats in compiled code: weighted sums of table rows, and `Lanes`, eight runs as one number.
 
-Each operation rounds as that of a float, so that a formula gives the same bits for both. Comparisons give a `Mask`;
-`where` chooses by it.
+The compiler does not form the sums of rows by itself. Each operation on Lanes rounds as that of a float, so that a
+formula gives the same bits for both. Comparisons give a `Mask`; `where` chooses by it.
 """
 
 import math
@@ -13,7 +13,56 @@ from numba.core import cgutils
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
-from vibroimpact.exact.engine.vectors import INDICES, NOTHING, NUMBERS, WIDTH, row_at, weighted
+WIDTH = 8
+NUMBERS, INDICES = ir.VectorType(ir.DoubleType(), WIDTH), ir.VectorType(ir.IntType(32), WIDTH)
+NOTHING = ir.Constant(NUMBERS, ir.Undefined)
+
+
+@intrinsic
+def weighted_sum(_, table, mode, j, weights):
+    """Sum over m of weights[m] times table[mode, j, m], a table (modes, n, m, 16): its two halves, tuples of eight."""
+    eight = types.UniTuple(types.float64, WIDTH)
+
+    def generate(context, builder, signature, arguments):
+        array = context.make_array(signature.args[0])(context, builder, arguments[0])
+        zero = context.get_constant(types.intp, 0)
+        start = cgutils.get_item_pointer(
+            context, builder, signature.args[0], array, [arguments[1], arguments[2], zero, zero]
+        )
+        weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
+        wide, halves = [_in_all(builder, weight) for weight in weights], []
+        for half in range(2):
+            rows = [row_at(context, builder, start, 2 * m + half) for m in range(len(weights))]
+            halves.append(context.make_tuple(builder, eight, _entries(builder, weighted(builder, rows, wide))))
+        return context.make_tuple(builder, signature.return_type, halves)
+
+    return types.UniTuple(eight, 2)(table, types.intp, types.intp, weights), generate
+
+
+def row_at(context, builder, start, place):
+    """The vector at a place after the start."""
+    pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
+    return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
+
+
+def weighted(builder, rows, weights):
+    """The weighted sum of vectors, product and sum rounded as one where the processor can; weights: vectors."""
+    total = None
+    for row, weight in zip(rows, weights, strict=True):
+        part = builder.fmul(row, weight, flags=("contract",))
+        total = part if total is None else builder.fadd(total, part, flags=("contract",))
+    return total
+
+
+def _in_all(builder, number):
+    """The vector of which every entry is this number."""
+    first = builder.insert_element(NOTHING, number, ir.IntType(32)(0))
+    return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
+
+
+def _entries(builder, vector):
+    return [builder.extract_element(vector, ir.IntType(32)(k)) for k in range(WIDTH)]
+
 
 TRUTHS = ir.VectorType(ir.IntType(1), WIDTH)
 
@@ -51,9 +100,7 @@ def _wide(context, builder, value, kind):
     """A float or whole number in all lanes."""
     if isinstance(kind, Lanes):
         return value
-    value = context.cast(builder, value, kind, types.float64)
-    first = builder.insert_element(NOTHING, value, ir.IntType(32)(0))
-    return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
+    return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
 def _operation(function, result, generate):

@@ -1,6 +1,13 @@
-"""A motion as the compiled loops carry it, and how it goes on without events."""
+"""A motion as the compiled loops carry it, how it goes on without events, and the table of its events.
+
+A row of the table is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach,
+sine and cosine of the phase]; the stick that completes a chatter is noted at the chatter's last simulated impact. A
+ledger holds what the certificate needs besides.
+"""
 
 from typing import NamedTuple
+
+import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.exact.engine.flow import advance
@@ -74,3 +81,41 @@ def glide(flow, motion, t):
     """The motion a time t later, no event in between; no ball touches a wall but those that stick."""
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, carry(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
+
+
+EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
+"""Entries of a run's ledger: five counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
+neglect; their number."""
+
+
+class Log(NamedTuple):
+    """Rows of events (n, ROW), as many as the ledger (ENTRIES,) counts, the rest free."""
+
+    rows: np.ndarray
+    ledger: np.ndarray
+
+
+TIME, MODULE, WALL, KIND = range(4)
+PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # places in a row, and its length
+
+
+@inlined
+def record(log, time, i, wall, kind, boxes, balls, approach):
+    """Write an event of module i (0, 1), all but its phase.
+
+    approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
+    starts, at its stick; else 0.
+    """
+    row = log.rows[int(log.ledger[EVENTS])]
+    row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
+    pack(boxes, balls, row[4:PHASE])
+    row[APPROACH] = approach
+    log.ledger[EVENTS] += 1.0
+
+
+@inlined
+def pack(boxes, balls, state):
+    """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    for i in range(4):
+        state[2 * i] = boxes[i]
+        state[2 * i + 1] = balls[i]

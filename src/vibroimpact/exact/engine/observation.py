@@ -4,11 +4,10 @@ import math
 
 from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
 from vibroimpact.exact.engine.contact import box_accelerations
-from vibroimpact.exact.engine.event_log import APPROACH, COSINE, SINE
+from vibroimpact.exact.engine.energy import fall, potential, squares_along, squares_before
 from vibroimpact.exact.engine.flow import advance, jet_at, node, slope, value
-from vibroimpact.exact.engine.motion import Motion, glide, mode_of, pair, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, glide, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.replay import first_departure, next_departure
-from vibroimpact.exact.engine.squares import fall, potential, squares_along, squares_before
 from vibroimpact.system.state import IMPACT, STICK
 
 IMPACTS, STICKS, LARGEST, SQUARE, PATH, SEEN = 0, 2, 4, 6, 8, 10

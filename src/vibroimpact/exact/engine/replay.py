@@ -7,9 +7,8 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.contact import common_velocity
-from vibroimpact.exact.engine.event_log import APPROACH, PHASE
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.exact.engine.motion import carry, mode_of, pair, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, PHASE, carry, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.phase import TWO_PI, ahead
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 

@@ -1,5 +1,7 @@
-"""Direct integration of the equations of motion, (10.1) in the form (10.2)."""
+"""Direct integration of the equations of motion, (10.1) in the form (10.2), and the checks of its arguments."""
 
+import math
+import numbers
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -8,21 +10,103 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import frames
-from vibroimpact.exact.engine import event_log
 from vibroimpact.exact.engine import event_loop as kernel
+from vibroimpact.exact.engine import motion
 from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.certificate import KNOWN, Certificate
+from vibroimpact.exact.engine.certificate import KNOWN, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
-from vibroimpact.exact.engine.errors import errors_at
 from vibroimpact.exact.engine.flow import flow_of, tables_of
 from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
-from vibroimpact.exact.engine.request import NO_TIMES, checked_state, checked_times, checked_window
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, real, reals
+from vibroimpact.system.arguments import instance, real, reals, shown, whole
 from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.state import EVENT, KINDS
+
+NO_TIMES = np.empty(0)
+LATEST = 2.0**43
+"""From here on floats are further apart than 1e-3, and times of a run cannot be told."""
+MOST_CYCLES = 10_000_000
+"""Of one run, which holds all its events: a kilobyte or so for a cycle."""
+ROUNDED = 1e-12
+"""So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
+
+
+def checked_state(state) -> np.ndarray:
+    """A start (8,), the balls between their walls.
+
+    Raises:
+        ValueError: it is none.
+    """
+    state = reals("state", state)
+    values = state.tolist()
+    if state.shape != (8,):
+        raise ValueError(f"state: needs shape (8,), got {state.shape}")
+    if not all(map(math.isfinite, values)):
+        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
+    x1, y1, x2, y2 = values[:4]
+    if abs(x1 - y1) > 1.0 or abs(x2 - y2) > 1.0:
+        _check_walls((1, x1, y1), (2, x2, y2))
+    return state
+
+
+def _check_walls(*modules):
+    for module, box, ball in modules:
+        relative = abs(box - ball)
+        if relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
+            raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
+
+
+def within_walls(states) -> np.ndarray:
+    """For starts (n, 8) whether each is one that `checked_state` accepts, (n,)."""
+    boxes, balls = states[:, [0, 2]], states[:, [1, 3]]
+    with np.errstate(invalid="ignore", over="ignore"):
+        slack = ROUNDED + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
+        inside = abs(boxes - balls) <= 1.0 + slack
+    return inside.all(axis=1) & np.isfinite(states).all(axis=1)
+
+
+def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
+    """The start of a run, exactly, and its number of cycles.
+
+    Raises:
+        ValueError: one of them is malformed, or the run leaves the range of times.
+    """
+    cycles = whole("cycles", cycles, 0, MOST_CYCLES)
+    begin = _instant(tau0)
+    start = float(begin)
+    end = start + cycles * system.period
+    if not (abs(start) < LATEST and abs(end) < LATEST):
+        name, tau = ("cycles", end) if abs(start) < LATEST else ("tau0", start)
+        raise ValueError(
+            f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
+            "its times (the forcing is the same whole periods earlier)"
+        )
+    return begin, cycles
+
+
+def _instant(tau0):
+    """The time that tau0 stands for, exactly."""
+    if isinstance(tau0, Instant):
+        return tau0
+    number = real("tau0", tau0)
+    return exactly(tau0) if not isinstance(tau0, float) and isinstance(tau0, numbers.Rational) else number
+
+
+def checked_times(name, times, start, end) -> np.ndarray:
+    """Sample times (n,) of a run from start to end.
+
+    Raises:
+        ValueError: they are not ascending, not finite or not within the run.
+    """
+    times = reals(name, times)
+    if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
+        raise ValueError(f"{name}: needs a one-dimensional ascending array of finite times")
+    slack = 4.0 * math.ulp(max(abs(start), abs(end)))
+    if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
+        raise ValueError(f"{name}: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
+    return times
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -34,7 +118,7 @@ class Run(Glance):
         X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
         leaves it (release); state, (8,), just after the event.
     samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
-    pieces, ledger: the kernel's events, rows one after another (`event_log`), and its counts.
+    pieces, ledger: the kernel's events, rows one after another (`motion`), and its counts.
 
     States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. No array of a run can be written to.
     """
@@ -76,10 +160,10 @@ class Run(Glance):
     @cached_property
     def events(self) -> np.ndarray:
         table = np.empty(len(self.rows), EVENT)
-        table["tau"] = self.tau0 + self.rows[:, event_log.TIME]
-        for name, column in (("module", event_log.MODULE), ("wall", event_log.WALL), ("kind", event_log.KIND)):
+        table["tau"] = self.tau0 + self.rows[:, motion.TIME]
+        for name, column in (("module", motion.MODULE), ("wall", motion.WALL), ("kind", motion.KIND)):
             table[name] = self.rows[:, column]
-        table["state"] = self.rows[:, 4 : event_log.PHASE]
+        table["state"] = self.rows[:, 4 : motion.PHASE]
         table.flags.writeable = False
         return table
 
@@ -148,7 +232,7 @@ class Run(Glance):
 
     @cached_property
     def course(self) -> tuple:
-        """The flow, the flights between the events and the events as `replayed` and `event_log` tell them."""
+        """The flow, the flights between the events and the events as `replayed` and `motion` tell them."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
@@ -232,11 +316,11 @@ def _run(system, state, cycles, begin, times):
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
     while (status := kernel.integrate(*given, rows, ledger, where)) == kernel.PAUSED:
         if kernel.is_full(rows, ledger):
-            pieces.append(rows[: int(ledger[event_log.EVENTS])])
+            pieces.append(rows[: int(ledger[motion.EVENTS])])
             kernel.empty_rows(ledger, where)
-            rows = np.empty((kernel.PIECE, event_log.ROW))
+            rows = np.empty((kernel.PIECE, motion.ROW))
         stop_if_given_up()
-    rows = rows[: int(ledger[event_log.EVENTS])]
+    rows = rows[: int(ledger[motion.EVENTS])]
     if status != kernel.FINISHED:
         what = kernel.FAILURES[status]
         last = rows if len(rows) or not pieces else pieces[-1]
