@@ -46,7 +46,7 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
     cycles = whole("cycles", cycles, 1, 10**6)
     for done in range(0, cycles, AT_ONCE):
         run = simulate(free, state, min(AT_ONCE, cycles - done), begin)
-        flights = run.course[1]
+        flights = run.trajectory[1]
         below = np.flatnonzero(_energies(free, flights[:, AFTER:COLUMNS]) <= target)
         if len(below):
             n = int(below[0])

@@ -75,7 +75,7 @@ def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
     """A miss late in a chaotic motion may be open although a nearer one at its beginning is clear."""
     system, start, cycles = chapter(0.5, 0.5), np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]), 30
     run = vi.simulate(system, start, cycles)
-    flow, flights, rows = run.course
+    flow, flights, rows = run.trajectory
     errors, error = errors_of(flow, flights, rows, np.inf)
     hits = np.full((len(rows), 2), np.inf)
 

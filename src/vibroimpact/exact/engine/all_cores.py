@@ -1,4 +1,4 @@
-"""Many pieces of work on all cores, in threads where there are several: the engine needs no interpreter's lock."""
+"""Parallel execution in threads on all cores; the engine runs without the interpreter's lock."""
 
 import os
 import sys
@@ -13,7 +13,7 @@ WORKER = threading.local()
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
-    """What `work(*piece)` gives for each piece, in their order; the first error of any is raised.
+    """Return `work(*piece)` for each piece, in order; raise the first error of any.
 
     Args:
         runs: how many runs each piece has.
@@ -35,20 +35,20 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
 
 def stop_if_given_up():
-    """End a piece of work in a thread whose others failed, or were interrupted; long pieces call it now and then."""
+    """Raise CancelledError in a thread whose siblings failed or were interrupted; long work calls it now and then."""
     if (given_up := getattr(WORKER, "given_up", None)) and given_up.is_set():
         raise CancelledError
 
 
 def cores() -> int:
-    """Cores that this process may use: all, but those that a cluster, the user or `at_most` keeps from it."""
+    """Return the number of cores that this process may use, as limited by a cluster, the user or `at_most`."""
     there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(there, ALLOWED.get())
 
 
 @contextmanager
 def at_most(threads: int) -> Iterator[None]:
-    """Within, work is spread over so many cores at most."""
+    """Limit parallel work to this number of threads within a `with` block."""
     token = ALLOWED.set(threads)
     try:
         yield

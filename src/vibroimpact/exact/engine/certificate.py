@@ -1,4 +1,4 @@
-"""What a run can vouch for: that no impact was missed, and how far its states can be trusted.
+"""The certificate of a run: proofs that no impact was missed, and error estimates of its states.
 
 Rounding errors are estimated by a unit error at the start and after every event, carried by the variational flow.
 """
@@ -25,9 +25,9 @@ ALIKE = 0.02
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Estimated error, the root mean square of the whole state's, at the start and the end of every flight of a course:
-    rows (m + 1, 2); and after the last one, the final state rounded. inf from the first event (or the end) on after
-    which it is above the limit.
+    """Return estimated errors at the start and end of every flight, rows (m + 1, 2), and of the rounded final state. An
+    error is the root mean square over the whole state; it is inf from the first event (or the end) on after which it
+    exceeds the limit.
     """
     q = flow.coefficients
     errors, known, repeated = np.full((len(flights), 2), math.inf), limit / UNIT, 0
@@ -53,8 +53,8 @@ def errors_of(flow, flights, events, limit):
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Estimated errors (n,) of the states of a course at ascending times since its start: what `errors_of` would say of
-    the end of a run that ends there.
+    """Return estimated errors (n,) of the states at ascending times since the start, as `errors_of` would give for a
+    run that ends there.
     """
     q = flow.coefficients
     errors, known, start, k, repeated = np.full(len(times), math.inf), limit / UNIT, 0.0, 0, 0
@@ -88,7 +88,8 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _fly(flow, flight, repeated, covariance, matrix, product):
-    """Carry a covariance over a flight, with a rounding wherever the tables end; the row becomes its last part.
+    """Carry a covariance over a flight, adding a rounding error at each end of the tables; the row becomes its last
+    part.
 
     repeated: how often the tables ended before. Returns how often they have by now.
     """
@@ -127,7 +128,7 @@ def _carry(matrix, covariance, product):
 
 @inlined
 def _multiply(a, b, product):
-    """The product of two matrices (8, 8), of which the first is mostly zeros."""
+    """Fill in the product of two matrices (8, 8), the first of them sparse."""
     for i in range(8):
         for j in range(8):
             product[i, j] = 0.0
@@ -140,14 +141,14 @@ def _multiply(a, b, product):
 
 @inlined
 def _copy(source, target):
-    """One by one: for an array into an array Numba compiles the words of an error, 2 s and never said."""
+    """Copy entries one by one; an array assignment would make Numba compile an error message for 2 s."""
     for i in range(len(source)):
         target[i] = source[i]
 
 
 @inlined
 def _root(covariance):
-    """Root of the trace."""
+    """Return the square root of the trace."""
     trace = 0.0
     for k in range(8):
         trace += covariance[k, k]
@@ -156,7 +157,7 @@ def _root(covariance):
 
 @unfolded
 def _add_miss(covariance, flight, event):
-    """Add to a covariance before an impact that the ball was put on its wall from where it was found."""
+    """Add to a covariance before an impact the distance by which the ball was moved onto its wall."""
     if event[3] == IMPACT:
         i = int(event[1]) - 1
         miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
@@ -165,7 +166,7 @@ def _add_miss(covariance, flight, event):
 
 @inlined
 def _add_lateness(q, covariance, flight, elapsed, rate):
-    """Add to the covariance at the end of a flight that the flight is too long or short by a rounding of time.
+    """Add the effect of a rounding error in the duration to the covariance at the end of a flight.
 
     A run ends, and is sampled, at a difference of phases or times: of the phase since the run began its last cycle, and
     of the time elapsed (zero: only the phase counts).
@@ -179,7 +180,7 @@ def _add_lateness(q, covariance, flight, elapsed, rate):
 
 @inlined
 def _add_rounding(q, covariance, began, state, repeated):
-    """Add a unit rounding error of a flight, from one state (8,), [boxes, balls], to another, to a covariance.
+    """Add a unit rounding error of a flight between two states (8,), [boxes, balls], to a covariance.
 
     A flight sums what the force does on the way, F / Omega^2 to a position and F / Omega to a velocity, and loses the
     last digits of it however little of it is left. So it does with the velocities that a stiff spring gives the boxes.
@@ -199,7 +200,7 @@ def _add_rounding(q, covariance, began, state, repeated):
 
 
 KNOWN = 1e-3
-"""A trajectory counts as known while its estimated error is below this: what a printed figure can show."""
+"""A trajectory counts as known while its estimated error is below this, which a printed figure can show."""
 
 CLEAR = 4.0
 """What is this many times the estimated error away is decided: true errors stay below 2.6 times the estimate."""
@@ -207,20 +208,22 @@ CLEAR = 4.0
 
 @dataclass(frozen=True, repr=False)
 class Certificate(Glance):
-    """The proof and its limits, for one run.
+    """Proof and error estimates of one run.
 
-    flights, exclusions: flights, and proofs along them that nothing happens over an interval; every instant of the
-    run is covered by one, or the run raises. chatters: infinite sequences of impacts completed; neglected: bound on
-    what completing them changed. wall_residual: largest ||W| - 1| at an impact before it was set to zero.
-    nearest_miss: smallest gap at which a ball turned before a wall, in that half of its box (inf if none did);
-    shallowest_hit: smallest depth that an impact prevented; clearance: smallest ratio of a distance to the estimated
-    error when it counted, over all by which the run would have had other events: those two, the least contact force of
-    a ball that sticks, the depth to which it falls at a release, what an impact leaves of it, and how far from the
-    start and the end of the run its events are; undecided: turns and impacts that rounding alone cannot tell from each
-    other.
-    error: estimated error of the final state, from unit rounding after every event carried by the variational flow
-    (inf past the horizon); horizon: time tau of the first event, or end, at which this estimate is above 1e-3 (inf if
-    never), beyond which the trajectory is one possible motion and not the one asked for.
+    flights, exclusions: number of flights, and of proofs that nothing happens over an interval. Proofs cover every
+        instant of the run, or it raises.
+    chatters: number of infinite sequences of impacts completed; neglected: bound on the change by completing them.
+    wall_residual: largest ||W| - 1| at an impact before it was set to zero.
+    nearest_miss: smallest gap at which a ball turned before a wall, in that half of its box (inf if none did).
+    shallowest_hit: smallest depth that an impact prevented.
+    clearance: smallest ratio of a distance from a change of the event sequence to the estimated error at that time.
+        Distances are the two above, contact forces of sticking and released balls, and those of events from the start
+        and the end of the run.
+    undecided: number of turns and impacts that rounding alone cannot tell from each other.
+    error: estimated error of the final state, from unit rounding after every event carried by the variational flow;
+        inf beyond the horizon.
+    horizon: time tau of the first event, or end, at which this estimate exceeds 1e-3 (inf if never). Beyond it the
+        trajectory is one possible motion of the system, not the one from this start.
     """
 
     flights: int
@@ -237,22 +240,22 @@ class Certificate(Glance):
 
     @classmethod
     def of(cls, run) -> "Certificate":
-        """The certificate of a finished run."""
-        q, ledger, (flow, flights, rows) = flow_of(run.system).coefficients, run.ledger, run.course
+        """Return the certificate of a finished run."""
+        q, counters, (flow, flights, rows) = flow_of(run.system).coefficients, run.counters, run.trajectory
         phase, duration = phase_at(run.begin, run.system.Omega)[0], run.cycles * run.system.period
         turns, hits = turning_points(flow, flights), hits_of(q, flights, rows)
         errors, error = errors_of(flow, flights, rows, KNOWN)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
-            flights=int(ledger[motion.FLIGHTS]),
-            exclusions=int(ledger[motion.EVALUATIONS]),
-            chatters=int(ledger[motion.CHATTERS]),
-            neglected=float(ledger[motion.NEGLECTED]),
-            wall_residual=float(ledger[motion.RESIDUAL]),
+            flights=int(counters[motion.FLIGHTS]),
+            exclusions=int(counters[motion.EVALUATIONS]),
+            chatters=int(counters[motion.CHATTERS]),
+            neglected=float(counters[motion.NEGLECTED]),
+            wall_residual=float(counters[motion.RESIDUAL]),
             nearest_miss=float(turns[:, GAP].min()),
             shallowest_hit=float(hits[:, DEPTH].min(initial=np.inf)),
             clearance=_least_ratio(margins, errors),
-            undecided=int(ledger[motion.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
+            undecided=int(counters[motion.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
             error=error,
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )
@@ -263,18 +266,18 @@ class Certificate(Glance):
 
     @property
     def decided(self) -> bool:
-        """Whether all that happened is clear beyond the error when it did, within the horizon."""
+        """True if every event is clear of the estimated error by the factor CLEAR, up to the end of the run."""
         return not self.undecided and self.clearance > CLEAR and bool(np.isfinite(self.error))
 
 
 def _least_ratio(margins, errors):
-    """The smallest ratio of a margin to its error; nothing is clear past the horizon."""
+    """Return the smallest ratio of a margin to its error; 0 beyond the horizon."""
     known = np.isfinite(errors)
     return float((margins[known] / errors[known]).min()) if known.all() else 0.0
 
 
 def _horizon(errors, error, times, duration):
-    """When the error passes its limit: the time of the event, or end, from which on it is infinite."""
+    """Return the time of the event, or the end, from which on the estimated error is infinite."""
     if np.isfinite(error):
         return np.inf
     return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -1,4 +1,4 @@
-"""How the inner loops are compiled and where their code is kept: on disk, without the interpreter's lock.
+"""Compilation of the inner loops with Numba, cached on disk, without the interpreter's lock.
 
 What a step of a run is computed by is rounded as it is written, so that the run has the same bits alone and in a lane
 beside others (`lanes`). What is `compiled`, and unfolded into it, may round product and sum as one.
@@ -38,13 +38,13 @@ APART = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMB
 
 
 class _Notice(event.Listener):
-    """Hears of all that Numba compiles, a function within another included, just before it does."""
+    """Listener to every compilation of Numba that prints a line before a long one."""
 
     def __init__(self):
         self.within, self.said, self.hint = 0, set(), " (python -m vibroimpact.compile does it beforehand)"
 
     def beforehand(self) -> None:
-        """Who compiles on purpose needs no hint."""
+        """Drop the hint, for a user who compiles on purpose."""
         self.hint = ""
 
     def on_start(self, compilation):
@@ -60,7 +60,7 @@ class _Notice(event.Listener):
 
 
 def say(words: str) -> None:
-    """One line on standard error."""
+    """Print one line on standard error."""
     print(f"vibroimpact: {words}", file=sys.stderr, flush=True)
 
 
@@ -73,7 +73,7 @@ SHARED = ("system", "exact/engine")
 
 
 def kept(**options):
-    """Numba's `njit` for a function whose code is kept on disk."""
+    """Return Numba's `njit` for a function whose compiled code is cached on disk."""
 
     def decorate(function):
         with _numba_keeping_sound_code_in(code_folder(Path(function.__code__.co_filename).parent)):
@@ -84,13 +84,13 @@ def kept(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """The folder for the code of a package; None where NUMBA_CACHE_DIR says it."""
+    """Return the cache folder for a package; None if NUMBA_CACHE_DIR gives one."""
     return None if config.CACHE_DIR else _writable() / f"compiled-{_fingerprint(package)}"
 
 
 @contextmanager
 def _numba_keeping_sound_code_in(folder):
-    """Numba reads both settings when a function is decorated; functions of others keep theirs."""
+    """Set cache folder and class while a function is decorated; functions of other packages keep theirs."""
     before = config.CACHE_DIR, caching.IndexDataCacheFile
     config.CACHE_DIR, caching.IndexDataCacheFile = str(folder or config.CACHE_DIR), SummedFiles
     try:
@@ -100,7 +100,7 @@ def _numba_keeping_sound_code_in(folder):
 
 
 class SummedFiles(caching.IndexDataCacheFile):
-    """Numba's files of a function: an index and one for each signature, each ending with the SHA-256 of its content.
+    """Numba's cache files of a function, an index and one per signature, each ending with the SHA-256 of its content.
 
     Numba ignores what comes after the content. A file that it does not find is compiled anew.
     """
@@ -138,7 +138,7 @@ def _sum(content):
 
 @cache
 def _fingerprint(package):
-    """Hash of all sources that a function of this package may be compiled from."""
+    """Return a hash of all sources that a function of this package may be compiled from."""
     files = {path for folder in (*(PACKAGE / name for name in SHARED), package) for path in folder.glob("*.py")}
     digest = hashlib.sha256()
     for path in sorted(files):
@@ -148,7 +148,9 @@ def _fingerprint(package):
 
 @cache
 def _writable() -> Path:
-    """Beside the library, else in the user's own cache, else a private temporary folder, which is said."""
+    """Return the first writable folder: beside the library, in the user's cache, or a private temporary one, which is
+    reported.
+    """
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (PACKAGE / "__pycache__", own / "vibroimpact"):
         if folder.is_absolute() and _takes_files(folder):  # "~" stays where nobody knows the home
@@ -168,7 +170,7 @@ def _takes_files(folder):
 
 
 def _temporary():
-    """The same for all processes of this user, unless somebody else might write to it: code in it is run."""
+    """Return one folder for all processes of this user, or a new one if others could write to it: code in it is run."""
     folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
     folder.mkdir(mode=0o700, exist_ok=True)
     state = folder.lstat()

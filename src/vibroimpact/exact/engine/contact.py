@@ -1,4 +1,4 @@
-"""Everything that happens at one instant: impacts, completed chatters, balls at rest that stick, releases."""
+"""Events at one instant: impacts, completed chatters, sticking of balls at rest, releases."""
 
 from typing import NamedTuple
 
@@ -33,8 +33,8 @@ LOW = 1e-12  # height of a hop, the wall being at 1, below which its impacts are
 
 
 class Moment(NamedTuple):
-    """Where in a run an instant lies: the time elapsed since its start, the time remaining to its end, and the module
-    due, whose constraint is just met, or -1.
+    """An instant of a run: time elapsed since its start, time remaining to its end, and the module due, whose
+    constraint has just been met, or -1.
     """
 
     elapsed: float
@@ -44,7 +44,7 @@ class Moment(NamedTuple):
 
 @inlined
 def impact(q, box, ball):
-    """Velocities (X', Y') just after an impact, as `restitution.after_impact`.
+    """Return the velocities (X', Y') just after an impact, as `restitution.after_impact`.
 
     A factor rounded once would err alike at every impact, so its rest is added. The velocity of the heavier one changes
     less and is the first to be computed; that of the other follows by kappa.
@@ -60,20 +60,20 @@ def impact(q, box, ball):
 
 @inlined
 def common_velocity(q, box, ball):
-    """That of box and ball once they move as one, their momentum kept."""
+    """Return the velocity of box and ball moving as one, with their momentum kept."""
     return box - q.epsilon * q.inverse_mass * (box - ball)
 
 
 @inlined
 def box_accelerations(q, walls, boxes, sine):
-    """Accelerations of both boxes."""
+    """Return the accelerations of both boxes."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     return acceleration(q, i1, i2, boxes[0], boxes[1], boxes[2], boxes[3], q.f1 * sine, q.f2 * sine)
 
 
 @inlined
 def _hold(q, jets, boxes, i, wall, sticking):
-    """Sign of the force between ball i and the wall that it is at rest on: > 0 holds it there, < 0 would have to pull.
+    """Return the sign of the contact force on ball i at rest on a wall: > 0 holds it there, < 0 would have to pull.
 
     Where the force vanishes within rounding its first derivative that does not decides. So it does for a sticking ball
     where the pull is too brief to lift the ball by more than rounding: it would lift it by 2 |force|^3 / (3 change^2).
@@ -93,7 +93,7 @@ def _hold(q, jets, boxes, i, wall, sticking):
 
 @unfolded
 def _ends_soon(flow, motion, remaining, i, wall):
-    """Whether the chatter of ball i after an impact would end within the time of one proof, and within the run."""
+    """Return True if the chatter of ball i after an impact would end within one proof and within the run."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
@@ -101,8 +101,8 @@ def _ends_soon(flow, motion, remaining, i, wall):
 
 
 @unfolded
-def _end_of_chatter(flow, motion, i, ledger):
-    """(whether the chatter of ball i may be completed now, time to its end).
+def _end_of_chatter(flow, motion, i, counters):
+    """Return (True if the chatter of ball i may be completed now, time to its end).
 
     After an impact with inward speed u under the push a the flights shrink by kappa each and end after
     T = 2 u / (a (1 - kappa)). Completing at once keeps the momentum of box and ball; it neglects the force of the
@@ -131,25 +131,25 @@ def _end_of_chatter(flow, motion, i, ledger):
     clear = t >= window and not width < window
     if not clear and not unresolved:
         return False, 0.0
-    ledger[NEGLECTED] += neglected
+    counters[NEGLECTED] += neglected
     if not clear:
         return True, 0.0
     return True, total * (1.0 - 2.0 * wall * p[3] * total / a)
 
 
 @unfolded
-def _complete(flow, motion, i, ledger):
-    """Complete the chatter of ball i, if that may be: (motion, time to its end or -1)."""
-    done, end = _end_of_chatter(flow, motion, i, ledger)
+def _complete(flow, motion, i, counters):
+    """Complete the chatter of ball i where possible; return (motion, time to its end or -1)."""
+    done, end = _end_of_chatter(flow, motion, i, counters)
     if not done:
         return motion, -1.0
-    ledger[CHATTERS] += 1
+    counters[CHATTERS] += 1
     return with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0), end
 
 
 @inlined
 def _joined(q, motion, i):
-    """The motion with ball i going as its box, their momentum kept."""
+    """Return the motion with ball i moving as its box, with their momentum kept."""
     boxes, balls = motion.boxes, motion.balls
     common = common_velocity(q, boxes[2 + i], balls[2 + i])
     return with_boxes_and_balls(motion, with_velocity(boxes, i, common), with_velocity(balls, i, common))
@@ -157,7 +157,7 @@ def _joined(q, motion, i):
 
 @inlined
 def resolve(flow, motion, moment, log):
-    """The motion after everything that happens now.
+    """Return the motion after all events of this instant.
 
     The forces on balls at rest are looked at after all impacts, since an impact in one module can release the ball of
     the other, and the ends of chatters, which are later, last.
@@ -179,7 +179,7 @@ def resolve(flow, motion, moment, log):
 
 @unfolded
 def _meet(flow, motion, i, moment, log):
-    """A flying ball meets the wall ahead, if it is there: (motion, whether a chatter would end soon)."""
+    """Let a flying ball meet the wall ahead if it is there; return (motion, True if a chatter would end soon)."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
     wall = 1 if relative > 0.0 else -1
@@ -194,7 +194,7 @@ def _meet(flow, motion, i, moment, log):
         return with_boxes_and_balls(motion, boxes, with_velocity(balls, i, boxes[2 + i])), False
     if not wall * velocity > 0.0:
         return motion, False
-    log.ledger[RESIDUAL] = max(log.ledger[RESIDUAL], abs(1.0 - wall * relative))
+    log.counters[RESIDUAL] = max(log.counters[RESIDUAL], abs(1.0 - wall * relative))
     box, ball = impact(q, boxes[2 + i], balls[2 + i])
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
     if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
@@ -205,7 +205,7 @@ def _meet(flow, motion, i, moment, log):
 
 @inlined
 def _rest(q, motion, i, pulled, elapsed, log):
-    """The motion after a ball at rest on a wall has stuck to it or was released."""
+    """Return the motion after a ball at rest on a wall has stuck to it or been released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
     # Of box and ball together, whether it sticks as yet or not: the box alone is accelerated 1 + epsilon times as much,
     # and within rounding of no force a ball could stick and be released without end.
@@ -224,7 +224,7 @@ def _rest(q, motion, i, pulled, elapsed, log):
 
 @unfolded
 def _complete_both(flow, motion, chatters, elapsed, log):
-    """The motion after what may be completed of the chatters of the two balls, where they have one.
+    """Return the motion after completing the chatters of both balls, where possible.
 
     Their ends are noted last, in the order of their times and with the states at these times.
     """
@@ -232,7 +232,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
     for i in range(2):
         if chatters[i] and motion.touching[i] != 0:
-            motion, end = _complete(flow, motion, i, log.ledger)
+            motion, end = _complete(flow, motion, i, log.counters)
             ends = pair(ends, i, end)
     for i in range(2):  # the other ball may be pulled off by it
         if motion.walls[i] != 0 and ends[i] < 0.0:

@@ -1,4 +1,4 @@
-"""Where the energy of a run goes: work of the forces, dampers, impacts, and what boxes, balls and springs store.
+"""Energy balance of a run: work of the forces, dissipation of dampers and impacts, stored energy.
 
 Work and dissipation are integrals of quadratic forms along the flights. None of them is found as what the others leave,
 so that they add up to the change of what is stored by being right. The stick that ends a chatter takes what is left of
@@ -46,8 +46,8 @@ LARGEST = 1e3
 
 
 class Squares(NamedTuple):
-    """Of a system in each contact state and for each module: potentials S (4, 2, 6, 6) and drifts c (4, 2), or, where
-    those will not do, zeros and forms (`integrals_of`), which else are of no times.
+    """Tables of a system per contact state and module: potentials S (4, 2, 6, 6) and drifts c (4, 2), with empty forms;
+    or zeros and forms (`integrals_of`) where the potentials would lose their digits.
     """
 
     potentials: np.ndarray
@@ -56,7 +56,7 @@ class Squares(NamedTuple):
 
 
 def _lyapunov():
-    """For the upper triangle of S: that of A' S + S A, linear in A (36, 21, 21), and that of sin^2 + cos^2 (21,)."""
+    """Return, on the upper triangle of S, the map A -> A' S + S A (36, 21, 21) and sin^2 + cos^2 (21,)."""
     units = np.zeros((TRIANGLE, SIZE, SIZE))
     units[np.arange(TRIANGLE), ROWS, COLUMNS] = units[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
     rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)
@@ -69,7 +69,7 @@ OPERATORS, FORCED = _lyapunov()
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """What the integrals of a system take."""
+    """Return the tables of a system for integrals of X_1^2 and X_2^2."""
     rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
     equations = np.zeros((4, TRIANGLE + 1, TRIANGLE + 1))
     equations[:, :-1, :-1] = np.tensordot(rates.reshape(4, -1), OPERATORS, 1)
@@ -88,8 +88,8 @@ def squares_of(system) -> Squares:
 
 
 def integrals_of(system, kernels) -> np.ndarray:
-    """The forms that integrate some others, symmetric matrices G (k, 6, 6), shape (4, n, k, 21): contact state, time of
-    the flow table, which G, upper triangle.
+    """Return the quadratic forms that integrate symmetric matrices G (k, 6, 6) along a flight. Shape (4, n, k, 21):
+    contact state, time of the flow table, index of G, upper triangle.
 
     What stands beside the diagonal is doubled, so that a form is one sum over the products of a pair.
     """
@@ -107,7 +107,7 @@ def integrals_of(system, kernels) -> np.ndarray:
 
 
 def _summed(over_one, powers):
-    """The forms of 0, 1, 2, ... spacings, from that of one and the propagators (n, 6, 6) over so many."""
+    """Return the forms over 0, 1, 2, ... spacings, from that over one spacing and the propagators (n, 6, 6)."""
     forms, made = np.zeros((len(powers), *over_one.shape)), 2
     forms[1] = over_one
     while made < len(powers):  # as many again: what follows a flight is carried back to its start
@@ -118,13 +118,13 @@ def _summed(over_one, powers):
 
 
 def _carried_back(forms, power):
-    """P^T G P for symmetric forms G (n, k, 6, 6): two products of one tall matrix in place of very many small ones."""
+    """Return P^T G P for symmetric forms G (n, k, 6, 6), as two products with one tall matrix."""
     half = (forms.reshape(-1, SIZE) @ power).reshape(forms.shape)
     return (np.swapaxes(half, -1, -2).reshape(-1, SIZE) @ power).reshape(forms.shape)
 
 
 def _over_one(rate, spacing, kernels):
-    """The forms of one spacing, shape (k, 6, 6)."""
+    """Return the forms over one spacing, shape (k, 6, 6)."""
     scaled = rate * spacing * (1 + NODES[:, None, None]) / 2
     term = np.broadcast_to(np.eye(SIZE), scaled.shape)
     power = term.copy()
@@ -137,7 +137,7 @@ def _over_one(rate, spacing, kernels):
 
 @inlined
 def potential(squares, mode, boxes, sine, cosine):
-    """The potentials of X_1^2 and X_2^2 at a point of a flight."""
+    """Return the potentials of X_1^2 and X_2^2 at a point of a flight."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
     one, two = 0.0, 0.0
     for a in range(SIZE):
@@ -152,7 +152,7 @@ def potential(squares, mode, boxes, sine, cosine):
 
 @inlined
 def fall(squares, before, after, forcing):
-    """By how much the potentials fall in an instant; before, after: contact state and boxes, in the same places.
+    """Return the decrease of the potentials in an instant; before, after: contact state and boxes, in the same places.
 
     Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
     """
@@ -176,7 +176,7 @@ def fall(squares, before, after, forcing):
 
 @inlined
 def squares_before(forms, mode, j, boxes, sine, cosine):
-    """Integrals of X_1^2 and X_2^2 over a flight that starts so, until the j-th time of the flow table."""
+    """Return the integrals of X_1^2 and X_2^2 from the start of a flight to the j-th time of the flow table."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
     one, two, place = 0.0, 0.0, 0
     first, second = forms[mode, j, 0], forms[mode, j, 1]
@@ -191,7 +191,7 @@ def squares_before(forms, mode, j, boxes, sine, cosine):
 
 @inlined
 def squares_along(p, t):
-    """Integral of the square of a polynomial of degree 7, p (8,), from 0 to a short time t of either sign."""
+    """Return the integral of the square of a polynomial of degree 7, p (8,), from 0 to a short time t."""
     first, second, third = value(p, t * REST[0]), value(p, t * REST[1]), value(p, t * REST[2])
     return t * (SHARES[0] * first * first + SHARES[1] * second * second + SHARES[2] * third * third)
 
@@ -209,7 +209,7 @@ DIFFERENCE = np.outer([0, 0, 1, -1, 0, 0], [0, 0, 1, -1, 0, 0])
 
 
 def _kernels():
-    """The five quadratic forms of z that are integrated, shape (5, 6, 6)."""
+    """Return the five quadratic forms of z that are integrated, shape (5, 6, 6)."""
     unit = np.eye(SIZE)
     work = [(np.outer(unit[2 + i], unit[4]) + np.outer(unit[4], unit[2 + i])) / 2 for i in range(2)]
     return np.stack([*work, *(np.diag(unit[2 + i]) for i in range(2)), DIFFERENCE])
@@ -221,13 +221,13 @@ lost, held = inlined(energy_lost), inlined(stored)
 
 @lru_cache(maxsize=16)
 def powers_of(system) -> np.ndarray:
-    """The forms of a system that `account` needs, shape (4, n, 5, 21)."""
+    """Return the forms of a system that `account` needs, shape (4, n, 5, 21)."""
     return integrals_of(system, KERNELS)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Energy(Glance):
-    """Where the energy of a run goes, in units of M L^2 omega_10^2 (omega_10^2 = k_1 / M).
+    """Energy balance of a run, in units of M L^2 omega_10^2 (omega_10^2 = k_1 / M).
 
     work: (2,), of the force on each box. ground: (2,), dissipated by the damper from each box to ground, and coupling,
     by the one between the boxes. impacts: (2,), lost in the impacts of each module, completed chatters included.
@@ -245,8 +245,8 @@ class Energy(Glance):
 
     @classmethod
     def of(cls, run) -> "Energy":
-        """The energy of a finished run."""
-        system, (flow, flights, events) = run.system, run.course
+        """Return the energy balance of a finished run."""
+        system, (flow, flights, events) = run.system, run.trajectory
         rows = np.zeros((max(run.cycles, 1), ENTRIES))
         account(flow, powers_of(system), flights, events, system.period * np.arange(len(rows)), rows)
         total = energies(system, rows.sum(axis=0))
@@ -257,12 +257,12 @@ class Energy(Glance):
 
     @property
     def residual(self) -> float:
-        """What the sums of both sides differ by, which is rounding."""
+        """Difference of both sides of the balance, which is rounding."""
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property
     def impact_share(self) -> float:
-        """What the impacts take of the work of both forces."""
+        """Share of the work of both forces that impacts dissipate."""
         return float(self.impacts.sum() / self.work.sum())
 
     def _glance(self):
@@ -270,14 +270,14 @@ class Energy(Glance):
 
 
 def energies(system, rows) -> np.ndarray:
-    """Energies (...,), ENERGY, from rows (..., ENTRIES) of the kernel."""
+    """Return energies (...,), ENERGY, from rows (..., ENTRIES) of the kernel."""
     factors = [*system.forcing, system.gamma1, system.gamma2, system.gamma12, 1.0, 1.0, 1.0]
     return np.ascontiguousarray(rows * factors).view(ENERGY)[..., 0]
 
 
 @compiled
 def account(flow, forms, flights, events, begins, rows):
-    """Add up, in rows (k, ENTRIES) of zeros, the integrals along a run's flights (`departures` is enough).
+    """Add the integrals along the flights of a run (`departures` is enough) to rows (k, ENTRIES) of zeros.
 
     begins (k,): ascending times since the start of the run at which the rows begin; the last one goes on to the end.
     """
@@ -313,7 +313,7 @@ def account(flow, forms, flights, events, begins, rows):
 
 @unfolded
 def _follow(flow, forms, walls, boxes, phase, t, row, counted):
-    """The boxes after a flight no longer than flow.longest, whose integrals are added to the row, if counted."""
+    """Return the boxes after a flight no longer than flow.longest; add its integrals to the row if counted."""
     q, mode, j = flow.coefficients, mode_of(walls), int(t * flow.density + 0.5)
     rest, sine, cosine = t - j * flow.spacing, math.sin(phase), math.cos(phase)
     jets, (s, c) = jet_at(flow, mode, boxes, sine, cosine, j), turned(flow, sine, cosine, j)
@@ -333,7 +333,7 @@ def _follow(flow, forms, walls, boxes, phase, t, row, counted):
 
 @inlined
 def _add_powers(jets, sine, cosine, omega, t, weight, row):
-    """Add the five integrands a short time t after a node, weighed, to a row."""
+    """Add the five integrands a short time t after a node, times a weight, to a row."""
     v1, v2, angle = slope(jets[0], t), slope(jets[1], t), omega * t
     force = weight * (sine * math.cos(angle) + cosine * math.sin(angle))
     row[0] += force * v1

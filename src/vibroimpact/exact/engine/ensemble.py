@@ -1,4 +1,4 @@
-"""Very many runs, over starts and systems, told by what they amount to instead of by their events."""
+"""Simulate many initial states and systems; return summary statistics in place of events."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -17,8 +17,8 @@ from vibroimpact.exact.engine.event_loop import (
     PLACES,
     SPELL,
     go_on,
-    keep_course,
-    kept_course,
+    keep_progress,
+    kept_progress,
     memory,
 )
 from vibroimpact.exact.engine.event_loop import MOST_AT_ONCE as MOST_EVENTS_AT_ONCE
@@ -45,7 +45,7 @@ from vibroimpact.exact.engine.motion import (
     Log,
     pack,
 )
-from vibroimpact.exact.engine.motion import ENTRIES as LEDGER
+from vibroimpact.exact.engine.motion import ENTRIES as COUNTERS
 from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
 from vibroimpact.exact.engine.phase import Instant, phase_at
 from vibroimpact.exact.engine.replay import departures
@@ -69,10 +69,10 @@ OUTCOME = np.dtype(
         ("ball_speed", "f8", (2,)),
     ]
 )
-"""What a run amounts to: status, a key of STATUSES; the final state; of each module, while it is observed, the numbers
-of impacts and of sticks, the largest |X_i|, the mean of X_i^2 over time, and that of |Y_i'|."""
+"""Outcome of a run: status, a key of STATUSES; the final state; for each module over the observed cycles the numbers of
+impacts and of sticks, the largest |X_i|, the means over time of X_i^2 and of |Y_i'|."""
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
-"""The same and, under one more name, where the energy went."""
+"""The same with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
 NO_POWERS = np.empty((0, 0, 0, 0))
@@ -92,28 +92,26 @@ def ensemble(
     progress: bool = False,
     energy: bool = False,
 ) -> np.ndarray:
-    """Run many starts, of one system or of many, on all cores, in memory of the order of the starts.
+    """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
 
-    Besides, each core holds the events of the eight runs it is at, a kilobyte or so for a cycle of each; a system that
-    is not among the others takes a millisecond or two for its tables, and several more where the energy is asked for.
-
-    Every run is that of `simulate`, its final state bit by bit; for the events, the samples or the certificate of one
-    of them ask `simulate`.
+    Final states are those of `simulate`, bit by bit; for events, samples or a certificate use `simulate`. Each core
+    holds the events of eight runs, about a kilobyte per cycle and run. The tables of a system take one or two
+    milliseconds, several more with the energy.
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).
         states: (..., 8) starts, as for `simulate`. Systems and starts are combined as NumPy combines arrays: n systems
             and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all with all.
         cycles, tau0: as for `simulate`.
-        settle: cycles before a run is observed, from 0 to cycles; if all, nothing but the final state is told.
+        settle: cycles before the observation, from 0 to cycles; if all, only the final state is returned.
         progress: count finished runs on standard error, about once a second.
-        energy: tell also where the energy goes while a run is observed (`Run.energy`), in the field energy (ENERGY).
+        energy: add the energy balance over the observed cycles (`Run.energy`) as the field energy (ENERGY).
 
     Returns:
-        A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. A run that could not be finished,
-        or not begun, says why in its status (STATUSES) and leaves the others alone; its numbers are nan and its counts
-        0. So are the numbers of a run that was not observed. The largest |X_i| is exact but for turns of a box that
-        nearly rests (1e-5 of its path); the means are exact to rounding.
+        A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. The status (STATUSES) of a run
+        that failed gives the reason; its numbers are nan and its counts 0, and other runs are not affected. Numbers of
+        a run that was not observed are nan, too. The largest |X_i| is exact except for turns of a box almost at rest
+        (1e-5 of its path); the means are exact to rounding.
 
     Raises:
         ValueError: an argument is malformed, or systems and states cannot be combined.
@@ -139,7 +137,7 @@ def ensemble(
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
-    """Where the runs of one system from starts (n, 8) at tau = 0 end, (n, 8).
+    """Return the final states (n, 8) of runs of one system from initial states (n, 8) at tau = 0.
 
     Raises:
         ArithmeticError: one of them could not be finished.
@@ -153,7 +151,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 
 
 def _combined(systems, states):
-    """The different systems, and in the shape of the combination the number of each one's system and its start."""
+    """Return the distinct systems and, in the combined shape, the index of each run's system and its initial state."""
     states = reals("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
@@ -170,7 +168,7 @@ def _combined(systems, states):
 
 
 def _run(system, starts, cycles, begin, settle, outcomes, places):
-    """Run the starts at some places and fill in their outcomes there."""
+    """Run the initial states at these places and fill in their outcomes."""
     starts = np.ascontiguousarray(starts[places])
     table, seen = np.empty(len(places), outcomes.dtype), np.zeros((len(places), SEEN))
     spent = np.zeros((len(places) if "energy" in table.dtype.names else 0, 1, ENTRIES))
@@ -181,10 +179,10 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
     phase = phase_at(begin, system.Omega)
     tables = tables_of(system)
     given = *tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent
-    members, runs, ledgers = np.full(WIDTH, -1), np.zeros((ROWS, WIDTH)), np.zeros((WIDTH, LEDGER))
+    members, runs, counts = np.full(WIDTH, -1), np.zeros((ROWS, WIDTH)), np.zeros((WIDTH, COUNTERS))
     rows, begun = np.empty((WIDTH, len(memory(cycles)[0]), ROW)), np.zeros(1, dtype=int)
-    while not _loop(*given, members, begun, runs, ledgers, rows):
-        if (ledgers[:, EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]).any():
+    while not _loop(*given, members, begun, runs, counts, rows):
+        if (counts[:, EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]).any():
             rows = np.concatenate((rows, np.empty_like(rows)), axis=1)
         stop_if_given_up()
     seen[:, SQUARE:] /= observed * system.period or np.nan
@@ -200,18 +198,18 @@ def _run(system, starts, cycles, begin, settle, outcomes, places):
 @compiled
 def _loop(
     numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen,
-    spent, members, begun, runs, ledgers, rows
+    spent, members, begun, runs, counts, rows
 ):  # fmt: skip
-    """Run the starts (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in what they
-    end with and amount to.
+    """Run the initial states (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in
+    their outcomes.
 
-    members: the start in each lane, or -1; begun: how many starts were looked at; runs, ledgers, rows: of each lane.
+    members: the start in each lane, or -1; begun: how many starts were looked at; runs, counts, rows: of each lane.
     Returns False where rows are full, or after a while (`integrate`): then call again.
     """
     opening, flow, steps = np.array([settle * period]), unpacked(numbers, series, rotations), 0
     no_times, no_samples, notes, where = np.empty(0), np.empty((0, 8)), np.empty((NOTES, WIDTH)), np.empty(PLACES)
     while True:
-        alive = _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers)
+        alive = _fill(starts, status, seen, phase, tail, members, begun, runs, counts)
         if alive == 0:
             return True
         together = alive >= FEWEST
@@ -219,49 +217,49 @@ def _loop(
             step_lanes(flow, runs, (phase, tail), float(cycles), notes)
         full, steps = False, steps + WIDTH
         for lane in range(WIDTH):
-            n, ledger = members[lane], ledgers[lane]
+            n, counters = members[lane], counts[lane]
             if n < 0:
                 continue
             if together and notes[DONE, lane] == 2.0:
-                ledger[EVALUATIONS] += 1.0
+                counters[EVALUATIONS] += 1.0
             elif together and notes[DONE, lane] == 1.0:
-                _note(notes, lane, settle < cycles, rows[lane], ledger, runs)
+                _note(notes, lane, settle < cycles, rows[lane], counters, runs)
             else:
                 _read(runs, lane, where)
-                course, outcome = go_on(
-                    flow, kept_course(where), (phase, tail), cycles, 0.0, no_times, no_samples, Log(rows[lane], ledger),
-                    where[EARLIER], 0 if together else SPELL
+                progress, outcome = go_on(
+                    flow, kept_progress(where), (phase, tail), cycles, 0.0, no_times, no_samples,
+                    Log(rows[lane], counters), where[EARLIER], 0 if together else SPELL
                 )  # fmt: skip
-                keep_course(course, where)
+                keep_progress(progress, where)
                 _write(where, lane, runs)
                 runs[MID, lane] = 0.0
                 if outcome != PAUSED:
                     status[n], members[lane] = outcome, -1
                     if outcome == FINISHED:
-                        pack(course.motion.boxes, course.motion.balls, final[n])
+                        pack(progress.motion.boxes, progress.motion.balls, final[n])
                     if outcome != FINISHED or settle == cycles:
                         seen[n, LARGEST:] = np.nan
                     else:
-                        s, events, end = starts[n], rows[lane, : int(ledger[EVENTS])], course.motion.boxes
+                        s, events, end = starts[n], rows[lane, : int(counters[EVENTS])], progress.motion.boxes
                         observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
                         if len(powers) > 0:
                             flights = departures(flow.coefficients, s, events, phase, cycles * period)
                             account(flow, powers, flights, events, opening, spent[n])
                     continue
                 steps += 0 if together else SPELL
-            if ledger[EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]:
+            if counters[EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]:
                 if settle < cycles:
                     full = True
                 else:  # nobody looks at the events
-                    runs[EARLIER, lane] += ledger[EVENTS]
-                    ledger[EVENTS] = 0.0
+                    runs[EARLIER, lane] += counters[EVENTS]
+                    counters[EVENTS] = 0.0
         if full or steps > SPELL:
             return False
 
 
 @unfolded
-def _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers):
-    """Begin the next starts in free lanes; how many lanes are taken."""
+def _fill(starts, status, seen, phase, tail, members, begun, runs, counts):
+    """Begin the next runs in free lanes; return the number of lanes in use."""
     alive = 0
     for lane in range(WIDTH):
         while members[lane] < 0 and begun[0] < len(starts):
@@ -276,8 +274,8 @@ def _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers):
             for i in range(4):
                 runs[i, lane], runs[4 + i, lane] = starts[n, 2 * i], starts[n, 2 * i + 1]
             runs[DUE, lane], runs[PHASE_AT, lane], runs[TAIL, lane] = -1.0, phase, tail
-            for k in range(LEDGER):
-                ledgers[lane, k] = 0.0
+            for k in range(COUNTERS):
+                counts[lane, k] = 0.0
         if members[lane] >= 0:
             alive += 1
         else:
@@ -286,15 +284,15 @@ def _fill(starts, status, seen, phase, tail, members, begun, runs, ledgers):
 
 
 @unfolded
-def _note(notes, lane, observed, rows, ledger, runs):
-    """Write down an impact and a flight of a lane."""
-    ledger[FLIGHTS] += 1.0
-    ledger[EVALUATIONS] += 1.0
-    ledger[RESIDUAL] = max(ledger[RESIDUAL], notes[MISSED, lane])
+def _note(notes, lane, observed, rows, counters, runs):
+    """Record an impact and a flight of a lane."""
+    counters[FLIGHTS] += 1.0
+    counters[EVALUATIONS] += 1.0
+    counters[RESIDUAL] = max(counters[RESIDUAL], notes[MISSED, lane])
     if not observed:
         runs[EARLIER, lane] += 1.0
         return
-    row, wall = rows[int(ledger[EVENTS])], notes[HIT, lane]
+    row, wall = rows[int(counters[EVENTS])], notes[HIT, lane]
     module = abs(wall)
     row[0], row[1], row[2], row[3] = notes[WHEN, lane], module, wall / module, IMPACT
     for k in range(8):
@@ -305,7 +303,7 @@ def _note(notes, lane, observed, rows, ledger, runs):
         notes[SINE_AT, lane],
         notes[COSINE_AT, lane],
     )
-    ledger[EVENTS] += 1.0
+    counters[EVENTS] += 1.0
 
 
 @unfolded

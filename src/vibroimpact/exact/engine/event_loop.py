@@ -46,21 +46,21 @@ STUCK_IN_TIME, TIRED = -2, -3
 
 
 @unfolded
-def fly(flow, motion, remaining, most_proofs, ledger):
-    """The flight to the next event, the end of the run or of the table: (time, module due or -1, boxes, balls).
+def fly(flow, motion, remaining, most_proofs, counters):
+    """Fly to the next event, the end of the run or of the table; return (time, module due or -1, boxes, balls).
 
-    Gives up where time stands still, or when the ledger counts more than most_proofs.
+    Gives up where time stands still, or when the counters counts more than most_proofs.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
     reach = min(remaining, flow.longest)
     short = SHORT * flow.unit
     now, t = motion, 0.0
-    ledger[FLIGHTS] += 1
+    counters[FLIGHTS] += 1
     while True:
         if t >= reach:
             return t, -1, now.boxes, now.balls
-        ledger[EVALUATIONS] += 1
+        counters[EVALUATIONS] += 1
         jets = jet_at(flow, mode, now.boxes, now.sine, now.cosine, 0)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
@@ -68,7 +68,7 @@ def fly(flow, motion, remaining, most_proofs, ledger):
         step = step if step >= -t else 0.0  # an event that was just passed is not before the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
-            ledger[UNDECIDED] += doubt
+            counters[UNDECIDED] += doubt
             boxes = along(jets, step)
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
             met, end, boxes = _aim(flow, motion, due, end, end - width, end + width)
@@ -76,7 +76,7 @@ def fly(flow, motion, remaining, most_proofs, ledger):
             return end, due, boxes, carry(motion.balls, motion.walls, boxes, end)
         if not t + safe > t:
             return t, STUCK_IN_TIME, now.boxes, now.balls
-        if ledger[EVALUATIONS] > most_proofs:
+        if counters[EVALUATIONS] > most_proofs:
             return t, TIRED, now.boxes, now.balls
         t = min(t + safe, reach)
         now = glide(flow, motion, t)
@@ -84,7 +84,7 @@ def fly(flow, motion, remaining, most_proofs, ledger):
 
 @unfolded
 def _next(q, motion, jets, bound, horizon, short):
-    """What comes first: (module or -1, its time, width of that, time before which nothing happens, doubt).
+    """Return the first event: (module or -1, its time, width of that, time before which nothing happens, doubt).
 
     Module -1: no event is certain to be the first.
     """
@@ -104,14 +104,14 @@ def _next(q, motion, jets, bound, horizon, short):
 
 @inlined
 def _bounds(t, width, short):
-    """What module_time tells, in other words: how uncertain a time is, and until when nothing happens."""
+    """Return the result of module_time as the uncertainty of a time and the time until which nothing happens."""
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
 
 
 @unfolded
 def _sooner(boxes, balls):
-    """The module whose ball is sooner at the wall ahead at its present speed."""
+    """Return the module whose ball reaches the wall ahead first at its present speed."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
     g2 = 1.0 - math.copysign(1.0, v2) * (boxes[1] - balls[1])
@@ -120,7 +120,7 @@ def _sooner(boxes, balls):
 
 @inlined
 def _aim(flow, motion, i, t, low, high):
-    """The impact of module i that is certain to be alone in [low, high]: (whether found, its time, boxes)."""
+    """Find the only impact of module i in [low, high]; return (True if found, its time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
@@ -158,9 +158,9 @@ EARLIER, PLACES = 19, 20
 """Of the numbers that say where a run pauses the place of the count of events before the rows at hand; their number."""
 
 
-class Course(NamedTuple):
-    """Where a run is: its motion, the module due; the phase, exactly, revolutions, time elapsed; the samples taken, and
-    for how many events time has stood still.
+class Progress(NamedTuple):
+    """State of an unfinished run: motion, module due; phase with its tail, revolutions, time elapsed; samples taken;
+    flights without progress in time.
     """
 
     motion: Motion
@@ -175,93 +175,98 @@ class Course(NamedTuple):
 
 @compiled
 def integrate(
-    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, ledger, where
+    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, counters, where
 ):
-    """Run a state (8,), in the order of the library, over a number of forcing cycles, or go on with such a run.
+    """Integrate from a state (8,), in public order, over a number of forcing cycles, or continue such a run.
 
     numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
     times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
-    state after it), and final (8,) if the run is finished. rows, ledger, where: `memory`, filled. Returns the status:
+    state after it), and final (8,) if the run is finished. rows, counters, where: `memory`, filled. Returns the status:
     PAUSED if rows are full (`is_full`: make room), or after SPELL exclusions, for the interpreter to see to an
     interrupt; then call again. A number, as the interpreter makes an array of a result with an interrupt half-way.
     """
     flow = unpacked(numbers, series, rotations)
-    if ledger[FLIGHTS] == 0.0:
+    if counters[FLIGHTS] == 0.0:
         boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
-        course = Course(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
+        progress = Progress(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
     else:
-        course = kept_course(where)
-    log = Log(rows, ledger)
-    course, status = go_on(flow, course, (phase, tail), cycles, start, times, samples, log, where[EARLIER], SPELL)
+        progress = kept_progress(where)
+    log = Log(rows, counters)
+    progress, status = go_on(flow, progress, (phase, tail), cycles, start, times, samples, log, where[EARLIER], SPELL)
     if status == FINISHED:
-        pack(course.motion.boxes, course.motion.balls, final)
-    keep_course(course, where)
+        pack(progress.motion.boxes, progress.motion.balls, final)
+    keep_progress(progress, where)
     return status
 
 
 def memory(cycles):
-    """Memory for a run: rows of events, a ledger, and where it pauses."""
+    """Return memory for a run: rows of events, a counters, and the place where it pauses."""
     room = min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     return np.empty((room, ROW)), np.zeros(ENTRIES), np.zeros(PLACES)
 
 
-def is_full(rows, ledger):
+def is_full(rows, counters):
     """Return True if a run pauses because its rows are full."""
-    return ledger[EVENTS] + MOST_AT_ONCE > len(rows)
+    return counters[EVENTS] + MOST_AT_ONCE > len(rows)
 
 
-def empty_rows(ledger, where):
-    """Count the events of full rows as earlier ones: the run goes on at the first row of those that it is given."""
-    where[EARLIER] += ledger[EVENTS]
-    ledger[EVENTS] = 0.0
+def empty_rows(counters, where):
+    """Count the events of full rows as earlier ones, so that the run continues in new rows."""
+    where[EARLIER] += counters[EVENTS]
+    counters[EVENTS] = 0.0
 
 
 @unfolded
-def keep_course(course, where):
-    """Write down where a run pauses."""
-    motion = course.motion
+def keep_progress(progress, where):
+    """Write down the state of a paused run."""
+    motion = progress.motion
     for k in range(4):
         where[k], where[4 + k] = motion.boxes[k], motion.balls[k]
     for i in range(2):
         where[8 + i], where[10 + i] = motion.walls[i], motion.touching[i]
-    where[12], where[13], where[14], where[15] = course.due, course.phase, course.tail, course.revolutions
-    where[16], where[17], where[18] = course.elapsed, course.sampled, course.stalled
+    where[12], where[13], where[14], where[15] = (
+        progress.due,
+        progress.phase,
+        progress.tail,
+        progress.revolutions,
+    )
+    where[16], where[17], where[18] = progress.elapsed, progress.sampled, progress.stalled
 
 
 @unfolded
-def kept_course(where):
-    """The course of a run that goes on."""
+def kept_progress(where):
+    """Return the state of a paused run."""
     w = where
     boxes, balls = (w[0], w[1], w[2], w[3]), (w[4], w[5], w[6], w[7])
     motion = Motion(boxes, balls, (int(w[8]), int(w[9])), (int(w[10]), int(w[11])), 0.0, 1.0)
-    return Course(motion, int(w[12]), w[13], w[14], int(w[15]), w[16], int(w[17]), int(w[18]))
+    return Progress(motion, int(w[12]), w[13], w[14], int(w[15]), w[16], int(w[17]), int(w[18]))
 
 
 @in_place
-def go_on(flow, course, start_phase, cycles, start, sample_times, samples, log, earlier, spell):
-    """Run on to the end, or until it pauses, rows full or more than spell exclusions made: (course, status)."""
+def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log, earlier, spell):
+    """Continue to the end or to a pause (rows full, or more than spell exclusions); return (progress, status)."""
     q = flow.coefficients
-    (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, course
+    (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, progress
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
-    status, pause = FINISHED, log.ledger[EVALUATIONS] + spell
+    status, pause = FINISHED, log.counters[EVALUATIONS] + spell
     while True:
         sine, cosine = sine_and_cosine(phase, tail)
-        noted = int(log.ledger[EVENTS])
-        if noted + MOST_AT_ONCE > len(log.rows) or log.ledger[EVALUATIONS] > pause:
-            return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), PAUSED
+        noted = int(log.counters[EVENTS])
+        if noted + MOST_AT_ONCE > len(log.rows) or log.counters[EVALUATIONS] > pause:
+            return Progress(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), PAUSED
         ahead_of_start = (phase - first) + (tail - first_tail)
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
         motion = Motion(motion.boxes, motion.balls, motion.walls, motion.touching, sine, cosine)
         motion = resolve(flow, motion, Moment(elapsed, remaining, due), log)
-        count = int(log.ledger[EVENTS])
+        count = int(log.counters[EVENTS])
         for k in range(noted, count):
             log.rows[k, PHASE], log.rows[k, SINE], log.rows[k, COSINE] = phase, sine, cosine
         if remaining == 0.0:
             break
         most = most_proofs + MOST_PROOFS_PER_EVENT * (earlier + count)
-        t, due, later, there = fly(flow, motion, remaining, most, log.ledger)
+        t, due, later, there = fly(flow, motion, remaining, most, log.counters)
         stalled = 0 if t > 0.0 else stalled + 1
         status = _failure(q, later, there, due, stalled, earlier + count, most_events)
         if status != FINISHED:
@@ -281,12 +286,12 @@ def go_on(flow, course, start_phase, cycles, start, sample_times, samples, log, 
     while sampled < len(sample_times):
         pack(motion.boxes, motion.balls, samples[sampled])
         sampled += 1
-    return Course(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), status
+    return Progress(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), status
 
 
 @unfolded
 def _failure(q, boxes, balls, due, stalled, count, most_events):
-    """Why a run is given up after a flight, or FINISHED."""
+    """Return the reason for giving up a run after a flight, or FINISHED."""
     for i in range(2):
         beyond = abs(boxes[i] - balls[i]) - 1.0
         if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):

@@ -1,4 +1,4 @@
-"""How long the constraints of a flight certainly hold, and when they certainly end.
+"""Lower bounds on the time that the constraints of a flight hold, and brackets of the time when they end.
 
 A constraint is a smooth g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. With its Taylor
 polynomial of degree 6 and a bound on its seventh derivative it stays above a polynomial c (8,), c0 + ... + c7 t^7, and
@@ -23,7 +23,7 @@ MOMENT = 1e-300  # times do not go on shrinking below it
 
 @inlined
 def least(c, t):
-    """A lower bound of the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
+    """Return a lower bound of the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
     b = (
@@ -45,7 +45,7 @@ def least(c, t):
 
 @inlined
 def positive(c, t):
-    """Whether the polynomial c (8,) is certainly positive on [0, t].
+    """Return True if the polynomial c (8,) is certainly positive on [0, t].
 
     Mostly that can be told with the terms from the fourth power on taken by their size, for half of what `least` costs.
     """
@@ -58,8 +58,8 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """A time in [0, horizon] up to which the polynomial c (8,) is positive: close to its first zero if that is simple,
-    and at least half as far as its Bernstein coefficients tell, or 0 if not c[0] > 0.
+    """Return a time in [0, horizon] up to which the polynomial c (8,) is positive, 0 if not c[0] > 0. It is close to
+    the first zero if that is simple, and at least half as far as the Bernstein coefficients prove.
 
     They tell it at least as far as no zero, real or complex, lies in the disc with diameter [0, t].
     """
@@ -88,7 +88,7 @@ CONVERGING = 1e-8  # a step of Newton's method so short leaves an error below ro
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """(certain, time, width): where a constraint that falls all the while meets zero, certainly, at time +- width.
+    """Return (certain, time, width): a constraint that falls throughout certainly meets zero at time +- width.
 
     c: its Taylor polynomial (8,), c1 < 0; remainder: bound on its seventh derivative over 5040; margin: rounding of c0.
     Width inf says that it holds up to time = horizon. A time no longer than short is exact to rounding.
@@ -117,7 +117,7 @@ def crossing(c, remainder, margin, horizon, short):
 
 @inlined
 def nearby_zero(c, t):
-    """The zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
+    """Return the zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
     inverse = 1.0 / c[1]
     near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
     if abs(near * b) < 0.05:  # four terms of the series of the inverse function
@@ -132,7 +132,7 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """The end of a very short hop, c0 = 0 and c1 > 0, to rounding, if it certainly ends so; else inf.
+    """Return the end of a very short hop, c0 = 0 and c1 > 0, to rounding, if it certainly ends so; else inf.
 
     c, remainder: as for `crossing`. The zero at the start is divided out, so that the time keeps its relative accuracy
     however short the hop.
@@ -145,7 +145,7 @@ def return_time(c, remainder, horizon):
 
 @inlined
 def spread(c, remainder, t):
-    """Bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
+    """Return a bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder
     return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))
 
@@ -158,7 +158,8 @@ SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rou
 
 @inlined
 def remainder(q, mode, jets, growth):
-    """Bound on |X_i^(7)| / 7! of both boxes while the seventh derivative of the force adds up to no more than growth.
+    """Return a bound on |X_i^(7)| / 7! of both boxes, given a bound on the integral of the seventh derivative of the
+    force.
 
     The sixth derivative of the boxes obeys the boxes' equations under that of the force, so the square root of twice
     its energy, which bounds its velocity, grows no faster than that force: dampings only take away.
@@ -172,7 +173,7 @@ def remainder(q, mode, jets, growth):
 
 @inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """`remainder` of box i alone, the sixth derivative of whose force is at most force; both: that of both boxes.
+    """Return `remainder` for box i alone; force: bound on the sixth derivative of its force; both: that of both boxes.
 
     The energy of a box is raised by its own force, and by what the coupling passes on: next to a box that the other one
     cannot reach, or hardly, the energy of the other one does not count.
@@ -185,7 +186,7 @@ def own_remainder(q, mode, jets, both, i, force, horizon):
 
 @inlined
 def acceleration_rounding(q, boxes, i):
-    """Size below which the acceleration of box i is rounding."""
+    """Return the size below which the acceleration of box i is rounding."""
     x1, x2, v1, v2 = abs(boxes[0]), abs(boxes[1]), abs(boxes[2]), abs(boxes[3])
     coupling = abs(q.k12) * (x2 if i == 0 else x1) + abs(q.c12) * (v2 if i == 0 else v1)
     if i == 0:
@@ -195,21 +196,21 @@ def acceleration_rounding(q, boxes, i):
 
 @inlined
 def gap_rounding(q, boxes, balls, i):
-    """Size below which a gap of module i is rounding: of all that a flight makes it of."""
+    """Return the size below which a gap of module i is rounding error of a flight."""
     x1, x2, v1, v2 = boxes  # velocities enter like positions over a unit of time
     return RESOLUTION * (1.0 + abs(x1) + abs(x2) + abs(v1) + abs(v2) + abs(balls[i]) + abs(balls[2 + i]) + q.shift)
 
 
 @inlined
 def gap(p, position, velocity, w):
-    """The gap between a ball in free flight and wall w of its box, whose jet is p (8,), as a polynomial (8,)."""
+    """Return the gap between a ball in free flight and wall w of its box, whose jet is p (8,), as a polynomial (8,)."""
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
 
 
 @inlined
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
-    """(polynomial (8,), remainder) of the force, per unit of ball mass, with which a wall pushes a ball that sticks.
+    """Return (polynomial (8,), remainder) of the force per unit of ball mass with which a wall pushes a sticking ball.
 
     It is the acceleration of the box, which obeys the boxes' equations under the second derivative of the force.
     """
@@ -234,7 +235,7 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """(time the constraint certainly holds, whether it is met at once, being within rounding of zero).
+    """Return (time the constraint certainly holds, True if it is met at once, within rounding of zero).
 
     Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
     """
@@ -248,7 +249,7 @@ def _safe_time(c, bound, margin, horizon):
 
 @inlined
 def _leaving_time(c, bound, margin, horizon, rises):
-    """How long a constraint that starts within rounding of zero certainly holds.
+    """Return how long a constraint that starts within rounding of zero certainly holds.
 
     If it rises, its zero at the start is divided out. If it does not, or where it is the bound alone that makes that
     time short, it holds, within rounding, as long as it stays above minus its margin.
@@ -263,7 +264,7 @@ def _leaving_time(c, bound, margin, horizon, rises):
 
 @unfolded
 def _hop_time(c, bound, margin, horizon, short):
-    """(time, whether it is the end of the hop) for the wall that the ball touches; c[1] >= 0 is its velocity away.
+    """Return (time, True if the hop ends then) for the wall that the ball touches; c[1] >= 0 is its velocity away.
 
     A hop no longer than short is timed to its end.
     """
@@ -278,7 +279,7 @@ def _hop_time(c, bound, margin, horizon, short):
 
 @inlined
 def module_time(q, motion, i, jets, bound, horizon, short):
-    """How far module i may fly: (time, width, undecided).
+    """Return how far module i may fly: (time, width, undecided).
 
     With width inf the module has no event before time. Else it certainly has its next event at time +- width (slightly
     negative when just passed), width 0 being rounding; undecided marks a tangential meeting that rounding cannot tell
@@ -299,7 +300,7 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @unfolded
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """module_time of a ball that sticks: its constraint is that the wall pushes it."""
+    """Return module_time of a sticking ball: its constraint is that the wall pushes it."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
     # where the box is at rest as yet: the rounding of what its force may become meanwhile
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
@@ -313,7 +314,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @unfolded
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """module_time of a flying ball whose relative velocity may change its sign: its constraints are both gaps."""
+    """Return module_time of a flying ball whose relative velocity may change sign: its constraints are both gaps."""
     boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
     force = abs(q.f1 if i == 0 else q.f2) * q.omega**6

@@ -77,7 +77,7 @@ NUMBERS = SCALARS + len(Flow._fields[3:])
 
 @lru_cache(maxsize=64)
 def flow_of(system) -> Flow:
-    """The flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
+    """Return the flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
     stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
     fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
@@ -111,7 +111,7 @@ def flow_of(system) -> Flow:
 
 
 def _rates(system):
-    """Rate matrices of the contact states in pairs (2, 4, 6, 6): the floats next to the exact entries, and the rest.
+    """Return rate matrices of the contact states in pairs (2, 4, 6, 6): floats next to the exact entries, and the rest.
 
     Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
     """
@@ -132,7 +132,7 @@ def _rates(system):
 
 
 def _impulse(system):
-    """What an impact changes the velocity of a ball by, for each unit of relative velocity: a float and the rest."""
+    """Return the change of a ball's velocity at an impact per unit of relative velocity: a float and the rest."""
     with localcontext(prec=50):
         exact = (1 + Decimal(system.kappa)) / (1 + Decimal(system.epsilon))
         return float(exact), float(exact - Decimal(float(exact)))
@@ -140,27 +140,27 @@ def _impulse(system):
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """`flow_of` as three arrays. Numba looks at tuples number by number: 4 us for a call, 1.5 without."""
+    """Return `flow_of` as three arrays. Numba inspects tuples number by number: 4 us per call, 1.5 without."""
     coefficients, series, rotations, *rest = flow_of(system)
     return np.array([*coefficients, *rest]), series, rotations
 
 
 @unfolded
 def unpacked(numbers, series, rotations):
-    """The Flow of which these are the tables."""
+    """Return the Flow of these tables."""
     n = to_fixed_tuple(numbers, NUMBERS)
     return Flow(Coefficients(*n[:SCALARS]), series, rotations, *n[SCALARS:])
 
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """`jet` at the j-th time of the table, j * flow.spacing, of what is in free flight from these boxes on."""
+    """Return the `jet` at the j-th time of the table, j * flow.spacing, of a free flight from these boxes on."""
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
 @inlined
 def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
-    """Box accelerations for inverse masses i1, i2 under the forces s1, s2 (also: next derivative of a derivative)."""
+    """Return box accelerations for inverse masses i1, i2 under forces s1, s2 (also: the next derivative)."""
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
     a2 = i2 * (s2 - q.k12 * x1 - q.k22 * x2 - q.c12 * v1 - q.c22 * v2)
     return a1, a2
@@ -168,13 +168,13 @@ def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
 
 @inlined
 def inverse_masses(q, mode):
-    """1 / moving mass of each module in a contact state."""
+    """Return 1 / moving mass of each module in a contact state."""
     return (q.inverse_mass if mode & 1 else 1.0), (q.inverse_mass if mode & 2 else 1.0)
 
 
 @inlined
 def jet(q, mode, boxes, sine, cosine):
-    """Taylor coefficients X_i^(k) / k!, k = 0 to 7, of both boxes (X1, X2, X1', X2') in free flight: two tuples."""
+    """Return Taylor coefficients X_i^(k) / k!, k = 0 to 7, of both boxes in free flight: two tuples."""
     i1, i2 = inverse_masses(q, mode)
     x1, x2, v1, v2 = boxes
     fall = -q.omega * q.omega
@@ -192,13 +192,13 @@ def jet(q, mode, boxes, sine, cosine):
 
 @inlined
 def _scaled(x, v, a, b, c, d, e, g):
-    """Derivatives 0 to 7 over their factorials."""
+    """Return derivatives 0 to 7 over their factorials."""
     return x, v, a * (1 / 2), b * (1 / 6), c * (1 / 24), d * (1 / 120), e * (1 / 720), g * (1 / 5040)
 
 
 @inlined
 def value(p, t):
-    """A polynomial of degree 7, p (8,), at t; the upper half in pairs, which do not wait for each other."""
+    """Return a polynomial of degree 7, p (8,), at t; the upper half in pairs, which do not wait for each other."""
     t2 = t * t
     upper = (p[2] + t * p[3]) + t2 * ((p[4] + t * p[5]) + t2 * (p[6] + t * p[7]))
     return p[0] + t * (p[1] + t * upper)
@@ -206,7 +206,7 @@ def value(p, t):
 
 @inlined
 def slope(p, t):
-    """Derivative of a polynomial of degree 7, p (8,), at t."""
+    """Return the derivative of a polynomial of degree 7, p (8,), at t."""
     t2 = t * t
     upper = (3.0 * p[3] + t * (4.0 * p[4])) + t2 * ((5.0 * p[5] + t * (6.0 * p[6])) + t2 * (7.0 * p[7]))
     return p[1] + t * (2.0 * p[2] + t * upper)
@@ -214,21 +214,21 @@ def slope(p, t):
 
 @inlined
 def half_curvature(p, t):
-    """Half the second derivative of a polynomial of degree 7, p (8,), at t."""
+    """Return half the second derivative of a polynomial of degree 7, p (8,), at t."""
     t2 = t * t
     return (p[2] + t * (3.0 * p[3])) + t2 * ((6.0 * p[4] + t * (10.0 * p[5])) + t2 * (15.0 * p[6] + t * (21.0 * p[7])))
 
 
 @inlined
 def along(jets, t):
-    """The boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
+    """Return the boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
 
 
 @inlined
 def node(flow, mode, boxes, sine, cosine, j):
-    """Boxes and forcing phase at the j-th time of the table, j * flow.spacing: (X1, X2, X1', X2'), sin, cos."""
+    """Return boxes and forcing phase at the j-th time of the table, j * flow.spacing: (X1, X2, X1', X2'), sin, cos."""
     one, two = jet_at(flow, mode, boxes, sine, cosine, j)
     s, c = turned(flow, sine, cosine, j)
     return (one[0], two[0], one[1], two[1]), s, c
@@ -236,14 +236,14 @@ def node(flow, mode, boxes, sine, cosine, j):
 
 @inlined
 def turned(flow, sine, cosine, j):
-    """Sine and cosine of the forcing phase at the j-th time of the table."""
+    """Return sine and cosine of the forcing phase at the j-th time of the table."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
     return sine * ca + cosine * sa, cosine * ca - sine * sa
 
 
 @inlined
 def advance(flow, mode, boxes, sine, cosine, t):
-    """Boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
+    """Return boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)

@@ -1,4 +1,4 @@
-"""Taylor series of the flow at many equally spaced times: positions, velocities, phases rounded once, on any machine.
+"""Taylor series of the flow at many equally spaced times, rounded once.
 
 They are computed in numbers of twice the precision, pairs of a float and what it leaves out (Dekker 1971). Matrices of
 pairs are (2, 6, 6, times), so that the processor multiplies those of several times at once.
@@ -16,7 +16,7 @@ ORDERS = 8  # of the Taylor polynomials
 
 @compiled
 def tables(rates, spacing, count):
-    """Tables over the times j h, j < count, for rate matrices A in pairs (2, k, 6, 6), z' = A z.
+    """Return tables at the times j h, j < count, for rate matrices A in pairs (2, k, 6, 6), z' = A z.
 
     h = spacing, a power of two; count is at least 2.
 
@@ -43,7 +43,7 @@ def tables(rates, spacing, count):
 
 @unfolded
 def _fill_unit(matrices, place):
-    """Make the matrix at a place the unit matrix, in pairs."""
+    """Set the matrix at a place to the unit matrix, in pairs."""
     for i in range(SIZE):
         for j in range(SIZE):
             matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
@@ -106,7 +106,7 @@ def _expand(coefficients, powers, series, mode):
 
 @unfolded
 def _multiply(powers, last, many):
-    """Fill in so many powers behind the last one, each its product with one from the first to the last.
+    """Append powers behind the last one, each the last times one from the first on.
 
     In all of them the forcing phase does not depend on the boxes.
     """
@@ -122,7 +122,7 @@ def _multiply(powers, last, many):
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Entry (i, j) of all of them, where what is not from first to end adds nothing."""
+    """Fill entry (i, j) of all of them; terms outside first to end are zero."""
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):
@@ -134,7 +134,7 @@ def _entries(powers, last, many, i, j, first, end):
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """A pair and the product of two others; the second number of the sum may be longer than what the first left out."""
+    """Return a pair plus the product of two others; the second number may be longer than the rounding of the first."""
     product = a * b
     total = high + product
     part = total - high
@@ -144,7 +144,7 @@ def _plus_product(high, low, a, a_low, b, b_low):
 
 @inlined
 def _sum(a, a_low, b, b_low):
-    """The sum of two pairs."""
+    """Return the sum of two pairs."""
     total = a + b
     part = total - a
     return _normal(total, (a - (total - part)) + (b - part) + (a_low + b_low))
@@ -152,13 +152,13 @@ def _sum(a, a_low, b, b_low):
 
 @inlined
 def _over(high, low, k):
-    """A pair over a small whole number."""
+    """Return a pair over a small whole number."""
     quotient = high / k
     return _normal(quotient, (fused(-quotient, k, high) + low) / k)
 
 
 @inlined
 def _normal(high, low):
-    """The pair of the nearest float and the rest."""
+    """Return the nearest float and the rest as a pair."""
     total = high + low
     return total, low - (total - high)

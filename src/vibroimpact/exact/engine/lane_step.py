@@ -1,4 +1,4 @@
-"""One impact and the flight after it of eight runs at once, where both are plain; else the event loop does the step.
+"""One impact and the following flight of eight runs at once; steps that are not plain go to the event loop.
 
 A step is plain if both balls fly and one of them is due, its rebound begins no chatter that ends soon, and each proof
 finds that both balls keep their direction until the next impact or the end of the proof. Where a proof ends before an
@@ -26,7 +26,7 @@ from vibroimpact.exact.engine.phase import (
 
 NEWTON_STEPS = 3
 DUE, PHASE, TAIL, REVOLUTIONS, ELAPSED, STALLED, MID, ROWS = 12, 13, 14, 15, 16, 18, 20, 27
-"""Places of a paused run (`event_loop.keep_course`), here of eight runs side by side; from MID on, of a flight with a
+"""Places of a paused run (`event_loop.keep_progress`), here of eight runs side by side; from MID on, of a flight with a
 proof behind it: how long it has lasted, boxes, sine and cosine of the phase; the number of places."""
 DONE, TIME, WALL, APPROACH, SINE, COSINE, RESIDUAL, STATE, AT, NOTES = 0, 1, 2, 3, 4, 5, 6, 7, 15, 16
 """Rows of the notes of a step: 1 in DONE for an impact and its flight, 2 for a proof alone, 0 for nothing; of the
@@ -36,7 +36,7 @@ wall, state after it and phase; their number."""
 
 @inlined
 def step_lanes(flow, runs, first, cycles, notes):
-    """Carry eight runs, (ROWS, 8), over their next impact and flight where that is plain, and fill in notes (NOTES, 8).
+    """Carry eight runs, (ROWS, 8), over their next plain impact and flight, and fill in notes (NOTES, 8).
 
     first: the phase at the start and its tail.
     """
@@ -191,7 +191,7 @@ def step_lanes(flow, runs, first, cycles, notes):
 
 @inlined
 def _impact_time(jets, balls, node, rest, first):
-    """The time of an impact after a node, sought from rest on: (whether found, time); first: of module 1, else 2."""
+    """Return (True if found, time) of the impact after a node, sought from rest on; first: of module 1, else 2."""
     there1, there2 = balls[0] + node * balls[2], balls[1] + node * balls[3]
     w1, w2 = where(jets[0][0] > there1, 1.0, -1.0), where(jets[1][0] > there2, 1.0, -1.0)
     return _nearby_zero(_chosen(first, gap(jets[0], there1, balls[2], w1), gap(jets[1], there2, balls[3], w2)), rest)
@@ -204,7 +204,7 @@ def _least(a, b):
 
 @inlined
 def _chosen(mask, a, b):
-    """One of two polynomials (8,) in each lane."""
+    """Return one of two polynomials (8,) in each lane."""
     return (
         where(mask, a[0], b[0]),
         where(mask, a[1], b[1]),
@@ -219,7 +219,7 @@ def _chosen(mask, a, b):
 
 @inlined
 def _sine_and_cosine(phase, tail):
-    """As `phase.sine_and_cosine`."""
+    """Return `phase.sine_and_cosine` in each lane."""
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
     sine, cosine = sine_and_cosine_near(x, y)
@@ -231,7 +231,7 @@ def _sine_and_cosine(phase, tail):
 
 @inlined
 def _bernstein(c, t):
-    """As `exclusion.least`."""
+    """Return `exclusion.least` in each lane."""
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
     b = (
@@ -253,7 +253,9 @@ def _bernstein(c, t):
 
 @inlined
 def _crossing(c, remainder, margin, horizon, short):
-    """As `exclusion.crossing`: (holds up to the horizon, certain, time, width); none of it where it would be short."""
+    """Return `exclusion.crossing` in each lane as (holds up to the horizon, certain, time, width); a short one is not
+    certain.
+    """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0 * remainder)
     holds = (value(low, horizon) > margin) & (_bernstein(fall, horizon) > 0.0)
@@ -271,7 +273,7 @@ def _crossing(c, remainder, margin, horizon, short):
 
 @inlined
 def _nearby_zero(c, t):
-    """As `exclusion.nearby_zero`: (whether a few steps find it, the zero)."""
+    """Return `exclusion.nearby_zero` in each lane as (True if a few steps find it, the zero)."""
     inverse = 1.0 / c[1]
     near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
     series = near + near * near * (near * ((2.0 * b * b - d) + near * (5.0 * b * (d - b * b) - e)) - b)

@@ -20,7 +20,7 @@ NOTHING = ir.Constant(NUMBERS, ir.Undefined)
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Sum over m of weights[m] times table[mode, j, m], a table (modes, n, m, 16): its two halves, tuples of eight."""
+    """Return the sum over m of weights[m] * table[mode, j, m], a table (modes, n, m, 16), as two tuples of eight."""
     eight = types.UniTuple(types.float64, WIDTH)
 
     def generate(context, builder, signature, arguments):
@@ -40,13 +40,13 @@ def weighted_sum(_, table, mode, j, weights):
 
 
 def row_at(context, builder, start, place):
-    """The vector at a place after the start."""
+    """Load the vector at a place after the start."""
     pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
     return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
 
 
 def weighted(builder, rows, weights):
-    """The weighted sum of vectors, product and sum rounded as one where the processor can; weights: vectors."""
+    """Return the weighted sum of vectors; product and sum are rounded as one where the processor can."""
     total = None
     for row, weight in zip(rows, weights, strict=True):
         part = builder.fmul(row, weight, flags=("contract",))
@@ -55,7 +55,7 @@ def weighted(builder, rows, weights):
 
 
 def _in_all(builder, number):
-    """The vector of which every entry is this number."""
+    """Return a vector with this number in every entry."""
     first = builder.insert_element(NOTHING, number, ir.IntType(32)(0))
     return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
 
@@ -97,14 +97,14 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def _wide(context, builder, value, kind):
-    """A float or whole number in all lanes."""
+    """Return a float or whole number in all lanes."""
     if isinstance(kind, Lanes):
         return value
     return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
 def _operation(function, result, generate):
-    """Teach the compiler an operation with two operands, of which one may be a number for all lanes."""
+    """Register an operation with two operands, one of which may be a number for all lanes."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -136,7 +136,7 @@ _operation(operator.eq, MASK, _comparison("=="))
 
 
 def _function(function, kind, generate):
-    """Teach the compiler a function of one argument."""
+    """Register a function of one argument."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -175,13 +175,13 @@ _joined(operator.or_, lambda builder, a, b: builder.or_(a, b))
 
 
 def fused_lanes(context, builder, signed, args):
-    """a b + c, rounded once, in each lane."""
+    """Return a b + c, rounded once, in each lane."""
     return _called("fma")(builder, *(_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True)))
 
 
 @intrinsic
 def where(_, mask, a, b):
-    """In each lane a where the mask is true, else b."""
+    """Return a where the mask is true, else b, in each lane."""
 
     def generate(context, builder, signed, args):
         _, one, other = signed.args
@@ -193,7 +193,7 @@ def where(_, mask, a, b):
 
 @intrinsic
 def load(_, array, k):
-    """Row k of an array (n, 8)."""
+    """Return row k of an array (n, 8)."""
 
     def generate(context, builder, signed, args):
         return builder.load(_pointer(context, builder, signed, args), align=8)
@@ -233,7 +233,7 @@ def some(_, mask):
 
 @intrinsic
 def entries(_, table, j, k):
-    """table[j, k] in each lane, at its own j."""
+    """Return table[j, k] in each lane, at its own j."""
 
     def generate(context, builder, signed, args):
         array = context.make_array(signed.args[0])(context, builder, args[0])
@@ -249,7 +249,7 @@ def entries(_, table, j, k):
 
 @intrinsic
 def weighted_sums(_, table, mode, j, weights):
-    """`weighted_sum` in each lane, at its own j: its two halves, tuples of eight."""
+    """Return `weighted_sum` in each lane, at its own j, as two tuples of eight."""
     eight = types.UniTuple(LANES, WIDTH)
 
     def generate(context, builder, signed, args):
@@ -272,7 +272,7 @@ def weighted_sums(_, table, mode, j, weights):
 
 
 def _transposed(builder, rows):
-    """Eight vectors, the lanes of one being the same lane of all: blocks are swapped, of four, two and one."""
+    """Return the transpose of eight vectors: blocks are swapped, of four, two and one."""
     rows = list(rows)
     for step in (4, 2, 1):
         for i in (i for i in range(WIDTH) if not i & step):

@@ -37,8 +37,8 @@ GAP, FORCE, DOUBTS = 0, 1, 2
 
 @compiled
 def turning_points(flow, flights):
-    """For each flight of a course the least gap and the least force (per unit of ball mass) at a turn, inf if there is
-    none, and the number of turns within rounding of a wall: rows (m + 1, 3).
+    """Return for each flight the least gap and the least force (per unit of ball mass) at a turn, inf if there is none,
+    and the number of turns within rounding of a wall: rows (m + 1, 3).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -56,7 +56,7 @@ def turning_points(flow, flights):
 
 @unfolded
 def _search(flow, motion, length, least_of):
-    """Note the turns of a flight no longer than flow.longest; boxes and balls at its end."""
+    """Record the turns of a flight no longer than flow.longest; return boxes and balls at its end."""
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
     now, there, s, c, t = motion.boxes, motion.balls, motion.sine, motion.cosine, 0.0
@@ -89,7 +89,7 @@ def _search(flow, motion, length, least_of):
 
 @inlined
 def _rate(q, jets, boxes, balls, walls, i, bound):
-    """The rate of module i's constraint, but for the sign of the wall: (polynomial (8,), bounds (8,) on its error).
+    """Return the rate of module i's constraint up to the sign of the wall: (polynomial (8,), bounds (8,) on its error).
 
     The constraint is the gap of a flying ball, the acceleration of the box of a sticking one. A rate that vanishes
     within rounding, together with the rate of its own, is that of a ball just released.
@@ -107,7 +107,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 
 @inlined
 def _turns_once(rate, doubt, t):
-    """Whether a rate, known but for the doubt, changes its sign at most once on [0, t], certainly."""
+    """Return True if a rate with a bounded error certainly changes its sign at most once on [0, t]."""
     if value(doubt, t) * t < UNSEEN:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
@@ -117,7 +117,7 @@ def _turns_once(rate, doubt, t):
 
 @inlined
 def _one_sign(c, e, t):
-    """Whether a polynomial c (8,), known but for e (8,), is certainly of one sign (or zero) on [0, t]."""
+    """Return True if every polynomial within c +- e, (8,), is of one sign (or zero) on [0, t]."""
     return least(_minus(c, e), t) >= 0.0 or least(_minus(_minus((0.0,) * 8, c), e), t) >= 0.0
 
 
@@ -133,7 +133,7 @@ def _derivative(c):
 
 @inlined
 def _rate_at(q, walls, boxes, balls, sine, cosine, i):
-    """The rate of module i's constraint at a point of a flight, but for the sign of the wall."""
+    """Return the rate of module i's constraint at a point of a flight, up to the sign of the wall."""
     if walls[i] == 0:
         return boxes[2 + i] - balls[2 + i]
     jets = jet(q, mode_of(walls), boxes, sine, cosine)
@@ -142,7 +142,7 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
 
 @unfolded
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the turn of module i between two times of a flight, given the rates there; note it if it is a minimum."""
+    """Find the turn of module i between two times of a flight, given the rates there; record it if it is a minimum."""
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
@@ -198,7 +198,7 @@ def hits_of(q, flights, events):
 
 @compiled
 def margins_of(q, flights, turns, hits, events, start_phase, duration):
-    """For each flight the least margin, in units of the error at its start and of that at its end: rows (m + 1, 2).
+    """Return the least margin of each flight, in units of the error at its start and at its end: rows (m + 1, 2).
 
     At the start of the run a ball must be on a wall or off it, and its motion must say whether it stays. A flight must
     keep its turns (turning_points), and its event its depth (hits_of) and its distance from the end of the run. An
@@ -228,14 +228,14 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
 
 @inlined
 def _lower(margins, margin):
-    """Lower the margins of a flight, (2,), to one that counts at its start and at its end."""
+    """Lower the margins (2,) of a flight to one that holds at its start and at its end."""
     for k in range(2):
         margins[k] = np.minimum(margins[k], margin)
 
 
 @unfolded
 def _of_event(q, walls, boxes, balls, events, n, left):
-    """By how much error an event misses the end of the run, a time left after it; of a release, its depth as well."""
+    """Return the distance of an event from the end of the run, a given time later; for a release, at most its depth."""
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
     if kind == IMPACT:  # by then the ball would be so far beyond the wall
@@ -251,7 +251,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
 
 @unfolded
 def _at_start(q, boxes, balls, phase):
-    """By how much error the balls are on their walls or off them, and those at rest there held or not."""
+    """Return the distance of the start from another contact state of its balls."""
     margin = math.inf
     for i in range(2):
         gap, speed = 1.0 - abs(boxes[i] - balls[i]), abs(boxes[2 + i] - balls[2 + i])
@@ -264,7 +264,7 @@ def _at_start(q, boxes, balls, phase):
 
 @unfolded
 def _at_end(q, walls, boxes, balls, phase):
-    """By how much error the next event misses the end: of a ball on its way to a wall, or of one that is held less and
+    """Return the distance of the end from the next event: of a ball approaching a wall, or of one that is held less and
     less.
     """
     margin = math.inf
@@ -280,13 +280,13 @@ def _at_end(q, walls, boxes, balls, phase):
 
 @inlined
 def _force(q, walls, boxes, phase, i):
-    """Acceleration of box i in units of what a unit error makes of it."""
+    """Return the acceleration of box i over the effect of a unit error on it."""
     return box_accelerations(q, walls, boxes, math.sin(phase))[i] / _force_weight(q, walls, i)
 
 
 @inlined
 def _force_weight(q, walls, i):
-    """What a unit error of the boxes does to the acceleration of box i."""
+    """Return the effect of a unit error of the boxes on the acceleration of box i."""
     one, two = inverse_masses(q, mode_of(walls))
     if i == 0:
         return one * math.sqrt(q.k11 * q.k11 + q.k12 * q.k12 + q.c11 * q.c11 + q.c12 * q.c12)
@@ -295,7 +295,7 @@ def _force_weight(q, walls, i):
 
 @inlined
 def _changes(q, walls, boxes, phase, i):
-    """First and second rate of change of the acceleration of box i."""
+    """Return the first and second rate of change of the acceleration of box i."""
     one, two = inverse_masses(q, mode_of(walls))
     s, c, fall = math.sin(phase), q.omega * math.cos(phase), -q.omega * q.omega
     x1, x2, v1, v2 = boxes

@@ -1,8 +1,8 @@
-"""A motion as the compiled loops carry it, how it goes on without events, and the table of its events.
+"""State of a motion in compiled code, its free flight, and the table of its events.
 
 A row of the table is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach,
 sine and cosine of the phase]; the stick that completes a chatter is noted at the chatter's last simulated impact. A
-ledger holds what the certificate needs besides.
+counters holds what the certificate needs besides.
 """
 
 from typing import NamedTuple
@@ -30,44 +30,44 @@ class Motion(NamedTuple):
 
 @inlined
 def mode_of(walls):
-    """Index of the contact state in the flow tables."""
+    """Return the index of the contact state in the flow tables."""
     return (1 if walls[0] != 0 else 0) + (2 if walls[1] != 0 else 0)
 
 
 @inlined
 def pair(values, i, value):
-    """The pair with its i-th entry replaced."""
+    """Return the pair with its i-th entry replaced."""
     return (value, values[1]) if i == 0 else (values[0], value)
 
 
 @inlined
 def with_velocity(values, i, velocity):
-    """Boxes or balls with the velocity of module i replaced."""
+    """Return boxes or balls with the velocity of module i replaced."""
     return (values[0], values[1], velocity, values[3]) if i == 0 else (values[0], values[1], values[2], velocity)
 
 
 @inlined
 def with_position(values, i, position):
-    """Boxes or balls with the position of module i replaced."""
+    """Return boxes or balls with the position of module i replaced."""
     return (position, values[1], values[2], values[3]) if i == 0 else (values[0], position, values[2], values[3])
 
 
 @inlined
 def with_boxes_and_balls(motion, boxes, balls):
-    """The motion with its boxes and balls replaced."""
+    """Return the motion with its boxes and balls replaced."""
     return Motion(boxes, balls, motion.walls, motion.touching, motion.sine, motion.cosine)
 
 
 @inlined
 def with_contacts(motion, i, wall, touching):
-    """The motion with what ball i sticks to and touches replaced."""
+    """Return the motion with the walls that ball i sticks to and touches replaced."""
     walls, touches = pair(motion.walls, i, wall), pair(motion.touching, i, touching)
     return Motion(motion.boxes, motion.balls, walls, touches, motion.sine, motion.cosine)
 
 
 @inlined
 def carry(balls, walls, boxes, t):
-    """Balls a time t after the start of a flight, the boxes being there already."""
+    """Return the balls a time t after the start of a flight; the boxes are there already."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -78,21 +78,21 @@ def carry(balls, walls, boxes, t):
 
 @inlined
 def glide(flow, motion, t):
-    """The motion a time t later, no event in between; no ball touches a wall but those that stick."""
+    """Return the motion a time t later, without an event in between; only sticking balls touch a wall."""
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, carry(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
 EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
-"""Entries of a run's ledger: five counts, then the largest |W| - 1 at an impact and the sum of what completed chatters
-neglect; their number."""
+"""Entries of a run's counters: five counts, the largest |W| - 1 at an impact, the sum of what completed chatters
+neglect; and their number."""
 
 
 class Log(NamedTuple):
-    """Rows of events (n, ROW), as many as the ledger (ENTRIES,) counts, the rest free."""
+    """Rows of events (n, ROW), of which the counters (ENTRIES,) counts the used ones."""
 
     rows: np.ndarray
-    ledger: np.ndarray
+    counters: np.ndarray
 
 
 TIME, MODULE, WALL, KIND = range(4)
@@ -101,16 +101,16 @@ PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # places in a row, and 
 
 @inlined
 def record(log, time, i, wall, kind, boxes, balls, approach):
-    """Write an event of module i (0, 1), all but its phase.
+    """Write an event of module i (0, 1), without its phase.
 
     approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
     starts, at its stick; else 0.
     """
-    row = log.rows[int(log.ledger[EVENTS])]
+    row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
     pack(boxes, balls, row[4:PHASE])
     row[APPROACH] = approach
-    log.ledger[EVENTS] += 1.0
+    log.counters[EVENTS] += 1.0
 
 
 @inlined

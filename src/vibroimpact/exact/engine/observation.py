@@ -1,4 +1,4 @@
-"""What a run amounts to from some time on: its impacts, how far the boxes swing, how fast the balls are."""
+"""Summary statistics after a transient: impacts, displacements of the boxes, speeds of the balls."""
 
 import math
 
@@ -24,7 +24,7 @@ TRIES, STEPS = 8, 3
 
 @in_place
 def observe(flow, squares, start, events, final, phase, ends, seen):
-    """Fill in what is seen, zeros (SEEN,), of a run.
+    """Add the statistics of a run to zeros (SEEN,).
 
     start (8,), events, final: where it starts, its rows, and its boxes at the end; phase: of the forcing at both ends;
     ends: from when on it is seen, and its duration.
@@ -70,7 +70,7 @@ def _count(event, opening, seen):
 
 @inlined
 def _before(q, boxes, event):
-    """The boxes before an event, from those after it."""
+    """Return the boxes before an event, from those after it."""
     if event[3] != IMPACT:
         return boxes
     i = int(event[1]) - 1
@@ -79,7 +79,7 @@ def _before(q, boxes, event):
 
 @inlined
 def _watch(flow, squares, motion, end, late, length, seen):
-    """Add what is seen of a flight, but for the potentials at its ends; late: sine and cosine of the forcing there."""
+    """Add the statistics of a flight without potentials at its ends; late: sine and cosine of the forcing there."""
     mode = mode_of(motion.walls)
     for i in range(2):
         seen[LARGEST + i] = max(seen[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
@@ -94,7 +94,7 @@ def _watch(flow, squares, motion, end, late, length, seen):
 
 @inlined
 def _within(flow, i, start, end, length, most):
-    """Whether box i certainly stays within +- most, on the way from the boxes at the start to those at the end.
+    """Return True if box i certainly stays within +- most between the given boxes at start and end.
 
     A cubic polynomial with the positions and velocities of both ends stays within its Bernstein coefficients, here
     those of its halves; it is wrong by a fourth derivative, which is bounded as if each rate were 1 / unit.
@@ -112,7 +112,7 @@ def _within(flow, i, start, end, length, most):
 
 @in_place
 def _search(flow, forms, motion, end, late, left, seen):
-    """Add what is seen on the way of a flight: its turns, and what no potentials tell."""
+    """Search a flight for turns, and add what no potentials give."""
     mode = mode_of(motion.walls)
     while left > 0.0:
         t = min(left, flow.longest)
@@ -132,7 +132,7 @@ def _search(flow, forms, motion, end, late, left, seen):
 
 @inlined
 def _rate(p, t):
-    """Second derivative of a polynomial of degree 7, p (8,), at t."""
+    """Return the second derivative of a polynomial of degree 7, p (8,), at t."""
     return 2.0 * p[2] + t * (6.0 * p[3] + t * (12.0 * p[4] + t * (20.0 * p[5] + t * (30.0 * p[6] + t * 42.0 * p[7]))))
 
 
@@ -194,7 +194,7 @@ def _turns(flow, motion, i, times, speeds, ends, seen):
 
 @inlined
 def _turn(flow, motion, i, times, speeds):
-    """X_i where box i turns in a piece with velocities of different signs at its ends, speeds as in `_turns`."""
+    """Return X_i at a turn of box i in a piece whose end velocities differ in sign, speeds as in `_turns`."""
     mode, (low, high) = mode_of(motion.walls), times
     t, x = low + (high - low) * _zero(speeds), 0.0
     for _ in range(TRIES):
@@ -214,7 +214,7 @@ def _turn(flow, motion, i, times, speeds):
 
 @inlined
 def _zero(coefficients):
-    """Nearly the zero in [0, 1] of a cubic polynomial, given by Bernstein coefficients; its ends differ in sign."""
+    """Return an approximate zero in [0, 1] of a cubic with these Bernstein coefficients, whose ends differ in sign."""
     a, b, c, d = coefficients
     u = a / (a - d)
     for _ in range(2):

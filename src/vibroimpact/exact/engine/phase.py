@@ -1,4 +1,4 @@
-"""The forcing phase Omega tau: reduced exactly at the start of a run, carried on without loss, handed on exactly."""
+"""The forcing phase Omega tau: reduced exactly at the start of a run, advanced without loss, returned exactly."""
 
 import math
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ _GUARD_BITS = 192
 
 @dataclass(frozen=True)
 class Instant:
-    """The time offset + 2 pi turns, exactly, both rational: where a run ends that lasts a whole number of cycles.
+    """The exact time offset + 2 pi turns, both rational: the end of a run over a whole number of cycles.
 
     `float` gives the nearest float.
     """
@@ -32,7 +32,7 @@ class Instant:
     turns: Fraction = Fraction(0)
 
     def later(self, cycles: int, omega: float) -> "Instant":
-        """A number of periods 2 pi / omega later."""
+        """Return the time a number of periods 2 pi / omega later."""
         return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega))
 
     def __float__(self):
@@ -40,13 +40,13 @@ class Instant:
 
 
 def exactly(tau: float | Instant) -> Instant:
-    """The time that a float, or another rational number, stands for."""
+    """Return the Instant of a float or another rational number."""
     return tau if isinstance(tau, Instant) else Instant(Fraction(tau))
 
 
 @lru_cache(maxsize=1024)
 def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
-    """The phase omega tau modulo 2 pi, as a float in [0, 2 pi) and what it leaves out."""
+    """Return the phase omega tau modulo 2 pi, as a float in [0, 2 pi) and the rest."""
     instant = exactly(tau)
     part, turns = Fraction(omega) * instant.offset, Fraction(omega) * instant.turns % 1
     two_pi = _two_pi(_digits(part))
@@ -56,19 +56,19 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Bits of 2 pi that leave guard bits behind the point after so many turns."""
+    """Return the number of bits of 2 pi that leaves guard bits behind the point after so many turns."""
     return _GUARD_BITS + max(math.ceil(abs(value)).bit_length(), 0)
 
 
 @lru_cache(maxsize=64)
 def _two_pi(bits):
-    """2 pi, rounded to multiples of 2**-bits (Machin's formula)."""
+    """Return 2 pi, rounded to a multiple of 2**-bits (Machin's formula)."""
     one = 1 << (bits + 16)
     return Fraction((8 * (4 * _arctan(5, one) - _arctan(239, one))) >> 16, 1 << bits)
 
 
 def _arctan(inverse, one):
-    """arctan(1 / inverse) in units of 1 / one, a few units off."""
+    """Return arctan(1 / inverse) in units of 1 / one, to a few units."""
     power = total = one // inverse
     k = 1
     while power:
@@ -80,7 +80,7 @@ def _arctan(inverse, one):
 
 @intrinsic
 def fused(_, a, b, c):
-    """a b + c, rounded once."""
+    """Return a b + c, rounded once."""
     lanes = [kind for kind in (a, b, c) if isinstance(kind, Lanes)]
     if lanes:
         return LANES(a, b, c), fused_lanes
@@ -90,7 +90,7 @@ def fused(_, a, b, c):
 
 @inlined
 def sine_and_cosine(phase, tail):
-    """Sine and cosine of a phase in [0, 2 pi] and what it leaves out, to a unit in the last place, on every machine.
+    """Return sine and cosine of a phase in [0, 2 pi] plus its rest, to a unit in the last place, on every machine.
 
     The Taylor series over the eighth of a turn next to the nearest quarter.
     """
@@ -104,7 +104,7 @@ def sine_and_cosine(phase, tail):
 
 @inlined
 def sine_and_cosine_near(x, y):
-    """Sine and cosine of an angle within an eighth of a turn of 0, and what it leaves out."""
+    """Return sine and cosine of an angle within an eighth of a turn of 0, plus its rest."""
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
@@ -115,7 +115,7 @@ def sine_and_cosine_near(x, y):
 
 @inlined
 def _series(c, z):
-    """A polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
+    """Return a polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
     w = z * z
     upper = fused(w, fused(w, c[6], fused(z, c[5], c[4])), fused(z, c[3], c[2]))
     return fused(w, upper, fused(z, c[1], c[0]))
@@ -123,7 +123,7 @@ def _series(c, z):
 
 @inlined
 def ahead(phase, tail, omega, t):
-    """The phase a time t later, not reduced; what product and sum round off goes to the tail."""
+    """Return the phase a time t later, not reduced; rounding errors of product and sum go to the tail."""
     step = omega * t
     total = phase + step
     part = total - phase
@@ -132,7 +132,7 @@ def ahead(phase, tail, omega, t):
 
 @inlined
 def reduced(phase, tail):
-    """A phase a full turn less, its tail small again."""
+    """Return a phase less a full turn, with a small tail again."""
     phase, tail = phase - TWO_PI, tail - TWO_PI_TAIL
     total = phase + tail
     part = total - phase

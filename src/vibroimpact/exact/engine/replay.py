@@ -1,4 +1,4 @@
-"""The course of a run: the flights between its events, flown once more for those who ask what happened on the way."""
+"""Flights of a finished run, computed again from the table of its events."""
 
 import math
 from typing import NamedTuple
@@ -19,7 +19,7 @@ its start, the state (8,) at its end. States are ordered [boxes, balls]."""
 
 @compiled
 def replayed(flow, start, events, start_phase, duration):
-    """The flights of a run, rows (m + 1, COLUMNS): one before each of its events (rows of the log), one to its end.
+    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event (rows of the log), one to its end.
 
     start (8,) in public order. The flight before the stick that completes a chatter is empty: it is carried out at the
     chatter's last impact, ahead of the time it ends.
@@ -31,7 +31,7 @@ def replayed(flow, start, events, start_phase, duration):
 
 
 class Departure(NamedTuple):
-    """Where a flight starts: boxes and balls, the wall (or 0) each ball sticks to, the time and the forcing phase."""
+    """Start of a flight: boxes and balls, the wall (or 0) each ball sticks to, the time and the forcing phase."""
 
     boxes: tuple[float, float, float, float]
     balls: tuple[float, float, float, float]
@@ -42,7 +42,7 @@ class Departure(NamedTuple):
 
 @unfolded
 def departures(q, start, events, start_phase, duration):
-    """The flights of a run (see `replayed`) without the states at their ends."""
+    """Return the flights of a run (see `replayed`) without the states at their ends."""
     flights = np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
     for n in range(len(flights)):
@@ -58,7 +58,7 @@ def departures(q, start, events, start_phase, duration):
 
 @inlined
 def first_departure(start, phase):
-    """That of a run from start (8,), in public order."""
+    """Return the first departure of a run from a state (8,), in public order."""
     return Departure(
         (start[0], start[2], start[4], start[6]), (start[1], start[3], start[5], start[7]), (0, 0), 0.0, phase
     )
@@ -66,7 +66,7 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Where the flight after event n starts; after the last, the time and the phase of the end of the run."""
+    """Return the departure after event n; after the last, with the time and phase of the end of the run."""
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
@@ -84,7 +84,7 @@ def next_departure(q, events, n, leaving, end):
 
 @unfolded
 def _length(q, lapse, turned):
-    """The time between two events: a difference of times, with the digits that the difference of phases has."""
+    """Return the time between two events, with the digits of the difference of their phases."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
@@ -106,27 +106,27 @@ def land(flow, flight):
 
 @inlined
 def start_of(flight):
-    """(boxes, balls, walls) at the start of a flight."""
+    """Return (boxes, balls, walls) at the start of a flight."""
     s = flight[BEFORE:AFTER]
     return (s[0], s[1], s[2], s[3]), (s[4], s[5], s[6], s[7]), (int(flight[WALLS]), int(flight[WALLS + 1]))
 
 
 @inlined
 def end_of(flight):
-    """(boxes, balls) at the end of a flight."""
+    """Return (boxes, balls) at the end of a flight."""
     s = flight[AFTER:]
     return (s[0], s[1], s[2], s[3]), (s[4], s[5], s[6], s[7])
 
 
 @inlined
 def completes_chatter(events, n):
-    """Whether event n is the stick that completes a chatter, noted at the chatter's last impact."""
+    """Return True if event n is the stick that completes a chatter, recorded at its last impact."""
     return events[n, 3] == STICK and events[n, APPROACH] > 0.0
 
 
 @inlined
 def walls_after(events, n, walls):
-    """Walls that the balls stick to once all that happens in the instant of event n is done, releases that is."""
+    """Return the walls that the balls stick to after all events at the instant of event n."""
     for k in range(n + 1, len(events)):
         if events[k, 0] != events[n, 0]:
             break

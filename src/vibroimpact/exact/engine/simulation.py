@@ -34,7 +34,7 @@ ROUNDED = 1e-12
 
 
 def checked_state(state) -> np.ndarray:
-    """A start (8,), the balls between their walls.
+    """Return an initial state (8,) with its balls between the walls.
 
     Raises:
         ValueError: it is none.
@@ -59,7 +59,7 @@ def _check_walls(*modules):
 
 
 def within_walls(states) -> np.ndarray:
-    """For starts (n, 8) whether each is one that `checked_state` accepts, (n,)."""
+    """Return True (n,) for each initial state (n, 8) that `checked_state` accepts."""
     boxes, balls = states[:, [0, 2]], states[:, [1, 3]]
     with np.errstate(invalid="ignore", over="ignore"):
         slack = ROUNDED + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
@@ -68,7 +68,7 @@ def within_walls(states) -> np.ndarray:
 
 
 def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
-    """The start of a run, exactly, and its number of cycles.
+    """Return the exact start of a run and its number of cycles.
 
     Raises:
         ValueError: one of them is malformed, or the run leaves the range of times.
@@ -87,7 +87,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
 
 
 def _instant(tau0):
-    """The time that tau0 stands for, exactly."""
+    """Return the exact time of tau0."""
     if isinstance(tau0, Instant):
         return tau0
     number = real("tau0", tau0)
@@ -95,7 +95,7 @@ def _instant(tau0):
 
 
 def checked_times(name, times, start, end) -> np.ndarray:
-    """Sample times (n,) of a run from start to end.
+    """Return sample times (n,) within a run from start to end.
 
     Raises:
         ValueError: they are not ascending, not finite or not within the run.
@@ -113,14 +113,14 @@ def checked_times(name, times, start, end) -> np.ndarray:
 class Run(Glance):
     """A simulated motion.
 
-    system, start, cycles: what was asked for; begin: time of the start, exactly.
+    system, start, cycles: as given; begin: exact time of the start.
     events: (m,) structured array (EVENT) in the order of time, with the fields tau; module, 1 or 2; wall, +1 where
         X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
         leaves it (release); state, (8,), just after the event.
     samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
-    pieces, ledger: the kernel's events, rows one after another (`motion`), and its counts.
+    pieces, counters: rows of events and counts of the kernel (`motion`).
 
-    States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. No array of a run can be written to.
+    States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. Arrays are read-only.
     """
 
     system: System
@@ -130,13 +130,13 @@ class Run(Glance):
     samples: np.ndarray
     final: np.ndarray
     pieces: list[np.ndarray]
-    ledger: np.ndarray
+    counters: np.ndarray
 
-    def __init__(self, system, start, begin, cycles, samples, final, pieces, ledger):
+    def __init__(self, system, start, begin, cycles, samples, final, pieces, counters):
         fields = self.__dict__  # at once, in half of the time that a frozen class takes for one after another
         fields.update(system=system, start=start, begin=begin, cycles=cycles)
-        fields.update(samples=samples, final=final, pieces=pieces, ledger=ledger)
-        for array in (start, samples, final, ledger):
+        fields.update(samples=samples, final=final, pieces=pieces, counters=counters)
+        for array in (start, samples, final, counters):
             array.flags.writeable = False
 
     def _glance(self):
@@ -151,7 +151,7 @@ class Run(Glance):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """The kernel's events (n, ROW), in one array from now on."""
+        """Events of the kernel (n, ROW), joined into one array."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -169,37 +169,37 @@ class Run(Glance):
 
     @property
     def tau0(self) -> float:
-        """Time of the start, rounded."""
+        """Time of the start, as a float."""
         return float(self.begin)
 
     @property
     def end(self) -> Instant:
-        """Time of the final state, exactly; a run from there, tau0=run.end, goes on in the same forcing phase."""
+        """Exact time of the final state; a run from there with tau0=run.end continues in the same forcing phase."""
         return exactly(self.begin).later(self.cycles, self.system.Omega)
 
     @cached_property
     def jacobian(self) -> np.ndarray:
-        """Derivative of the final state by the first one, shape (8, 8), through impacts, chatters and releases."""
+        """Derivative of the final state by the initial one, shape (8, 8), through impacts, chatters and releases."""
         jacobian = self.carry(np.eye(8))
         jacobian.flags.writeable = False
         return jacobian
 
     def carry(self, perturbations: np.ndarray) -> np.ndarray:
-        """Perturbations (8, k) of the start as they are in the final state, to first order."""
-        return carried(*self.course, perturbations[INNER_ORDER])[PUBLIC_ORDER]
+        """Return perturbations (8, k) of the initial state carried to the final one, to first order."""
+        return carried(*self.trajectory, perturbations[INNER_ORDER])[PUBLIC_ORDER]
 
     @cached_property
     def certificate(self) -> Certificate:
-        """What the run can vouch for."""
+        """Certificate of the run: proofs and error estimates."""
         return Certificate.of(self)
 
     @cached_property
     def energy(self) -> Energy:
-        """Where the energy goes, over the run and in every cycle."""
+        """Energy balance, over the run and in every cycle."""
         return Energy.of(self)
 
     def errors(self, times: ArrayLike) -> np.ndarray:
-        """Estimated errors of the states at some times, shape (n,): what `certificate.error` is of the final one.
+        """Return estimated errors (n,) of the states at some times, as `certificate.error` is for the final one.
 
         Args:
             times: ascending tau within the run.
@@ -209,21 +209,21 @@ class Run(Glance):
         """
         begin = self.tau0
         times = checked_times("times", times, begin, begin + self.cycles * self.system.period)
-        return errors_at(*self.course, times - begin, KNOWN)
+        return errors_at(*self.trajectory, times - begin, KNOWN)
 
     def to_frame(self):
-        """The events as a pandas DataFrame: tau, module, wall, kind in words, and the state after each."""
+        """Return the events as a pandas DataFrame: tau, module, wall, kind in words, and the state after each."""
         return frames.of_run(self)
 
     def section(self, phase: float = 0.0) -> np.ndarray:
-        """States (n, 8) where the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
+        """Return states (n, 8) where the forcing phase Omega tau is `phase` [rad], one in each cycle.
 
         A stroboscopic Poincare section; the motion is computed once more.
         """
         return self._sampled(frames.section_times(self, real("phase", phase)))
 
     def plot(self):
-        """A Matplotlib Figure of X_i of both boxes and W_i = X_i - Y_i between its walls; computed once more."""
+        """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i between its walls; the motion is computed again."""
         times = frames.plot_times(self)
         return frames.plot(self.system, times, self._sampled(times))
 
@@ -231,8 +231,8 @@ class Run(Glance):
         return simulate(self.system, self.start, self.cycles, self.begin, times).samples
 
     @cached_property
-    def course(self) -> tuple:
-        """The flow, the flights between the events and the events as `replayed` and `motion` tell them."""
+    def trajectory(self) -> tuple:
+        """Flow, flights between the events (`replayed`) and rows of events (`motion`)."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
@@ -257,9 +257,9 @@ def simulate(
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
     Returns:
-        The Run: its events, the samples, the final state; what it can vouch for, `run.certificate`, and the derivative
-        of the final state, `run.jacobian`, are computed when asked for. The first run on a machine waits until Numba
-        has compiled the engine, and says so; `python -m vibroimpact.compile` does that beforehand.
+        The Run: its events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the
+        derivative of the final state, are computed on first access. On a new machine the first run waits for the
+        compilation of the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
 
     Raises:
         ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
@@ -310,20 +310,20 @@ def simulate_many(
 
 
 def _run(system, state, cycles, begin, times):
-    """One run from checked arguments."""
+    """Return one run from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
-    (rows, ledger, where), pieces = kernel.memory(cycles), []
+    (rows, counters, where), pieces = kernel.memory(cycles), []
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
-    while (status := kernel.integrate(*given, rows, ledger, where)) == kernel.PAUSED:
-        if kernel.is_full(rows, ledger):
-            pieces.append(rows[: int(ledger[motion.EVENTS])])
-            kernel.empty_rows(ledger, where)
+    while (status := kernel.integrate(*given, rows, counters, where)) == kernel.PAUSED:
+        if kernel.is_full(rows, counters):
+            pieces.append(rows[: int(counters[motion.EVENTS])])
+            kernel.empty_rows(counters, where)
             rows = np.empty((kernel.PIECE, motion.ROW))
         stop_if_given_up()
-    rows = rows[: int(ledger[motion.EVENTS])]
+    rows = rows[: int(counters[motion.EVENTS])]
     if status != kernel.FINISHED:
         what = kernel.FAILURES[status]
         last = rows if len(rows) or not pieces else pieces[-1]
         number, time = sum(map(len, pieces)) + len(rows), last[-1, 0] if len(last) else 0.0
         raise ArithmeticError(f"{what} after {number} events, tau = {tau0 + time}")
-    return Run(system, state, begin, cycles, samples, final, [*pieces, rows], ledger)
+    return Run(system, state, begin, cycles, samples, final, [*pieces, rows], counters)

@@ -1,4 +1,4 @@
-"""Variational flow: how a small perturbation of the whole state passes the flights and the events of a run.
+"""Variational flow: small perturbations of the state along the flights and events of a run.
 
 Perturbations pass a flight by its linear flow, an impact by its saltation matrix, a release by continuity (the force
 vanishes there) or together with the impact that forces it, and a completed chatter by the derivative of its completion:
@@ -26,7 +26,7 @@ INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 @compiled
 def carried(flow, flights, events, total):
-    """Perturbations (8, k) of the first state of a run as they are in the final one, in [boxes, balls].
+    """Return perturbations (8, k) of the initial state of a run carried to its end, in the order [boxes, balls].
 
     From the run's flights (replayed) and its events (`motion`); what is given is overwritten.
     """
@@ -45,7 +45,7 @@ def carried(flow, flights, events, total):
 
 @compiled
 def fill_product(matrix, vectors, product):
-    """Fill the product with (8, k) vectors; so small a one takes BLAS longer to prepare than to compute."""
+    """Fill in the product with (8, k) vectors; BLAS takes longer to prepare at this size."""
     for row in range(8):
         for column in range(vectors.shape[1]):
             total = 0.0
@@ -56,7 +56,7 @@ def fill_product(matrix, vectors, product):
 
 @compiled
 def fill_flight(flow, flight, matrix):
-    """Fill the derivative (8, 8) of the state at the end of a flight by the one at its start."""
+    """Fill in the derivative (8, 8) of the state at the end of a flight by that at its start."""
     _, _, walls = start_of(flight)
     left = min(flight[LENGTH], flow.longest)
     _fill_free(flow, walls, left, matrix)
@@ -70,7 +70,7 @@ def fill_flight(flow, flight, matrix):
 
 @compiled
 def _fill_free(flow, walls, t, matrix):
-    """Fill the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
+    """Fill in the derivative (8, 8) of the state after a flight of t <= flow.longest by that before."""
     mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
     rest = t - j * flow.spacing
@@ -89,7 +89,7 @@ def _fill_free(flow, walls, t, matrix):
 
 @inlined
 def _copy(rows, to):
-    """Copy rows (n, 8); assigned to a slice, they would take Numba's check of shapes along, slow to compile."""
+    """Copy rows (n, 8); an assignment to a slice would make Numba compile a check of shapes."""
     for n in range(len(rows)):
         for k in range(8):
             to[n, k] = rows[n, k]
@@ -97,7 +97,7 @@ def _copy(rows, to):
 
 @compiled
 def fill_event(q, flights, events, n, matrix):
-    """Fill the derivative (8, 8) of the state after event n by the one before it."""
+    """Fill in the derivative (8, 8) of the state after event n by that before it."""
     i, wall, kind, phase = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3], events[n, PHASE]
     _, _, walls = start_of(flights[n])
     before = flights[n, AFTER:]
@@ -117,7 +117,7 @@ def fill_event(q, flights, events, n, matrix):
 
 @compiled
 def fill_rate(q, walls, state, phase, field):
-    """Fill the rate of change (8,) of a state (8,) in a contact state."""
+    """Fill in the rate of change (8,) of a state (8,) in a contact state."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     force = math.sin(phase)
     a1, a2 = acceleration(q, i1, i2, state[0], state[1], state[2], state[3], q.f1 * force, q.f2 * force)
@@ -129,7 +129,7 @@ def fill_rate(q, walls, state, phase, field):
 
 @compiled
 def _impact_matrix(q, i, before, after, walls, walls_after, phase, matrix):
-    """Fill the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
+    """Fill in the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
 
     S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), R the impact law, n the
     normal of the wall, f- and f+ the fields around it; walls_after differs from walls where the impact releases a ball.
@@ -158,7 +158,7 @@ def _fill_identity(matrix):
 
 @compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
-    """Fill the derivative (8, 8) of completing a chatter of ball i that starts with an inward speed under a push.
+    """Fill in the derivative (8, 8) of completing a chatter of ball i that starts with an inward speed under a push.
 
     Box and ball keep their momentum and centre of mass. While the gap closes, springs and dampers act on the box where
     it is and not where it will stick: the time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), that of its rate
@@ -206,12 +206,12 @@ class Growth(NamedTuple):
 
 
 def growth(run, frame: np.ndarray) -> Growth:
-    """Carry an orthonormal frame (8, k) along a run, orthonormal again after every cycle, by QR.
+    """Carry an orthonormal frame (8, k) along a run, made orthonormal again after every cycle by QR.
 
     Args:
         run: a `Run`. frame: columns in the order of the public state.
     """
-    flow, flights, events = run.course
+    flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
     later = _carried_by_cycles(flow, flights, events, run.system.period, frame[INNER_ORDER], factors, counts)
     return Growth(factors, counts[:, 0], counts[:, 1], later[PUBLIC_ORDER])
@@ -219,7 +219,7 @@ def growth(run, frame: np.ndarray) -> Growth:
 
 @compiled
 def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
-    """The frame after the last cycle; fills factors (n, k) and counts (n, 2), which are 0.
+    """Return the frame after the last cycle; fill in factors (n, k) and counts (n, 2), which are 0.
 
     Cuts flights at the ends of cycles: their derivative depends on their length and the balls that stick alone.
     """
@@ -254,7 +254,7 @@ def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
 
 @compiled
 def _orthonormalize(a, sizes):
-    """Put Q in the place of a = QR, (m, k), and |diag R| into sizes (k,).
+    """Replace a (m, k) by the Q of a = QR, and fill |diag R| into sizes (k,).
 
     By Householder's reflections, so that Q is orthonormal where columns depend on each other, too; at this size LAPACK
     takes longer to prepare.
