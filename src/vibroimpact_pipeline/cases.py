@@ -47,7 +47,7 @@ def title_of(config: dict, case: str) -> str:
 
 
 def _at(config, path):
-    """The mapping at "section.key", an empty one if there is none."""
+    """Return the mapping at "section.key", an empty one if there is none."""
     for key in path.split("."):
         config = config.get(key) if isinstance(config, dict) else None
     return config if isinstance(config, dict) else {}

@@ -1,4 +1,4 @@
-"""The data dictionary: what each results file holds, from the figures' SPECs and report/data.yaml."""
+"""The data dictionary: contents of every results file, from the figures' SPECs and report/data.yaml."""
 
 import re
 from dataclasses import dataclass, field

@@ -21,7 +21,7 @@ heyoka calls the impact law in Python, a sixth to a third of its time."""
 
 
 def problem_of(name: str, config: dict, settings: dict):
-    """The test problem that an entry of the config's accuracy section describes."""
+    """Return the test problem of an entry of the config's accuracy section."""
     from vibroimpact.accuracy.work_precision import Problem
 
     system = System(**case_parameters(config, settings["case"]))

@@ -20,7 +20,7 @@ from vibroimpact_pipeline.specs import drawn_by, specs
 
 
 def levels_of(figure, scene, params, simulation, module, table, folder):
-    """The levels of one figure, from the results that it shows."""
+    """Return the levels of the model hierarchy for one figure, from its results."""
     if scene["model"] == "closed_form":
         settings = params["settings"]
         return scene_models.closed_form_levels(figure, scene, settings, table, partial(module.compute, **settings))

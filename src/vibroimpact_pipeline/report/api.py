@@ -1,4 +1,4 @@
-"""Pages on the library's modules, which Sphinx fills from their docstrings."""
+"""Pages of the library's modules, filled by Sphinx from their docstrings."""
 
 import re
 from pathlib import Path
@@ -17,7 +17,7 @@ IMPORTED = "   :imported-members:\n"
 
 
 def documented(left_out) -> list[str]:
-    """Names of the library's modules, but for those that a pattern describes; nothing is imported."""
+    """Return the names of the library's modules except those that match a pattern; nothing is imported."""
     files = (path.relative_to(LIBRARY.parent).with_suffix("") for path in sorted(LIBRARY.rglob("*.py")))
     names = [".".join(file.parts).removesuffix(".__init__") for file in files]
     return [name for name in names if not any(re.fullmatch(pattern, name) for pattern in left_out)]

@@ -1,4 +1,4 @@
-"""What is said of each figure and table: title, caption, alternative text, equations, tables."""
+"""Title, caption, alternative text, equations and tables of each figure."""
 
 import re
 from collections.abc import Callable
@@ -15,7 +15,7 @@ SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """SPEC of every figure, animation and control by name, in the words for a config; see `words`."""
+    """Return the SPEC of every figure, animation and control by name, worded for a config; see `words`."""
     known, data = read(root)
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
     scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
@@ -28,7 +28,7 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
 
 
 def words(figure: str, scene: dict, parameters: dict) -> dict:
-    """The SPEC of a figure with the numbers that its words ask for: {f10_hat}, say, of the case that it shows.
+    """Return the SPEC of a figure with its placeholders filled, such as {f10_hat} of its case.
 
     A figure of the chapter that shows other parameters than there has the words for figures of one's own.
 
@@ -47,7 +47,7 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
 
 
 def _filled(text, known, as_is: Callable[[str], str]):
-    """The text with {name} replaced where the name is known; other braces belong to formulas."""
+    """Return the text with known {name} replaced; other braces belong to formulas."""
 
     def value(name):
         given = known.get(name[1], name[0])

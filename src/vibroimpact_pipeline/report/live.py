@@ -1,4 +1,4 @@
-"""What the live pages are given: parameters, cases, the map of regimes; verdicts over both forces."""
+"""Data of the live pages: parameters, cases, the map of regimes; verdicts over both forces."""
 
 import json
 
@@ -11,7 +11,7 @@ MAP = "companion_regime_map"
 
 
 def live_data(results, config: dict, figures) -> str:
-    """The data of the page as JSON.
+    """Return the data of the page Play as JSON.
 
     Args:
         results: a `results.Results`. config: of the pipeline.
@@ -23,8 +23,8 @@ def live_data(results, config: dict, figures) -> str:
 
 
 def regime_map(table) -> dict:
-    """Forces of the columns (f10) and rows (f20), names of the regimes with their numbers of cells, the commonest
-    first, and for each row of cells the places of their names in that list, -1 for none.
+    """Return the map of regimes: forces of the columns (f10) and rows (f20), names of the regimes with their numbers of
+    cells, the commonest first, and for each row of cells the indices of their names, -1 for none.
     """
     cells = table[table["series"] == "cell"]
     counts = cells["regime"].value_counts()
@@ -35,8 +35,8 @@ def regime_map(table) -> dict:
 
 
 def verdict_data(results, config: dict) -> str:
-    """The data of the slider of epsilon as JSON: for each epsilon the points that (10.26), or both time scales of the
-    theory, call stable, [f10, f20, True if the exact orbit is stable].
+    """Return the data of the slider of epsilon as JSON: for each epsilon the points that (10.26), or both time scales
+    of the theory, call stable, [f10, f20, True if the exact orbit is stable].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     table["both"] = [fast_and_slow(row) for row in table.to_dict("records")]

@@ -1,4 +1,4 @@
-"""Names of numbers and parts behind claims, as the results have them -> Markdown, with formulas set."""
+"""Markdown for the names of numbers and parts behind claims, with formulas."""
 
 import re
 
@@ -25,7 +25,7 @@ SYMBOL = re.compile(
 
 
 def named(text) -> str:
-    """The Markdown of a name: letters of the chapter in it are formulas, the rest stays as it is."""
+    """Return the Markdown of a name; symbols of the chapter in it become formulas."""
     text = str(text)
     if text in WHOLE:
         return WHOLE[text]
@@ -37,7 +37,7 @@ def named(text) -> str:
 
 
 def _plain(text):
-    """As `plain`, with the blanks at both ends."""
+    """Return `plain` of a text, with the blanks at both ends."""
     return " " * text.startswith(" ") + plain(text.replace("_", " ")) + " " * (text.endswith(" ") and text != " ")
 
 

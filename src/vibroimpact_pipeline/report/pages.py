@@ -1,4 +1,4 @@
-"""The pages of the report as Markdown: templates and documents, filled with what the results say."""
+"""Pages of the report as Markdown: templates and documents, filled from results."""
 
 import json
 import math
@@ -83,7 +83,7 @@ class Pages:
         }
 
     def markdown(self, page: dict, target: str) -> str:
-        """One page for a target, "html" or "pdf". Documents are taken as they are, templates are filled."""
+        """Return one page for a target, "html" or "pdf". Documents stay as they are, templates are filled."""
         if is_template(page):
             text = self.environment.get_template(page["source"]).render(target=target)
         else:
@@ -95,7 +95,7 @@ class Pages:
         return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
 
     def _with_source(self, found, number):
-        """A number of a document as a button that shows its value, where that stands, and the command that makes it.
+        """Return a number of a document as a button that shows its value, its place, and the command that makes it.
 
         The number is that of the build, to as many decimals as the document gives. In a build with other settings there
         may be no such value: then the number stays as it is.
@@ -112,22 +112,22 @@ class Pages:
         return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
 
     def _notice(self):
-        """What a page begins with where the config has other parameters than the chapter."""
+        """Return the notice that begins every page if the config departs from the chapter."""
         return f"\n\n::: notice\n{NOTICE} {'; '.join(map(plain, self.departures))}.\n:::\n"
 
     def caption(self, figure: str) -> str:
-        """The caption of a figure, written for `snakemake --report` too, as Markdown in one line."""
+        """Return the caption of a figure, written in reStructuredText, as Markdown in one line."""
         text = self.about[figure]["caption"]
         return pypandoc.convert_text(text, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
 
 
 def is_template(page: dict) -> bool:
-    """Whether a page is filled from results, and no document of the repository."""
+    """Return True for a page filled from results, False for a document."""
     return not page["source"].startswith("docs/")
 
 
 def digits(value, number: int = 3) -> str:
-    """A number with so many significant digits; tiny and huge ones as a power of ten, as mathematics."""
+    """Return a number with so many significant digits; tiny and huge ones as a power of ten in a formula."""
     if value is None or value != value:
         return "–"
     rounded = float(f"{value:.{number}g}")
@@ -139,7 +139,7 @@ def digits(value, number: int = 3) -> str:
 
 
 def setting(value) -> str:
-    """A setting of a method, which is a number or a word."""
+    """Return a setting of a method, a number or a word."""
     try:
         return digits(float(value))
     except ValueError:
@@ -147,12 +147,12 @@ def setting(value) -> str:
 
 
 def cell(text) -> str:
-    """Markdown of the repository that can stand in a cell of a table."""
+    """Return Markdown of the repository for a cell of a table."""
     return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
 
 
 def said(numbers) -> str:
-    """Numbers and answers behind a claim in one line."""
+    """Return numbers and answers behind a claim in one line."""
     if numbers is None or isinstance(numbers, bool):
         return {True: "yes", False: "no", None: "open"}[numbers]
     if isinstance(numbers, dict):
@@ -165,7 +165,7 @@ def said(numbers) -> str:
 
 
 def section_of(place: str) -> str:
-    """The section of the chapter that a claim's place is in: the one it names, or that of its equation or figure."""
+    """Return the section of the chapter that a claim's place names, or that of its equation or figure."""
     if found := re.search(r"section (10\.\d)", place):
         return found[1]
     found = re.search(r"(?P<figure>Fig\w*\. )?\(?10\.(?P<number>\d+)", place)
@@ -176,29 +176,29 @@ def section_of(place: str) -> str:
 
 
 def markdown_table(heads: list[str], rows) -> str:
-    """A pipe table of plain texts."""
+    """Return a pipe table of plain texts."""
     lines = [map(plain, heads), ["---"] * len(heads), *(map(plain, row) for row in rows)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def verdicts(claims: list[dict]) -> list[tuple[str, int]]:
-    """Each verdict that was given with its number of claims, in the order in which verdicts are presented."""
+    """Return each verdict given with its number of claims, in the order of presentation."""
     given = Counter(claim["verdict"] for claim in claims)
     return [(verdict, given[verdict]) for verdict in VERDICTS if verdict in given]
 
 
 def anchor(name) -> str:
-    """The name of a place on a page."""
+    """Return the name of a place on a page."""
     return re.sub(r"[^\w-]", "-", str(name))
 
 
 def attribute(text) -> str:
-    """A text in HTML, between quotation marks or tags."""
+    """Return a text for HTML, between quotation marks or tags."""
     return escape(one_line(text))
 
 
 def data(text: str) -> str:
-    """JSON that can stand in a page: nothing in it ends the element.
+    """Return JSON that can stand in a page: nothing in it ends the element.
 
     Raises:
         ValueError: it is no JSON.

@@ -1,4 +1,4 @@
-"""What a page may do, in a content security policy: show what lies beside it, and run the report's own scripts alone.
+"""Content security policy of the pages: show files beside a page, run the report's own scripts only.
 
 Texts from the config and from results are escaped where a page is made; this holds should one of them slip through.
 """
@@ -19,7 +19,7 @@ SCRIPT = re.compile(r'<script src="([\w/]+\.js)"></script>')
 
 
 def guarded(page: str, script: Callable[[str], str] | None = None, theme=()) -> str:
-    """A page with its policy. Its own scripts are put into it, since no browser runs a file beside it by its content.
+    """Return a page with its policy and its own scripts inside, since browsers check no script file by its content.
 
     Args:
         page: HTML with a head, and <script src="NAME.js"></script> where a script of the report belongs.

@@ -1,4 +1,4 @@
-"""What the report quotes: tables, costs, provenance and claims, read from the results."""
+"""Tables, costs, provenance and claims quoted by the report, read from results."""
 
 import json
 import re
@@ -17,7 +17,7 @@ COSTS = ("figures", "companions", "accuracy", "report", "")
 
 
 class Results:
-    """The results of a build below one directory.
+    """Results of a build below one directory.
 
     Args:
         root: the directory.
@@ -28,14 +28,14 @@ class Results:
         self.root, self.judged = Path(root), judged
 
     def table(self, name: str) -> pd.DataFrame:
-        """A CSV file, by its path below the results."""
+        """Return a CSV file, given its path below the results."""
         return pd.read_csv(self.root / name)
 
     def text(self, name: str) -> str:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Files of a figure, by kind; a further table of it, <figure>.<name>.csv, by its name.
+        """Return the files of a figure by kind, and its further tables <figure>.<name>.csv by name.
 
         Raises:
             ValueError: no folder holds the figure.
@@ -53,7 +53,7 @@ class Results:
         return path if path.is_file() else None
 
     def cost(self, rule: str) -> dict | None:
-        """Seconds, processor seconds and memory [MB] of the last run of a rule, or None where nothing recorded them."""
+        """Return seconds, processor seconds and memory [MB] of the last run of a rule, or None if not recorded."""
         paths = [self.root / "benchmarks" / folder / f"{rule}.tsv" for folder in COSTS]
         # Snakemake's own file, which a power cut leaves empty.
         path = next((path for path in paths if path.is_file() and path.stat().st_size), None)
@@ -63,23 +63,25 @@ class Results:
         return {"seconds": row["s"], "processor": row["cpu_time"], "memory": row["max_rss"]}
 
     def provenance(self, figure: str) -> dict | None:
-        """The sidecar of a figure, or None where it has none."""
+        """Return the provenance record of a figure, or None."""
         paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
         path = next((path for path in paths if path.is_file()), None)
         return json.loads(path.read_text(encoding="utf-8")) if path else None
 
     def claims(self) -> list[dict]:
-        """Every claim with its verdict; none where they were not judged."""
+        """Return every claim with its verdict; none if they were not judged."""
         return json.loads(self.text("claims.json")) if self.judged else []
 
     def claims_about(self, figure: str) -> list[dict]:
-        """Claims whose place names a figure of the chapter, `fig10_06` by "10.6" after the word for figures."""
+        """Return the claims whose place names a figure of the chapter."""
         number = figure.removeprefix("fig10_").lstrip("0")
         named = re.compile(rf"[Ff]ig[a-z]*\.?[^()]*\b10\.{number}(?!\d)")
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """For each problem and method the finished run with the smallest error, and its time as a multiple of ours."""
+        """Return for each problem and method the finished run with the smallest error, with its time as a multiple of
+        ours.
+        """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
         best = whole.loc[whole.groupby(["problem", "method"], sort=False)["error_state"].idxmin()]
@@ -87,21 +89,22 @@ class Results:
         return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def failed_runs(self) -> pd.DataFrame:
-        """Problem, method, outcome and reason of every run of the chart that gave no result, and how many they are."""
+        """Return problem, method, outcome and reason of all runs without a result, and their number."""
         table = self.table("accuracy/work_precision.csv")
         failed = table[table["outcome"] != "finished"].fillna({"reason": ""})
         keys = ["problem", "method", "outcome", "reason"]
         return failed.groupby(keys, sort=False).size().rename("runs").reset_index()
 
     def stress_tests(self) -> pd.DataFrame:
-        """Verdict and numbers of every method in every stress test; a row per test, a column per method."""
+        """Return verdict and numbers of every method in every stress test; a row per test, a column per method."""
         table = self.table("accuracy/hazards.csv")
         table = table.assign(cell=[hazards.cell(row) for row in table.itertuples()])
         cells = table.set_index(["group", "hazard", "method"])["cell"].unstack(sort=False)
         return cells.reset_index(names=["group", "stress test"])
 
     def value(self, file: str, *path: str):
-        """A number in a table (file, query, column) or in JSON (file, key, key ...; an id picks an entry of a list).
+        """Return a number from a table (file, query, column) or from JSON (file, key, key ...; an id picks a list
+        entry).
 
         Raises:
             ValueError: the query finds several values, or none.
@@ -119,7 +122,7 @@ class Results:
         return found
 
     def layers(self, figure: str) -> dict[str, list]:
-        """Points (phase, W2) of each motion of companion_10_08: by the theory, as simulated, and its mirror image."""
+        """Return points (phase, W2) of each motion of companion_10_08: theory, simulation, mirror image."""
         table = self.table(f"figures/{figure}.csv").query("series != 'impact'")
         motion = table["panel"].where(table["series"] == "W_2", table["series"])
         return {
@@ -127,7 +130,7 @@ class Results:
         }
 
     def stations(self) -> list[dict]:
-        """Where along the second force stability changes, ascending: value, kind, and how many points it leaves stable.
+        """Return where stability changes along the second force, ascending: value, kind, number of stable points.
 
         Of the fixed points (`stable`: by both time scales, above the value) the special point that lies between the two
         values of the sweep; of the exact system the onset of the torus, which has no `stable`.

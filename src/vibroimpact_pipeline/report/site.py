@@ -1,4 +1,4 @@
-"""Markdown pages -> a site by Sphinx and one PDF by Typst. Nothing is fetched."""
+"""The site by Sphinx and the PDF by Typst, from Markdown pages; nothing is fetched."""
 
 import html
 import io
@@ -56,7 +56,7 @@ def write(folder, root, pages, settings: dict, footer: str) -> None:
 
 
 def write_site(folder: Path, sources: Path, pages, settings: dict, titles: dict, modules=()) -> None:
-    """All pages by Sphinx, and a page for each module of the library.
+    """Write all pages by Sphinx, with a page for each module of the library.
 
     Raises:
         RuntimeError: Sphinx has a warning on a page of the report; docstrings may have some.
@@ -92,7 +92,7 @@ def write_site(folder: Path, sources: Path, pages, settings: dict, titles: dict,
 
 
 def finished(page: str, folder: Path, sources: Path) -> str:
-    """A page with the scripts of the generator and of the report in it, and a policy that allows no other."""
+    """Return a page with the scripts of generator and report inside, and a policy that allows no other."""
     theme, last = INLINE.findall(page), ""
 
     def inlined(found):
@@ -112,7 +112,7 @@ def finished(page: str, folder: Path, sources: Path) -> str:
 
 
 def tables_of_contents(settings: dict, library: list[str]) -> str:
-    """The pages in their groups, as the navigation has them, in reStructuredText."""
+    """Return the pages in their groups, as tables of contents in reStructuredText."""
     groups = {}
     for page in settings["pages"]:
         groups.setdefault(page["group"], []).append(page)
@@ -126,14 +126,14 @@ def tables_of_contents(settings: dict, library: list[str]) -> str:
 
 
 def body_of(page: dict, sources: Path, pages, settings: dict) -> str:
-    """The HTML of one page of the site, from its first heading on, with the scripts of all pages at its end."""
+    """Return the HTML of one page from its first heading on, with the scripts of all pages at its end."""
     known = {"page": page["name"], "titles": titles_of(settings), "equations": settings["equations"]}
     text = convert(pages.markdown(page, "html"), "html", sources, known, reader_of(page))
     return text + "".join(f'\n<script src="{name}"></script>' for name in settings.get("scripts", []))
 
 
 class Page(Directive):
-    """A page of the report: sections, of which Sphinx makes search, navigation and what is on this page."""
+    """Sphinx directive for a page of the report: its sections serve search and navigation."""
 
     required_arguments = 1
 
@@ -155,12 +155,12 @@ def raw(html: str) -> nodes.raw:
 
 
 def as_text(app, what, name, obj, options, lines: list[str]) -> None:
-    """Bars in docstrings are absolute values and choices, not what reStructuredText makes of them."""
+    """Escape bars in docstrings, which are absolute values and choices there."""
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
 def setup(app) -> dict:
-    """The extension that Sphinx loads."""
+    """Register the extension with Sphinx."""
     app.add_config_value("bodies", {}, "")
     app.add_directive("page", Page)
     app.connect("autodoc-process-docstring", as_text)
@@ -188,7 +188,7 @@ SPHINX = {
 
 
 def write_document(folder: Path, sources: Path, pages, settings: dict, titles: dict) -> None:
-    """All pages as one PDF."""
+    """Write all pages of the paper as one PDF."""
     paper = {page["name"]: True for page in settings["pages"] if page.get("paper")}
     known = {"titles": titles_of(settings), "paper": paper}
     chapters = [
@@ -206,7 +206,7 @@ def write_document(folder: Path, sources: Path, pages, settings: dict, titles: d
 
 
 def titles_of(settings: dict) -> dict:
-    """What links to pages are called that have no words but the name of a file."""
+    """Return titles of pages by name, for links without words."""
     return {page["name"]: page["title"] for page in settings["pages"]}
 
 
@@ -215,7 +215,7 @@ def reader_of(page: dict) -> str:
 
 
 def convert(markdown: str, target: str, sources: Path, known: dict, reader: str = READER) -> str:
-    """One page in HTML or Typst; `known` is its metadata, in Markdown.
+    """Return one page in HTML or Typst; `known` is its metadata, in Markdown.
 
     Raises:
         math_core.LatexError: a formula cannot be translated to MathML.
@@ -231,6 +231,6 @@ def convert(markdown: str, target: str, sources: Path, known: dict, reader: str 
 
 
 def as_mathml(formula: re.Match) -> str:
-    """A formula as the notebooks' pages have it, which browsers draw by themselves."""
+    """Return a formula found by FORMULA as MathML."""
     kind, tex = formula.groups()
     return mathml(html.unescape(tex), display=kind == "display")

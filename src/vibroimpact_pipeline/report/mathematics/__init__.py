@@ -1,4 +1,4 @@
-"""How formulas are set: LaTeX becomes MathML, which browsers draw by themselves, in the font that is shipped here.
+"""LaTeX formulas as MathML, which browsers draw themselves, in a font shipped here.
 
 The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), cut down to the signs of formulas by
 `pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff`.
@@ -31,7 +31,7 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    """A LaTeX formula as MathML, within a line or displayed on its own.
+    """Return a LaTeX formula as MathML, within a line or displayed on its own.
 
     Raises:
         math_core.LatexError: the formula cannot be translated.
@@ -40,5 +40,5 @@ def mathml(tex: str, display: bool) -> str:
 
 
 def kept(html: str) -> str:
-    """HTML in which no line ends between a formula and the marks around it, where browsers break."""
+    """Return HTML without line breaks between a formula and the marks around it."""
     return MARKED.sub(lambda m: f'<span class="kept">{m[0]}</span>' if m[1] or m[3] else m[0], html)
