@@ -37,7 +37,7 @@ _PUBLIC = {
     "STICK": "vibroimpact.system.state",
     "RELEASE": "vibroimpact.system.state",
 }
-"""Where the public names are; `__init__.pyi` says the same to type checkers."""
+"""Modules of the public names; `__init__.pyi` has the same for type checkers."""
 __all__ = [*_PUBLIC, "__version__"]
 
 

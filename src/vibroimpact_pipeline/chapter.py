@@ -13,7 +13,7 @@ CASE_OF = {
     "fig10_10": "weak",
     "fig10_11": "weak",
 }
-"""Whose results each figure of the chapter shows."""
+"""Case shown by each figure of the chapter."""
 
 
 def departures(config: dict) -> list[str]:

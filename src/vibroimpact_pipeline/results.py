@@ -17,7 +17,7 @@ from pathlib import Path
 RESULTS = "results"
 RECORDS = ".made"
 PARTIAL = ".partial-"
-"""How the folders begin in which outputs are written until their job has ended well."""
+"""Prefix of the folders that hold outputs until their job has ended well."""
 OF_SNAKEMAKE = ".snakemake_timestamp"
 """A file that Snakemake adds to directories."""
 LEFT_ALONE = (RECORDS, "logs", "benchmarks")

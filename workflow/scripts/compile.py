@@ -7,7 +7,7 @@ from importlib import import_module
 import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba reads when it is imported)
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
-"""What jobs import by a name that no import statement has."""
+"""Modules that jobs import by name, without an import statement."""
 
 
 def beforehand():

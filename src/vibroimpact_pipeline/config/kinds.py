@@ -26,7 +26,7 @@ WORDS = {
     TITLE: "a title: a letter, then up to 39 letters, digits, spaces and , ( ) -",
     LETTER: "one small letter",
 }
-"""What texts have to look like, in words."""
+"""Description of each pattern."""
 ASCENDING = needs(lambda ends: ends[0] < ends[1], "is no range: its first end is not below its second")
 DIFFERENT = needs(lambda values: all(one not in values[:n] for n, one in enumerate(values)), "has a value twice")
 WITHIN_WALLS = needs(

@@ -20,7 +20,7 @@ SLOWEST = 1e-3
 HIGHEST = 1.69
 """Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
-"""How names begin that are of companions, sweeps, the chapter's figures and texts of own figures."""
+"""Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 WORKFLOW = ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")
 RULES = {
     name for path in WORKFLOW for name in re.findall(r"(?m)^(?:use rule \w+ as|rule) (\w+)", path.read_text("utf-8"))

@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 Place = tuple[str | int, ...]
 """Keys and positions on the way to a value."""
 Problem = tuple[Place, str]
-"""Where something is wrong, and what."""
+"""Place of a problem, and its message."""
 
 
 class Section(BaseModel):

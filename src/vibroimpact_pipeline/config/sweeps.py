@@ -18,10 +18,10 @@ NEEDED = dict.fromkeys(("amplitudes", "envelopes", "energy"), SIMULATED) | {
     "regimes": ("starts", "seed"),
     "peaks": (*SIMULATED, "band"),
 }
-"""What an observation needs to know."""
+"""Keys required by each observation."""
 OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
-"""How an axis says its values."""
+"""Keys by which an axis may give its values."""
 Count = Annotated[int, Field(ge=2, le=POINTS)]
 Listed = kinds.items(kinds.Number, 2, 1000, "The values themselves, instead of all of these")
 Tuple = kinds.items(kinds.Number, 2, 10, check=None)

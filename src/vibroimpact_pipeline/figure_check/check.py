@@ -19,7 +19,7 @@ from vibroimpact_pipeline.specs import each
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
 OTHER_VERSIONS = "picture not compared: other versions drew that of the reference, see pictures.json"
 SUMS = "pictures.json"
-"""Of a reference set: by figure sums of its PDF and SVG, and the versions that drew them."""
+"""File of a reference set with the sums of PDF and SVG by figure, and the versions that drew them."""
 
 
 def kept(figure: str, spec: dict) -> dict[str, tuple[str, str]]:

@@ -17,7 +17,7 @@ KEYS = ("panel", "series"), ("quantity",)
 OTHERS = "others"
 """Stands for the series that have no kind of their own."""
 KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
-"""How each kind of number is compared: by one or several of MEASURES, each with its limit; and why."""
+"""Kinds of numbers: the MEASURES they are compared by, each with its limit, and the reason."""
 
 
 def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
@@ -186,8 +186,8 @@ MEASURES = {
     "mean": (_standard_errors, "standard errors"),
 }
 UNITS = {measure: unit for measure, (_, unit) in MEASURES.items()}
-"""What the distances of each measure count. The axis is the range of the reference's column in its panel; where that
-range is zero, and in tables without panels, the reference itself. What is not finite is infinitely far."""
+"""Units of the distances. The axis is the range of the reference's column in its panel; if that range is zero, and in
+tables without panels, the reference itself. The distance of values that are not finite is infinite."""
 
 
 def _shares(old, new, scales):

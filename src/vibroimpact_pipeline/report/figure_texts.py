@@ -11,7 +11,7 @@ from vibroimpact_pipeline.specs import spec_of, specs
 
 FORCES = ("f10_hat", "f20_hat")
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
-"""What is said of a figure, and how a text is written there as it is: titles are plain, captions reStructuredText."""
+"""Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:

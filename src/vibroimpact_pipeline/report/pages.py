@@ -220,4 +220,4 @@ FILTERS = {
     "setting": setting,
     "url": quote,
 }
-"""How values stand in a page: each of them that is no number goes through one of these."""
+"""Filters for values in a page; every value that is not a number goes through one."""

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable
 
 FILES = "'self' file:"
-"""Of this site, and of this disk: opened from there, a page is of no site in some browsers."""
+"""This site, and this disk: some browsers treat a page opened from disk as of no site."""
 POLICY = (
     f"default-src 'none'; img-src {FILES} data:; style-src {FILES} 'unsafe-inline'; font-src data:; "
     f"script-src {{scripts}}; base-uri 'none'; form-action {FILES}"

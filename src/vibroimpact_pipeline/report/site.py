@@ -35,13 +35,13 @@ STYLE = "style.css"
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
 """A warning that is not about a docstring, nor about a name that is shown where it is imported, too."""
 THEME_FOOTER = re.compile(r'<div class="bottom-of-page">.*?</footer>', re.DOTALL)
-"""What the theme says of itself below a page, with links that lead outside."""
+"""The theme's own footer, whose links lead outside."""
 UNNAMED = {
     '<p class="caption" role="heading">': '<p class="caption" role="heading" aria-level="2">',
     '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Pages">',
     '<aside class="toc-drawer">': '<aside class="toc-drawer" aria-label="On this page">',
 }
-"""What those who hear a page miss in what Sphinx and the theme write."""
+"""Names for screen readers that Sphinx and the theme leave out."""
 GENERATED = re.compile(r'<script src="([^"?]+)(?:\?[^"]*)?"(?: defer(?:="defer")?)?></script>')
 """A script that Sphinx or the theme has in a file beside the page."""
 INLINE = re.compile(r"<script>(.*?)</script>", re.DOTALL)

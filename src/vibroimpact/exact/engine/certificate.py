@@ -20,7 +20,7 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 ALIKE = 0.02
-"""How much alike two roundings by the same entry of the flow tables are."""
+"""Correlation of two roundings by the same entry of the flow tables."""
 
 
 @compiled
@@ -203,7 +203,8 @@ KNOWN = 1e-3
 """A trajectory counts as known while its estimated error is below this, which a printed figure can show."""
 
 CLEAR = 4.0
-"""What is this many times the estimated error away is decided: true errors stay below 2.6 times the estimate."""
+"""An event is decided if its margin is this many times the estimated error; true errors stay below 2.6 times the
+estimate."""
 
 
 @dataclass(frozen=True, repr=False)

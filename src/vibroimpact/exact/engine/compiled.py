@@ -34,7 +34,7 @@ SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "what certificates, energies and Jacobians of runs need, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
 APART = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMBLE}
-"""What is compiled apart, by the modules that it starts from, and about how long it takes."""
+"""Groups of code compiled separately, by the modules that start them, with their duration."""
 
 
 class _Notice(event.Listener):

@@ -42,7 +42,7 @@ SHARES = 5 / 18, 8 / 18, 5 / 18
 POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
 """z G z is X_i^2."""
 LARGEST = 1e3
-"""Up to here, times the largest rate, an entry of S leaves differences their digits."""
+"""Largest entry of S, times the largest rate, whose differences keep their digits."""
 
 
 class Squares(NamedTuple):

@@ -56,7 +56,7 @@ from vibroimpact.system.state import IMPACT
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
-"""What the status of a run means."""
+"""Meaning of the status of a run."""
 
 OUTCOME = np.dtype(
     [
@@ -78,9 +78,9 @@ FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square
 NO_POWERS = np.empty((0, 0, 0, 0))
 NOTHING = Squares(NO_POWERS, np.empty((0, 0)), NO_POWERS)
 FEWEST = 3
-"""Runs that are worth a step of all lanes."""
+"""Least number of runs for a step of all lanes."""
 MOST_AT_ONCE, SHARES = 1024, 4
-"""Runs in a piece of work, enough that handing it out costs nothing; pieces for each core, where runs are fewer."""
+"""Runs in a piece of work; pieces per core if there are fewer runs."""
 
 
 def ensemble(

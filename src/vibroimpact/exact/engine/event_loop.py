@@ -155,7 +155,7 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
 PIECE = 65536  # rows for the events of a long run, 8 MB: the system gives so much at once in large pages
 EARLIER, PLACES = 19, 20
-"""Of the numbers that say where a run pauses the place of the count of events before the rows at hand; their number."""
+"""Place, in the array of a paused run, of the number of events before the current rows; length of that array."""
 
 
 class Progress(NamedTuple):

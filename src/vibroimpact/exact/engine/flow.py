@@ -19,7 +19,7 @@ from vibroimpact.exact.engine.lanes import weighted_sum
 from vibroimpact.system.matrices import damping_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
-"""Which balls stick, in the order of the tables: index = stuck_1 + 2 stuck_2."""
+"""Sticking of both balls, in the order of the tables: index = stuck_1 + 2 stuck_2."""
 
 STEPS_PER_UNIT = 32
 LONGEST_TABLE = 8192
@@ -72,7 +72,7 @@ class Flow(NamedTuple):
 
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
-"""How many numbers `tables_of` packs: the coefficients, and what a Flow has behind its arrays."""
+"""Numbers packed by `tables_of`: the coefficients, and the fields of Flow behind its arrays."""
 
 
 @lru_cache(maxsize=64)

@@ -26,11 +26,11 @@ from vibroimpact.system.state import EVENT, KINDS
 
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
-"""From here on floats are further apart than 1e-3, and times of a run cannot be told."""
+"""Beyond this time floats are more than 1e-3 apart, too far to represent events."""
 MOST_CYCLES = 10_000_000
-"""Of one run, which holds all its events: a kilobyte or so for a cycle."""
+"""Most cycles of one run, which holds all its events: about a kilobyte per cycle."""
 ROUNDED = 1e-12
-"""So far beyond a wall (and by the rounding of the positions) a ball may start: it is put on the wall."""
+"""Largest distance beyond a wall (plus rounding of the positions) of an initial state; the ball is put on the wall."""
 
 
 def checked_state(state) -> np.ndarray:

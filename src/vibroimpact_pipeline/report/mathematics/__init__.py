@@ -22,10 +22,10 @@ math[display="block"] {{ margin: 0.7rem 0; }}
 p:has(> math[display="block"]) {{ overflow-x: auto; overflow-y: hidden; }}
 @media print {{ p:has(> math[display="block"]) {{ overflow: visible; }} }}
 """
-"""Of every page with formulas; the font is in it, since browsers load none from a disk."""
+"""Style of every page with formulas; it contains the font, since browsers load none from a disk."""
 _CONVERTER = LatexToMathML(fancy_error=False)
 OVERLINE = re.compile(r"(?<=<mo stretchy=\"true\">)\u0332(?=</mo></mover>)")
-"""What the converter sets over a term for \\overline: a combining low line, which is drawn below its letter."""
+"""The combining low line that the converter sets for \\overline, drawn below its letter."""
 MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)', re.DOTALL)
 """A formula within a line, with the marks before and behind it."""
 
