@@ -37,8 +37,8 @@ PUBLISHED = (
     (0.992, 1.617034, False, 1.174543, 0.0655739),
     (0.992, 1.891745, True, 1.665244, 0.289937),
 )
-"""Of their program at commit c4c8a3a: r, theta of harmonic balance, whether it says stable, and of its time stepping
-from there theta and the difference of the speeds of the ball to either side over their sum."""
+"""Results of their program at commit c4c8a3a: r, theta of harmonic balance, its verdict stable, and from its time
+stepping there theta and the difference of the ball's speeds to either side over their sum."""
 
 
 def two_sectors(

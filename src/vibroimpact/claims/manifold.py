@@ -20,7 +20,7 @@ CHECKS = (
 )
 KAPPAS = np.linspace(0.01, 0.99, 99)
 EXPONENTS = range(4)
-"""Of pi and of rho, as a misprint in (10.26) might have changed them."""
+"""Exponents of pi and rho in (10.26) that a misprint may have changed."""
 _SURPLUS = 1e-9
 
 

@@ -33,7 +33,7 @@ CAPTIONS = {
 }
 """Stability of each fixed point by the captions of Figs. 10.6, 10.9 and 10.10."""
 STEPS = 111
-"""Of the second amplitude, along which a fixed point is followed from one case to another."""
+"""Number of values of the second amplitude along which a fixed point is followed between cases."""
 
 
 def number_of_fixed_points(evidence, case, number):

@@ -20,7 +20,7 @@ from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
-"""Every parameter with its usual value, or None where the case says it."""
+"""Every parameter with its default, or None if the case has it."""
 MACHINE = {
     "M": "mass of the machine with its box, without the ball [kg]",
     "m": "mass of the ball [kg]",
@@ -39,7 +39,7 @@ class Table(NamedTuple):
     columns: tuple[str, ...]
     rows: list[tuple]
     answer: str = ""
-    """What it comes to, in words; printed in place of the rows where these go to a file or nowhere."""
+    """Result in words; printed in place of the rows if these go to a file or nowhere."""
 
     def write(self, file) -> None:
         """Write CSV to an open text file, every number with as many digits as tell it apart."""
@@ -49,7 +49,7 @@ class Table(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What a command is for, its own options, and the table it computes from a system and the options."""
+    """A command: its help text, its own options, and the function that computes its table."""
 
     help: str
     add_options: Callable

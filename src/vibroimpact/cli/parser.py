@@ -92,7 +92,7 @@ def _plots(options):
 
 
 def _check_folders(options):
-    """Nothing is computed for a file that cannot be written."""
+    """Refuse an output file whose folder cannot be written to, before anything is computed."""
     for name in ("output", "plot"):
         path = getattr(options, name)
         if path is not None and not path.parent.is_dir():

@@ -18,7 +18,7 @@ SPEC = {
 }  # fmt: skip
 
 PLACES = {1: -3.0, 2: 3.0}
-"""Where the boxes rest, in units of L; far enough from each other for every motion of the chapter."""
+"""Rest positions of the boxes in units of L, far enough apart for every motion of the chapter."""
 BALL, WALL, HALF_HEIGHT, EDGE = 0.28, 0.12, 0.62, 6.2
 """Radius of a ball, thickness of a wall, half the height of a box, distance of the supports, in units of L."""
 INSTANTS, ROW = 6, 15.0

@@ -38,10 +38,9 @@ LIMITS = {
     "fold": (r"$C_{\min}$", {"marker": "o", "markerfacecolor": BLACK}, (0, 11)),
     "symmetry breaking": (r"$\pi^2/(\pi^2-4)$", {"marker": "o", "markerfacecolor": BLACK}, (26, -17)),
 }
-"""Of each limit: its name in the figure, its marker, the place of the name in points from the marker."""
+"""By limit: its name in the figure, its marker, the place of the name in points from the marker."""
 INSET, AROUND, TALL = (0.27, 0.42, 0.33, 0.36), 0.3, 0.35
-"""Of the inset between the printed limit and the fold: its place as shares of the axes, and what it shows beyond both,
-as shares of their distance in C, and of its height in B."""
+"""The inset between the printed limit and the fold: its place as shares of the axes, and its margins beyond both."""
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
@@ -100,7 +99,7 @@ def _mark(axes, table, limits, named):
 
 
 def _draw_inset(axes, table):
-    """What lies between the printed limit and the fold, which (10.26) calls stable though it is not."""
+    """Draw the part between the printed limit and the fold, which (10.26) calls stable though it is not."""
     ends = [select(table, "SIM", series)[["C", "B"]].to_numpy()[0] for series in ("printed", "fold")]
     (left, top), (right, bottom) = ends
     inset = axes.inset_axes(INSET)

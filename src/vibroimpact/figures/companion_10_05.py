@@ -36,7 +36,7 @@ NAMES = {
     "symmetry breaking": (r"$\pi^2/(\pi^2-4)$: symmetry breaks", 0.62, (0, 6), "center"),
     "printed": ("(10.26)", 0.4, (5, -10), "left"),
 }
-"""Of limits: the name in the figure, the kappa where it stands, how far from the line in points, and its side there."""
+"""By limit: its name in the figure, the kappa where it stands, its distance from the line in points, and its side."""
 END = 1e-9
 """Distance from kappa = 0 and 1, where the impact law ends."""
 

@@ -38,7 +38,7 @@ SPEC = {
 PANELS = {"theory": "theory: fixed point ({})", "simulation": "simulated"}
 PERIODS = 2
 MOST_FLIGHTS = 4
-"""So many a period are named in the figure; of a wilder motion there is nothing to read."""
+"""Most flights per period that are named in the figure."""
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:

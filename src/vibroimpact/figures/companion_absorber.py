@@ -115,13 +115,13 @@ FRESH = 8
 PANELS = {"clearance": "clearance", "kappa": "restitution"}
 """Panels of curves, by what they are over."""
 TOLD = ("value", "spread", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
-"""What the summary tells of a place."""
+"""Columns of the summary."""
 
 
 def compute(
     system, response, clearance, design, band: dict, observation: dict, number: int, seed: int, cycles: int, settle: int
 ) -> dict:
-    """What sweeps of the balls found, per force, beside linear systems in closed form.
+    """Return results of the sweeps with balls, per force, beside linear systems in closed form.
 
     A lowest peak of a sweep is too low: the largest displacement of a few starts is below that of many, and the lowest
     of many places is where chance was kind. So it is measured again at its place, from rest and other starts and at the
@@ -243,7 +243,7 @@ def plateau(places):
 
 
 def _strokes(system, linear, band):
-    """How far the absorbers move in their boxes."""
+    """Return the strokes of the absorbers in their boxes."""
     for name in ("absorbers of the textbook", "best absorbers"):
         stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
         yield {"quantity": STROKE, "who": name, "value": stroke}

@@ -83,7 +83,7 @@ SHARED = [name for name in NAMES if name not in ("Y1", "Y2")]
 
 
 def compute(system, case: str, points: int, observation: dict) -> dict:
-    """Where starts end whose boxes and velocities are those of the stable asymmetric orbit at tau = 0.
+    """Return the regimes of starts with boxes and velocities of the stable asymmetric orbit at tau = 0.
 
     Where there is no such orbit, the boxes start from rest.
 

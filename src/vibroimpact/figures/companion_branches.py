@@ -124,7 +124,7 @@ DOTS = {
     VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
     PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
 }
-"""What starts end in, by simulation."""
+"""Looks of the regimes in which simulated starts end."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
 BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and the\nstable pair\ncoexist"}
 CRISIS = {"color": BLACK, "linestyle": (0, (1, 1.2)), "linewidth": 1.0, "label": "crisis"}
@@ -141,7 +141,7 @@ LIFE_RANGE = (30.0, 1e6)
 HUES = {FixedPoints.name: BLACK, SymmetricOrbits.name: "#004488", AsymmetricOrbits.name: "#BB5566"}
 """Blue and red of Paul Tol's high-contrast palette, which colour-blind readers and grey prints tell apart."""
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
-"""Of lines of exact orbits; those of the theory are named by their stability."""
+"""Names of lines of exact orbits; those of the theory are named by their stability."""
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
 
 
@@ -217,7 +217,9 @@ def _lives(lifetimes):
 
 
 def _coexistence(lifetimes, special):
-    """Where chaos and the asymmetric pair both attract: from the pair's last Neimark-Sacker point up to the crisis."""
+    """Return the range where chaos and the asymmetric pair both attract: from the pair's last Neimark-Sacker point to
+    the crisis.
+    """
     for name, rows in lifetimes.groupby("path"):
         crisis = np.mean(bracket(rows["p"], rows["escapes"]))
         mine = special[(special["path"] == name) & special["admissible"].eq(True)]
@@ -364,7 +366,7 @@ def _is(special, kind):
 
 
 def _legend(panels):
-    """What is drawn as a dot or mark in any panel; kinds of one marker have an entry together."""
+    """Return the legend of dots and marks in all panels; kinds with one marker share an entry."""
     shown = {line.get_label() for axes in panels for line in axes.lines if len(line.get_xdata())}
     kinds = [kind for kind in MARKERS if kind in shown]
     marked = {MARKERS[kind]: [other for other in kinds if MARKERS[other] == MARKERS[kind]] for kind in kinds}

@@ -64,7 +64,7 @@ def compute() -> pd.DataFrame:
 
 
 def _responses(r):
-    """Of one frequency (series, r, theta, lean, stable) for each response whose sectors move alike."""
+    """Return (series, r, theta, lean, stable) of each response at one frequency whose sectors move alike."""
     system = two_sectors(r)
     alike = [one for one in orbits(system) if one.admissible and np.allclose(one.state[:2], one.state[2:4], atol=1e-7)]
     symmetric = sorted((one for one in alike if one.symmetric), key=lambda one: one.C[0])

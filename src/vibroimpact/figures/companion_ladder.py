@@ -124,7 +124,7 @@ def _cheapest(name, limit, place, found):
 
 
 def verdicts(plane) -> pd.DataFrame:
-    """How often leading order and two terms say what of a motion, and what is true; plane: the rungs of each place.
+    """Count verdicts of leading order and of two terms against the exact ones; plane: the levels at each place.
 
     Returns columns rung, said, true, motions.
     """

@@ -128,7 +128,7 @@ LINES = {1: {"color": BLACK, "linestyle": "-"}, 2: {"color": GREY, "linestyle": 
 SHORTEST = 0.5
 """Bursts in cycles: two flights of a quarter of the period."""
 SHOWN = 4
-"""So many starts of a regime are watched over the longest of the windows."""
+"""Starts of a regime that are observed over the longest of the windows."""
 
 
 def compute(

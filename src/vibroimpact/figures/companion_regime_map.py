@@ -66,7 +66,7 @@ BORDERS = {
     "stable points": {"linestyles": "solid", "linewidths": 1.6},
 }
 HALVINGS = 4
-"""Of the way between two cells with different counts: the border is found to a thirty-second of it."""
+"""Halvings between two cells with different counts: the border is found to 1/32 of their distance."""
 CLASSES = {
     "symmetric": ("#004488", (SYMMETRIC,)),
     "asymmetric": ("#7aa6d6", (ASYMMETRIC,)),
@@ -75,7 +75,7 @@ CLASSES = {
     "chaotic": ("#994455", (CHAOTIC, HOPPING)),
     "quasi-periodic or unsettled": ("#848484", (QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED)),
 }
-"""What is drawn alike, in colours that differ in grey print, too: for each class its colour and its regimes."""
+"""Classes drawn alike, in colours that differ in grey print: colour and regimes of each."""
 TOGETHER = "coexisting"
 NAMED_FROM = 20
 """A patch of so many cells or more bears the name of its class; the legend has the classes without one."""
@@ -106,7 +106,7 @@ def compute(table: pd.DataFrame, systems: dict, starts: int) -> pd.DataFrame:
 
 
 def _dominant(cells, starts):
-    """Of each cell the regime of most starts other than rest, and the number of regimes that these settle in."""
+    """Return, for each cell, the regime of most starts other than rest, and the number of regimes they settle in."""
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
         counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
@@ -117,7 +117,7 @@ def _dominant(cells, starts):
 
 
 def _borders(system, cells):
-    """Where the counts of the theory change: pieces of lines, each between two points found by halving."""
+    """Return where the counts of the theory change: pieces of lines between points found by halving."""
 
     @cache
     def counts(f10, f20):
@@ -143,7 +143,9 @@ def _borders(system, cells):
 
 
 def _squares(cells, square):
-    """Of every four neighbouring cells the centres, once round, each with its count; gaps left out."""
+    """Return the centres of every four neighbouring cells, in order round the square, each with its count; gaps left
+    out.
+    """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]

@@ -89,7 +89,7 @@ LINE_POINTS = 451
 
 
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
-    """What sweeps of the balls found, per force, beside theory, exact orbits, and linear systems in closed form.
+    """Return results of the sweeps with balls, per force, beside theory, exact orbits, and linear systems.
 
     Args:
         system: whose other parameters the sweeps keep.
@@ -131,7 +131,7 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def linear_systems(system, pair, band: dict) -> dict:
-    """What balls are held against, by name, at forces in this proportion, the larger of them 1."""
+    """Return the linear systems for comparison, by name, at forces in this proportion, the larger of them 1."""
     f10, f20 = (float(value / max(pair)) for value in pair)
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 

@@ -145,7 +145,7 @@ def _draw_plane(axes, table, case, end):
 
 
 def overall(motion) -> str:
-    """What is true of an orbit (its multipliers); what the theory says of a fixed point: both time scales stable."""
+    """Return the exact verdict on an orbit, or that of the theory on a fixed point: both time scales stable."""
     if motion["series"] != "fixed point":
         return motion["floquet"]
     return fast_and_slow(motion)
@@ -159,7 +159,7 @@ def _mark(axes, place, motion, verdict):
 
 
 def _key(table):
-    """What shapes mean, half in either face, and what faces do, those that occur, in no shape."""
+    """Return handles of the key: shapes half filled, and fillings, as far as they occur, without shape."""
     occurring = set(table[list(CRITERIA)].to_numpy().ravel())
     either = {"fillstyle": "left", "markerfacecoloralt": "white"}
     kinds = [Line2D([], [], **_marker(series, STABLE) | either, label=name) for series, name in NAMES.items()]

@@ -61,7 +61,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """What the exact system says of it, in Markdown; arguments as in `compute`."""
+    """Return the exact system's verdict in Markdown; arguments as in `compute`."""
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ is made of "
         "straight lines there, too. Only in symmetric motions are its corners half a period apart."

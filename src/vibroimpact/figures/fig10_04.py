@@ -45,14 +45,14 @@ def compute(kappa: float, C_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Where the stable branch begins, and the lowest point of the manifold."""
+    """Return where the stable branch begins, and the lowest point of the manifold."""
     stable = select(table, "SIM", "SIM stable")[["C", "B"]]
     points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
     return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
 
 
 def exact(kappa: float, C_max: float) -> str:
-    """What the exact map from impact to impact says of the printed border, in Markdown; arguments as in `compute`."""
+    """Return the verdict of the exact impact map on the printed border, in Markdown; arguments as in `compute`."""
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (

@@ -64,7 +64,7 @@ def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
 
 
 def exact(C_range: tuple[float, float]) -> str:
-    """What the exact map from impact to impact says of the regions, in Markdown; arguments as in `compute`."""
+    """Return the verdict of the exact impact map on the regions, in Markdown; arguments as in `compute`."""
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (

@@ -1,4 +1,4 @@
-"""How the fixed points travel along the manifold as the forcing of the second module changes."""
+"""Fixed points along the manifold as the forcing of the second module changes."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""What a sweep found: curves over one parameter, maps over two."""
+"""Picture of a sweep: curves over one parameter, maps over two."""
 
 import numpy as np
 import pandas as pd
@@ -39,11 +39,11 @@ PANELS = {
 }
 """Panels of curves: what each shows, columns by their names in the legend. In a map each column is a panel."""
 HEIGHT = 48.0
-"""Of a panel, in mm."""
+"""Height of a panel, in mm."""
 
 
 def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
-    """What is drawn of the table of a sweep.
+    """Return the drawn columns of a sweep's table.
 
     Args:
         axes: `along`, names of the parameters that move together, and maybe `scale`, of each axis.

@@ -133,5 +133,5 @@ def _notes(figure, numbers, table, footer):
 
 
 def _failure(row):
-    """What a failed run is listed under: method and reason, numbers in the reason left out."""
+    """Return the label of a failed run: method and reason without numbers."""
     return row.method, row.reason.split(" at tau")[0].split(" reach ")[0]

@@ -15,7 +15,9 @@ REFUSED, UNFINISHED = "refused", "unfinished"
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a run has no result. kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of steps)."""
+    """Reason why a run has no result. kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of
+    steps).
+    """
 
     kind: str
     reason: str

@@ -8,7 +8,7 @@ from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
 from vibroimpact.regimes.modulation import bursts_in
 
 CERTAIN = 3.0
-"""So many standard errors are counted as the uncertainty of an exponent."""
+"""Standard errors that count as the uncertainty of an exponent."""
 RESOLVED = 0.02
 """Smallest exponent, per forcing period, that is told from growth with a power of time."""
 RECURRENT = 0.1

@@ -76,7 +76,9 @@ def bursts_in(run: Run, module: int) -> np.ndarray:
 
 
 def sampled(system, state, cycles: int) -> Run:
-    """So many cycles from a state at a cycle's start, with PER_CYCLE samples in each and one at the end."""
+    """Return a run over so many cycles from a state at a cycle's start, with PER_CYCLE samples in each and one at the
+    end.
+    """
     return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
 
 

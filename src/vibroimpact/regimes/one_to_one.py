@@ -10,7 +10,7 @@ from vibroimpact.theory.fixed_points.search import search
 from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512
-"""Of half a period: a largest value between two of them is larger by 5e-6 of itself at most."""
+"""Samples in half a period: a maximum between two of them is larger by 5e-6 of itself at most."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,10 @@
-"""What only parts of the library need beside NumPy, SciPy and Numba: packages installed by an extra."""
+"""Optional dependencies: packages of an extra, needed by parts of the library only."""
 
 from importlib.util import find_spec
 
 
 def need(extra: str, *packages: str) -> None:
-    """Make sure that the packages of an extra are there.
+    """Raise an error that names the install command if packages of an extra are missing.
 
     Raises:
         ModuleNotFoundError: some are not; the message names them and the command that brings them.

@@ -1,4 +1,4 @@
-"""Results at a glance: one line in a console, a small table in a notebook."""
+"""Representation of results: one line in a console, a small table in a notebook."""
 
 from html import escape
 
@@ -6,10 +6,10 @@ import numpy as np
 
 
 class Glance:
-    """What the line and the table show is told once, by `_glance`."""
+    """Base class of results whose repr and HTML table show the texts of `_glance`."""
 
     def _glance(self) -> dict[str, str]:
-        """Short texts by the names of attributes."""
+        """Return short texts by the names of attributes."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
@@ -21,7 +21,7 @@ class Glance:
 
 
 def brief(numbers) -> str:
-    """A number or an array (n,) with four digits each."""
+    """Return a number or an array (n,) with four digits each."""
     if np.ndim(numbers) == 0:
         return f"{numbers:.4g}"
     return f"({', '.join(f'{number:.4g}' for number in numbers)})"

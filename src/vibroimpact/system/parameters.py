@@ -102,7 +102,7 @@ class System:
 
     @property
     def has_undriven_module(self) -> bool:
-        """Whether some module has neither a force nor a neighbour that it feels: its impacts can only die out."""
+        """True if some module has neither a force nor a coupling, so that its impacts can only die out."""
         uncoupled = self.alpha12_hat == 0 and self.gamma12_hat == 0
         forced = [self.f10_hat != 0, self.f20_hat != 0]
         return not (all(forced) if uncoupled else any(forced))

@@ -41,7 +41,7 @@ Box = tuple[tuple[float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class Proof:
-    """What is proved of a system whose hatted parameters are the float64 numbers that the code holds.
+    """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
 
     isolated: ascending, each with exactly one fixed point: boxes ((C_1 from, to), (C_2 from, to)), or for asymmetric
         points pairs of charts and the boxes of their parameters.

@@ -1,4 +1,4 @@
-"""What the criteria of the theory say of a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
+"""Stability criteria for a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
 Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
 threshold. Both modules must be stable.

@@ -113,7 +113,7 @@ def largest_C(kappa: float) -> float:
 
 
 def stays_within_walls(C: float, kappa: float) -> bool:
-    """Whether |W_0| <= 1 all the time: exactly for 0 <= C <= largest_C(kappa).
+    """Return True where |W_0| <= 1 all the time: exactly for 0 <= C <= largest_C(kappa).
 
     Raises:
         ValueError: kappa is not between 0 and 1.

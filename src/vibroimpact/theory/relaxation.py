@@ -1,4 +1,4 @@
-"""The strongly modulated response as the slow flow sees it: drift along the manifold, loss of resonance, return.
+"""The strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
 
 A ball in resonance is on the stable part of the manifold, symmetric or, beyond symmetry breaking, asymmetric. Where the
 box's amplitude has sunk to the fold, B = B_min, it is lost; from then on it is taken to rest in the middle of its box
@@ -27,7 +27,7 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """What becomes of both balls, each (..., 2).
+    """Statistics of both balls in a relaxation, each (..., 2).
 
     bursts: mean length of the stretches in resonance that have ended, in forcing periods; nan where none has.
     share: part of the time that each ball is in resonance.

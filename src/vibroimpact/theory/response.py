@@ -52,7 +52,7 @@ def impact_times(system, point) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class MeanPower:
-    """Where the power goes, averaged over a cycle, per unit of tau and in units of M L^2 omega_10^2.
+    """Mean power balance over a cycle, per unit of tau and in units of M L^2 omega_10^2.
 
     Relative errors are of the order epsilon. The names are those of `Run.energy`, which is this times the period.
 
@@ -67,7 +67,7 @@ class MeanPower:
 
     @property
     def impact_share(self) -> float:
-        """What the impacts take of the power of both forces."""
+        """Share of the power of both forces that impacts dissipate."""
         return float(self.impacts.sum() / self.work.sum())
 
 

@@ -38,7 +38,7 @@ _TERMS = 3
 
 @dataclass(frozen=True)
 class Proof:
-    """What is proved of a system whose matrices and forcing are the float64 numbers that the code holds.
+    """Proof of the list of symmetric orbits of a system with exactly these float64 matrices and forcing.
 
     isolated: intervals of the lag (tau_2 - tau_1) / T, each with exactly one symmetric response, ascending.
     undecided: intervals in which nothing is proved; everywhere else there is no symmetric response.

@@ -13,7 +13,7 @@ from vibroimpact.system.verdict import all_stable, verdict
 _MODULES = np.array([1, 1, 2, 2])
 _WALLS = np.array([1, -1, 1, -1])
 _NORMALS = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]]) @ np.eye(4, 8)
-"""Of the walls of both modules: W_i of a state."""
+"""Normals of the walls of both modules: W_i of a state."""
 _ROUNDING = 100 * np.finfo(float).eps
 
 
@@ -74,7 +74,7 @@ class Passage(NamedTuple):
     jacobian: np.ndarray
 
     def flights(self):
-        """Of all free flights: states at the start (n, 8), times of the start and durations, both (n,)."""
+        """Return all free flights: states at the start (n, 8), times of the start and durations, both (n,)."""
         edges = np.array([0.0, *self.times, self.end])
         return np.vstack([self.first, self.after]), edges[:-1], np.diff(edges)
 
@@ -90,7 +90,7 @@ def impact_sequence(times: np.ndarray, period: float):
 
 
 def free_flights(system, begins: np.ndarray, durations: np.ndarray):
-    """Of free flights from times (n,) of durations (n,): the maps x -> A x + b of states, (n, 8, 8) and (n, 8)."""
+    """Return the maps x -> A x + b of free flights from times (n,) over durations (n,): (n, 8, 8) and (n, 8)."""
     flow = expm(rate_matrix(system) * durations[:, None, None])
     phases = system.Omega * begins
     maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))

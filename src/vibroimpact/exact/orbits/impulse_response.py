@@ -71,7 +71,7 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Displacement, velocity and acceleration, each (*times.shape, n), of every train's box under every train.
+        """Return `ImpulseResponse.between`: displacement, velocity and acceleration, each (*times.shape, n).
 
         Train k has an impulse on box boxes[k] at times[..., k]; entry [..., m, k] is what train k does to box boxes[m]
         just before the impulse of train m.

@@ -61,12 +61,12 @@ class Orbit(Glance):
 
     @property
     def stable(self) -> bool | None:
-        """Whether it is stable; None where that is undecided."""
+        """True if stable, False if unstable, None if undecided."""
         return {STABLE: True, UNSTABLE: False}.get(self.stability)
 
     @property
     def proved(self) -> bool:
-        """Whether the stability is proved in interval arithmetic, not only computed."""
+        """True if the stability is proved in interval arithmetic, False if it is only computed."""
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
@@ -113,7 +113,7 @@ class Orbit(Glance):
 
 @dataclass(frozen=True, eq=False)
 class OrbitSearch:
-    """What a search found and how far it can be trusted.
+    """Orbits found by a search, and the effort spent.
 
     orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.orbits.symmetric and
         exact.orbits.certify).
@@ -142,7 +142,7 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
-    """As orbits(system), with the effort spent on the asymmetric ones and what it says about completeness.
+    """Return orbits(system) with the effort spent on asymmetric ones, which tells how likely one was missed.
 
     Raises:
         ValueError: as orbits; starts is not a whole number from 1 to 2**20.
@@ -157,7 +157,7 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
 
 
 def prove(orbit: Orbit):
-    """What can be proved of an orbit in interval arithmetic, an `OrbitProof`: existence, motion, multipliers.
+    """Prove an orbit in interval arithmetic: existence, motion between the walls, multipliers.
 
     Raises:
         ValueError: orbit is no Orbit; undamped boxes in resonance with the impacts.

@@ -1,1 +1,1 @@
-"""What all figures share: style, tables, what a picture shows, files."""
+"""Style, tables, shared drawings and files of all figures."""

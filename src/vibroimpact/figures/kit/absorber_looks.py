@@ -1,4 +1,4 @@
-"""How the balls, and what they are held against, look in every figure that compares them."""
+"""Looks of balls and of the systems compared with them."""
 
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -14,7 +14,7 @@ DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "
 BEST = {"linestyle": "none", "marker": "*", "markersize": 9, "markeredgewidth": 0.8, "color": "white"}
 BEST |= {"markeredgecolor": BLACK, "zorder": 4}
 LEAST, MOST = 0.8, 1.3
-"""Where axes of displacements per force begin, and how far above the highest line they end."""
+"""Lower end of axes of displacement per force, and margin above the highest line."""
 
 
 def draw_lines(axes, rows, x: str, y: str) -> None:

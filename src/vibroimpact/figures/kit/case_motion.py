@@ -44,7 +44,7 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 
 
 def exact(regime: Regime, displacements, per_cycle: int, nearness: float) -> str:
-    """What a simulated motion is, and how that agrees with what is seen of it in a window.
+    """Return the kind of a simulated motion, and how it agrees with its window, in Markdown.
 
     Args:
         regime: of the motion in the long run.

@@ -33,7 +33,7 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
-    """What every criterion says of each fixed point, from inputs["verdicts"] if that is given.
+    """Return the verdicts of all criteria on each fixed point, from inputs["verdicts"] if that is given.
 
     Columns label, orbit (label of the exact orbit that goes with the point), floquet (verdict of its multipliers), ...
 
@@ -49,7 +49,7 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
 
 
 def exact(verdicts: pd.DataFrame) -> str:
-    """What the Floquet multipliers of the exact orbits say of fixed points; columns label, orbit, floquet."""
+    """Return the verdict of the Floquet multipliers of exact orbits on fixed points; columns label, orbit, floquet."""
     if verdicts.empty:
         return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
     said = []

@@ -61,7 +61,7 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 
 
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Where each fixed point lies: one row per point and module.
+    """Return the place of each fixed point on the manifold: one row per point and module.
 
     Columns label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable", (10.26)),
     overshoot (how far W leaves the walls at leading order, 0 where |W| <= 1).

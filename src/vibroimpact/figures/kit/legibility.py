@@ -1,4 +1,4 @@
-"""What a reader of a printed figure can see."""
+"""Smallest errors that are visible in a printed figure."""
 
 
 def smallest_visible_error(figure) -> float:

@@ -7,7 +7,7 @@ GAP, CLEAR = 2.5, 6.0
 WIDTH = 0.22
 """Half the width of a letter, on average, by the size of the lettering."""
 INNER, PARTS = (0.2, 0.8), 100
-"""Where on its curve a name may stand, and into how many parts curves are cut."""
+"""Part of a curve where its name may stand; number of parts that curves are cut into."""
 
 
 def name_lines(axes, named: dict, size: float = 8.5) -> None:
@@ -33,7 +33,9 @@ def name_lines(axes, named: dict, size: float = 8.5) -> None:
 
 
 def _room(places, half, taken, frame):
-    """How good each place is for a name half so wide and high: how far from all others, up to a limit."""
+    """Return a score for each place of a label of this half width and height: its distance from all others, up to a
+    limit.
+    """
     clear = (np.abs(places[:, None] - taken) - half).max(axis=2).min(axis=1)
     inside = np.minimum(places - half - frame[0], frame[1] - places - half).min(axis=1)
     aside = np.abs(places[:, 0] - frame[:, 0].mean()) / np.ptp(frame[:, 0])
@@ -41,6 +43,6 @@ def _room(places, half, taken, frame):
 
 
 def _fine(corners, first=0.0, last=1.0):
-    """So many points along a part of a polyline of corners (n, 2), evenly over its corners."""
+    """Return PARTS points along a part of a polyline of corners (n, 2), evenly over its corners."""
     at, steps = np.linspace(first, last, PARTS) * (len(corners) - 1), np.arange(len(corners))
     return np.column_stack([np.interp(at, steps, column) for column in np.transpose(corners)])

@@ -35,7 +35,7 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
 
 
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
-    """How the amplitude of each box, half its peak-to-peak displacement in each forcing period, varies over samples.
+    """Return the variation of each box's amplitude, half its peak-to-peak displacement per forcing period.
 
     Returns columns displacement ("X1", "X2"), smallest and largest amplitude, amplitude variation (standard deviation
     over mean), modulation periods (how many distances there are between swells), mean length in cycles (of these; blank

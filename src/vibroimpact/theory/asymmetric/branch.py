@@ -95,7 +95,7 @@ def first_harmonic(v, kappa):
 
 
 def slope_change(v, kappa):
-    """By how much an impact changes the slope of Z: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
+    """Return the change of the slope of Z at an impact: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
     return 4 * amplitudes(np.square(v), kappa)[0] / (np.pi * (1 - np.square(v)))
 
 

@@ -77,7 +77,7 @@ class AsymmetricPoint(Glance):
         return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
 
     def admissible(self, kappa) -> bool:
-        """Whether it is a motion at leading order and both balls stay between their walls."""
+        """True if it is a motion at leading order and both balls stay between their walls."""
         modules = zip(self.asymmetric, self.C, self.squared, strict=True)
         return self.real and all(
             branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
@@ -86,7 +86,7 @@ class AsymmetricPoint(Glance):
 
     @property
     def real(self) -> bool:
-        """Whether it is a motion at leading order: no v^2 below 0."""
+        """True if it is a motion at leading order: no v^2 below 0."""
         return bool((self.squared >= 0).all())
 
     def _glance(self):
@@ -122,7 +122,7 @@ class Balance:
 
 
 def _product(one, other):
-    """Of two functions of (x_1, x_2), each with its derivatives, (3, n)."""
+    """Return the product of two functions of (x_1, x_2), each with its derivatives, (3, n)."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
 

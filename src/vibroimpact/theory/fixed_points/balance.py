@@ -48,7 +48,8 @@ class Balance:
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """What stands for (10.24): |u_1| = |u_2| = 1 without denominators, and with moduli throughout, each (2, 3, 3).
+        """Return two polynomials equivalent to (10.24), |u_1| = |u_2| = 1 without denominators, and their moduli, each
+        (2, 3, 3).
 
         |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, where u_i = n_i / Delta: n_1 depends on C_2 alone and n_2 on C_1
         alone. Entry [:, j, k] belongs to C_1^j C_2^k.

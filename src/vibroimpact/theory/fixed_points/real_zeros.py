@@ -97,7 +97,9 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Where Newton's method leads from points (n, 2): those where both polynomials vanish within their rounding."""
+    """Return the points to which Newton's method leads from points (n, 2) and where both polynomials vanish within
+    rounding.
+    """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
         value, gradient, noise = _expanded(pair, size, points)

@@ -24,7 +24,7 @@ _STEPS = 20  # at most, to narrow a box: quadratic, but for the first ones
 
 @dataclass(frozen=True)
 class OrbitProof:
-    """What is proved of an orbit of a system whose matrices and forcing are the float64 numbers that the code holds.
+    """Proof of an orbit of a system with exactly these float64 matrices and forcing.
 
     radius: half-width of a box around the listed impact times and changes of ball velocity with exactly one root, of
         the listed kind (symmetric or not); 0 where nothing is proved.
@@ -87,7 +87,7 @@ def _multipliers(monodromy) -> tuple[acb, ...]:
 
 
 def _of_kind(symmetric, conditions, root, listed, radius):
-    """Whether the root is proved to be symmetric, or proved not to be."""
+    """Return True if the root is proved to be of the kind (symmetric or asymmetric) of the orbit."""
     if not symmetric:
         lags = conditions.lags(root)
         return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in range(2))

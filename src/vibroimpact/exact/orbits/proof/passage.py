@@ -137,6 +137,8 @@ def _ranges(rate, state, duration, low, high):
 
 
 def _inside(i, W, V, leaving, nearing):
-    """Whether ball i stays inside on a piece that starts with impact `leaving` and ends with `nearing`, or None."""
+    """Return True if ball i stays inside on a piece between the impacts `leaving` and `nearing`, of which one may be
+    None.
+    """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))
