@@ -43,9 +43,10 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
     assert browser.problems == []
     assert address(site, page) in browser.requests
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
-    for scheme in ("dark", "light"):
-        browser.page.emulate_media(color_scheme=scheme)
-        assert browser.barriers() == [], scheme
+    browser.page.emulate_media(color_scheme="dark")
+    assert browser.barriers(runOnly=["color-contrast"]) == []
+    browser.page.emulate_media(color_scheme="light")
+    assert browser.barriers() == []
     if page in PAGES:
         pictures = browser.run(
             "[...document.images].map(i => [i.getAttribute('src'), i.complete && i.naturalWidth, i.alt])"
@@ -61,7 +62,7 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
     browser.page.set_viewport_size({"width": NARROW, "height": 900})
     browser.screenshot(screenshots / f"{page.replace('/', '_')}_narrow.png")
     assert browser.run("document.documentElement.scrollWidth") <= NARROW
-    assert browser.barriers() == []
+    assert browser.barriers(rules={"color-contrast": {"enabled": False}}) == []
 
 
 def assert_order(browser):

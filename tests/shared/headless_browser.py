@@ -1,5 +1,6 @@
 """A real browser without a window: the Chromium of this machine, led by Playwright."""
 
+import json
 import shutil
 from pathlib import Path
 
@@ -61,10 +62,11 @@ class Browser:
         """
         return self.page.evaluate(expression)
 
-    def barriers(self) -> list[tuple[str, str]]:
-        """What axe calls serious or critical on the page: rule and place."""
+    def barriers(self, **options) -> list[tuple[str, str]]:
+        """Return what axe finds serious or critical on the page, rule and place; `options` choose the rules."""
         self.run(AXE)
-        found = self.run("axe.run().then(result => result.violations)")
+        options = json.dumps({"resultTypes": ["violations"], **options})
+        found = self.run(f"axe.run({options}).then(result => result.violations)")
         return [
             (rule["id"], str(node["target"]))
             for rule in found
