@@ -15,7 +15,7 @@ from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of,
 from vibroimpact.exact.engine.phase import ahead, phase_at
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, land, start_of
 from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
-from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
@@ -208,7 +208,7 @@ estimate."""
 
 
 @dataclass(frozen=True, repr=False)
-class Certificate(Glance):
+class Certificate(Representation):
     """Proof and error estimates of one run.
 
     flights, exclusions: number of flights, and of proofs that nothing happens over an interval. Proofs cover every
@@ -261,7 +261,7 @@ class Certificate(Glance):
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )
 
-    def _glance(self):
+    def _shown(self):
         shown = ("clearance", "error", "horizon", "nearest_miss", "undecided")
         return {"decided": str(self.decided), **{name: brief(getattr(self, name)) for name in shown}}
 

@@ -25,8 +25,8 @@ from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
 from vibroimpact.system.energy import stored
-from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.matrices import rate_matrix
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.restitution import energy_lost
 from vibroimpact.system.state import IMPACT
 
@@ -226,7 +226,7 @@ def powers_of(system) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Energy(Glance):
+class Energy(Representation):
     """Energy balance of a run, in units of M L^2 omega_10^2 (omega_10^2 = k_1 / M).
 
     work: (2,), of the force on each box. ground: (2,), dissipated by the damper from each box to ground, and coupling,
@@ -265,7 +265,7 @@ class Energy(Glance):
         """Share of the work of both forces that impacts dissipate."""
         return float(self.impacts.sum() / self.work.sum())
 
-    def _glance(self):
+    def _shown(self):
         return {name: brief(getattr(self, name)) for name in ENERGY.names}
 
 

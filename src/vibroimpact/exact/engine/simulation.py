@@ -21,7 +21,7 @@ from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, shown, whole
-from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import EVENT, KINDS
 
 NO_TIMES = np.empty(0)
@@ -110,7 +110,7 @@ def checked_times(name, times, start, end) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
-class Run(Glance):
+class Run(Representation):
     """A simulated motion.
 
     system, start, cycles: as given; begin: exact time of the start.
@@ -139,7 +139,7 @@ class Run(Glance):
         for array in (start, samples, final, counters):
             array.flags.writeable = False
 
-    def _glance(self):
+    def _shown(self):
         counts = np.bincount(self.events["kind"], minlength=len(KINDS))
         return {
             "cycles": str(self.cycles),

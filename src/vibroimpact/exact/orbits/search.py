@@ -13,8 +13,8 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.arguments import instance, whole
-from vibroimpact.system.glance import Glance, brief
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
@@ -25,7 +25,7 @@ _MOST_STARTS = 2**20
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Orbit(Glance):
+class Orbit(Representation):
     """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
 
     system: the system it belongs to.
@@ -93,7 +93,7 @@ class Orbit(Glance):
             "proved": self.proved,
         }
 
-    def _glance(self):
+    def _shown(self):
         return {
             "symmetric": str(self.symmetric),
             "admissible": str(self.admissible),

@@ -16,7 +16,7 @@ from scipy.linalg import eigvals
 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
-from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
 from vibroimpact.theory.asymmetric import branch
@@ -36,7 +36,7 @@ _ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AsymmetricPoint(Glance):
+class AsymmetricPoint(Representation):
     """A fixed point with unequal flights of one module or both; it stands for its mirror images, too.
 
     Attributes:
@@ -89,7 +89,7 @@ class AsymmetricPoint(Glance):
         """True if it is a motion at leading order: no v^2 below 0."""
         return bool((self.squared >= 0).all())
 
-    def _glance(self):
+    def _shown(self):
         numbers = {name: brief(getattr(self, name)) for name in ("squared", "C", "B", "psi")}
         return {**numbers, "slow_eigenvalues": f"real parts up to {brief(self.slow_eigenvalues.real.max())}"}
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
-from vibroimpact.system.glance import Glance, brief
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.theory.criteria import Stability, of_fixed_point
 from vibroimpact.theory.fixed_points.balance import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
@@ -31,7 +31,7 @@ _REGULAR = 1e5  # condition number up to which Newton's method proves a fixed po
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FixedPoint(Glance):
+class FixedPoint(Representation):
     """A periodic response with two impacts per cycle and module, (10.23).
 
     Attributes:
@@ -66,7 +66,7 @@ class FixedPoint(Glance):
         verdicts = {"fast": fast, "slow": slow, "both": stability.both}
         return {"label": self.label, **numbers, **verdicts, "slow_growth": growth, "multiple": self.multiple}
 
-    def _glance(self):
+    def _shown(self):
         numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
         growth = f"real parts up to {brief(self.slow_eigenvalues.real.max())}"
         return {"label": self.label, "stability": str(self.stability), **numbers, "slow_eigenvalues": growth}

@@ -5,18 +5,18 @@ from html import escape
 import numpy as np
 
 
-class Glance:
-    """Base class of results whose repr and HTML table show the texts of `_glance`."""
+class Representation:
+    """Base class of results whose repr and HTML table show the texts of `_shown`."""
 
-    def _glance(self) -> dict[str, str]:
+    def _shown(self) -> dict[str, str]:
         """Return short texts by the names of attributes."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._glance().items())})"
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._shown().items())})"
 
     def _repr_html_(self) -> str:
-        rows = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in self._glance().items())
+        rows = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in self._shown().items())
         return f"<table><caption>{type(self).__name__}</caption>{''.join(rows)}</table>"
 
 
