@@ -138,7 +138,10 @@ def lines(verdicts: list[dict]) -> list[str]:
     said = []
     for verdict in (verdict for verdict in ordered(verdicts) if verdict["status"] != PASSED):
         first, *more = verdict["reasons"] or [OTHER_VERSIONS]
-        said.append(f"{verdict['figure']}: {verdict['status']}: {first}" + f" (and {len(more)} more)" * bool(more))
+        said.append(
+            f"{verdict['figure']}: {verdict['status']}: {first}"
+            + f" ({len(more)} more reasons on the page)" * bool(more)
+        )
     counts = Counter(verdict["status"] for verdict in verdicts)
     far = max(map(share, verdicts), default=0.0)
     summary = f"{len(verdicts)} figures: " + ", ".join(f"{n} {status}" for status, n in counts.items())
