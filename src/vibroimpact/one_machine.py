@@ -78,12 +78,12 @@ class Design:
             f"  ball fixed in its box {mm * self.fixed:.3g} mm",
             f"  best linear absorber of its mass {mm * self.absorber:.3g} mm, which needs "
             f"{mm * self.absorber_stroke:.3g} mm to each side",
-            f"  clearance 20 % less {narrow} mm, 20 % more {wide} mm",
+            f"  with 20 % less clearance {narrow} mm, with 20 % more {wide} mm",
             f"at {worst['frequency_Hz']:.4g} Hz, where it is largest: {worst['impacts_per_s']:.3g} impacts/s of "
             f"{worst['impulse_Ns']:.3g} N s each, {worst['impulse_Ns_per_s']:.3g} N s per second, at rest on a wall "
             f"for {worst['sticking']:.0%} of the time",
             f"hardest impacts {hardest['impact_speed_m_s']:.3g} m/s (mean at {hardest['frequency_Hz']:.4g} Hz)",
-            "The walls are rigid: an impact has an impulse, and no force that could be told.",
+            "The walls are rigid, so an impact has an impulse but no finite force.",
         ])  # fmt: skip
 
 

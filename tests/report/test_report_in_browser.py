@@ -15,15 +15,9 @@ from vibroimpact_pipeline.report.results import Results
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
 ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
 PAGES = [page["name"] for page in SETTINGS["pages"]]
-LIBRARY = ["api/vibroimpact", "api/vibroimpact.regimes"]
+LIBRARY = ["api/vibroimpact"]
 WITH_MATHEMATICS = ["figures", "stability", "derivation", "errata"]
 NARROW = 400
-
-
-@pytest.fixture(scope="module")
-def screenshots(site):
-    """Where pictures of the pages are kept for a look, beside the report."""
-    return site.parent / "screenshots"
 
 
 def address(site, page):
@@ -36,10 +30,9 @@ PROSE = """[...document.querySelectorAll('article p, article li, article td, art
 
 
 @pytest.mark.parametrize("page", PAGES + LIBRARY)
-def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site, screenshots, page):
+def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site, page):
     """It asks nobody else; axe finds no barrier; pictures are described, headings in order; a narrow window fits it."""
     browser.open(address(site, page))
-    browser.screenshot(screenshots / f"{page.replace('/', '_')}.png")
     assert browser.problems == []
     assert address(site, page) in browser.requests
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
@@ -60,7 +53,6 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
         assert [sign for sign in ("$", "\\frac", "\\tag", "\\hat") if sign in text] == []
         assert_order(browser)
     browser.page.set_viewport_size({"width": NARROW, "height": 900})
-    browser.screenshot(screenshots / f"{page.replace('/', '_')}_narrow.png")
     assert browser.run("document.documentElement.scrollWidth") <= NARROW
     assert browser.barriers(rules={"color-contrast": {"enabled": False}}) == []
 
@@ -177,13 +169,12 @@ def expected_C(site, case):
     return sorted(zip(points["C1"], points["C2"], strict=True))
 
 
-def test_the_control_moves_the_fixed_points_by_keyboard(browser, site, screenshots):
+def test_the_control_moves_the_fixed_points_by_keyboard(browser, site):
     browser.open(address(site, "fixed_points"))
     start = browser.run(FIXED_POINTS)
     browser.run("document.querySelector('#f20').focus()")
     browser.press("ArrowLeft", times=11)
     moved = browser.run(FIXED_POINTS)
-    browser.screenshot(screenshots / "fixed_points_moved.png")
     assert (float(start["value"]), float(moved["value"])) == (1.0, 0.89)
     assert len(start["places"]) == len(moved["places"]) == 6
     gaps = [abs(a[0] - b[0]) for a, b in zip(start["places"], moved["places"], strict=True)]
@@ -363,8 +354,8 @@ SOME_FRAMES = """new Promise(done => {
 
 
 @pytest.mark.parametrize("number", range(len(ANIMATIONS)))
-def test_an_animation_plays_pauses_and_obeys_the_keyboard(browser, site, screenshots, number):
-    name, scene = list(ANIMATIONS.items())[number]
+def test_an_animation_plays_pauses_and_obeys_the_keyboard(browser, site, number):
+    scene = list(ANIMATIONS.values())[number]
     browser.open(address(site, "motion"))
     root = f"document.querySelectorAll('[data-animation]')[{number}]"
     ball = f"Number({root}.querySelector('circle').getAttribute('cx'))"
@@ -389,7 +380,6 @@ def test_an_animation_plays_pauses_and_obeys_the_keyboard(browser, site, screens
         assert browser.run(box) == pytest.approx(place + samples[f"X{module}"].iloc[0], abs=1e-3)
     browser.press("ArrowRight", times=5)
     assert browser.run(ball) != before
-    browser.screenshot(screenshots / f"motion_{name}.png")
 
 
 def test_a_wall_lights_up_when_it_is_hit(browser, site):

@@ -19,8 +19,8 @@ def commit(root: Path, date: str = COMMITTED) -> None:
 
 
 def checkout(built: Tree, path: Path) -> Tree:
-    """The built project as a checkout with one commit."""
-    shutil.copytree(built.path, path, symlinks=True)
+    """The built project as a checkout with one commit, without an archive of an earlier one."""
+    shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("archive"))
     commit(path)
     return Tree(path)
 

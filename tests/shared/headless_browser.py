@@ -79,13 +79,6 @@ class Browser:
         for _ in range(times):
             self.page.keyboard.press(key)
 
-    def screenshot(self, path, tallest: int = 6000):
-        """The whole page as a PNG, as far as `tallest` pixels down."""
-        size = self.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]")
-        clip = {"x": 0, "y": 0, "width": size[0], "height": min(size[1], tallest)}
-        path.parent.mkdir(parents=True, exist_ok=True)
-        self.page.screenshot(path=path, clip=clip, full_page=True)
-
     def _note(self, message):
         if message.type in TROUBLE:
             self.problems.append(f"console: {message.text}")
