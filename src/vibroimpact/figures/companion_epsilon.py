@@ -25,18 +25,14 @@ SPEC = {
         "fit_below": "regimes.epsilon.fit_below", "mixed": "regimes.epsilon.mixed"},
     "columns": {
         "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted slow rate "
-            "or fast multiplier; two terms: distance with the term of first order added to the fixed point; mixed: "
-            "rates of one point, one by one", "values": ["distance", "slow", "fast", "two terms", "mixed"]},
-        "series": {"meaning": "case and label of the fixed point; in mixed who says it, and the number of the "
-            "multiplier"},
-        "label": {"meaning": "in mixed: case and label of the fixed point", "unit": "text"},
+            "or fast multiplier; two terms: distance with the term of first order added to the fixed point",
+            "values": ["distance", "slow", "fast", "two terms"]},
+        "series": {"meaning": "case and label of the fixed point"},
         "epsilon": {"compared": "algebra"},
         "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact phases "
             r"[radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over the slow "
             r"multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - \mu_0\rvert$ "
             r"over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless", "compared": "logarithm"},
-        "rate": {"meaning": r"in mixed: $\lvert\log\mu\rvert/(2\pi\varepsilon/\Omega)$, exact and predicted",
-            "unit": "dimensionless", "compared": "logarithm"},
     },
     "tables": {
         "orders": {
@@ -73,11 +69,10 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     Args:
         systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
         fit_below: the orders are fitted where epsilon is below this.
-        mixed: `case` and `label` of a point whose multipliers are shown one by one and no order is fitted to.
+        mixed: `case` and `label` of a point that is left out, where fast and slow multipliers cannot be told apart.
 
-    Returns "csv": columns panel (one of PANELS; "two terms": as "distance", the term of first order added to the fixed
-    point; or "mixed"), series ("case, label"; in "mixed" "exact", "slow flow", "impact map" with the number of the
-    multiplier), epsilon, error or rate; and "orders": columns case, label, panel, order, uncertainty.
+    Returns "csv": columns panel (one of PANELS, or "two terms": as "distance", the term of first order added to the
+    fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order, uncertainty.
 
     Raises:
         ValueError: the case of `mixed` has no fixed point of its label.
@@ -90,10 +85,9 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
         raise ValueError(f"mixed.label: {what}; null leaves the entry out")
     for case, system in systems.items():
         for label, point in points[case].items():
-            found = list(_compared(system, point, epsilon))
             if {"case": case, "label": label} == mixed:
-                curves += _mixed(f"{case}, {label}", found)
                 continue
+            found = list(_compared(system, point, epsilon))
             for panel, errors in zip(
                 [*PANELS, TWO_TERMS], [*_errors(found), _two_terms(system, point, found)], strict=True
             ):
@@ -104,7 +98,7 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
                     slope, uncertainty = order(reached[small], errors[small])
                     named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
                     orders.append({"case": case, "label": label, **named})
-    nothing = pd.DataFrame(columns=["panel", "series", "label", "epsilon", "error", "rate"])
+    nothing = pd.DataFrame(columns=["panel", "series", "epsilon", "error"])
     columns = ["case", "label", "panel", "order", "uncertainty"]
     return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
 
@@ -124,7 +118,7 @@ def _compared(system, point, epsilon):
 
 def _errors(found):
     distance = np.array([c.distance for c in found])
-    slow = np.array([np.abs(c.rates - c.predicted)[:4].max() for c in found])
+    slow = np.array([np.abs(c.rates - c.predicted).max() for c in found])
     fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found])
     return distance, slow, fast
 
@@ -135,14 +129,6 @@ def _two_terms(system, point, found):
     with suppress(NoOrbit):
         added = first_order(system, point, _STEP)
     return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
-
-
-def _mixed(name, found):
-    epsilon = [c.epsilon for c in found]
-    for k in range(8):
-        group = "slow flow" if k < 4 else "impact map"
-        yield curve("mixed", f"exact {k}", label=name, epsilon=epsilon, rate=[abs(c.rates[k]) for c in found])
-        yield curve("mixed", f"{group} {k}", label=name, epsilon=epsilon, rate=[abs(c.predicted[k]) for c in found])
 
 
 @styled

@@ -23,9 +23,9 @@ class Comparison:
 
     offset: orbit minus fixed point in what places them, C and impact phases [rad] of both modules, (4,), for symmetric
     ones; distance: its norm.
-    rates: log(mu) / (epsilon 2 pi / Omega) of the exact multipliers, predicted: what slow flow (first four) and impact
-    map (last four) give for the same, paired so that the multipliers are nearest together; both (8,) complex.
-    multipliers, predicted_multipliers likewise.
+    multipliers, predicted_multipliers: (8,) complex, exact and by slow flow (first four) and impact map (last four),
+    paired so that they are nearest together.
+    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four, exact and by the slow flow.
     """
 
     epsilon: float
@@ -59,14 +59,13 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
     # Slow multipliers are predicted to second order in epsilon, fast ones to first: weighed so that both count alike.
     weights = np.repeat([1 / slow_time, 1.0], 4)
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
-    rates = np.concatenate([slow, np.log(fast.astype(complex)) / slow_time])
     return Comparison(
         epsilon=system.epsilon,
         offset=offset,
         multipliers=exact[pairs],
         predicted_multipliers=predicted,
-        rates=np.log(exact[pairs]) / slow_time,
-        predicted=rates,
+        rates=np.log(exact[pairs[:4]]) / slow_time,
+        predicted=slow,
     )
 
 

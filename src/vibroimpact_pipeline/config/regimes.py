@@ -148,7 +148,7 @@ class Basins(Section):
 
 
 class Mixed(Section):
-    """A fixed point near the fold of the manifold, for which no order of convergence is fitted."""
+    """A fixed point next to the fold of the manifold, left out: time scales cannot be told apart there."""
 
     case: kinds.CaseName
     label: kinds.Label
