@@ -58,14 +58,14 @@ def branches(
     return found
 
 
-def sweep(system: System, axes: Mapping[str, Iterable[float]], observe: Sequence[str], **asked) -> list[dict]:
+def sweep(system: System, axes: Mapping[str, Iterable[float]], observe: Sequence[str], **spec) -> list[dict]:
     """A row per point of a grid: the parameters that move and what is observed there; `to_frame` makes a table of them.
 
     Args:
         system: gives the other parameters.
         axes: the values of one or two parameters, by name.
-        observe: names from `sweeps.observations.COLUMNS`, "fixed_points" or "regimes" say; `asked` has what these need
-            (see `sweeps.asked.Asked`), cycles say.
+        observe: names from `sweeps.observations.COLUMNS`, "fixed_points" or "regimes" say; `spec` has what these need
+            (see `sweeps.spec.Spec`), cycles say.
 
     Raises:
         ValueError: an argument is malformed, or there is no system at a point.
@@ -75,7 +75,7 @@ def sweep(system: System, axes: Mapping[str, Iterable[float]], observe: Sequence
         if name not in COLUMNS:
             raise ValueError(f"observe: {name!r} is none of {', '.join(COLUMNS)}")
     listed = [{"along": [name], "listed": list(values)} for name, values in axes.items()]
-    grid, wanted = parsed({"system": asdict(system), "axes": listed, "asked": {"observe": observe, **asked}})
+    grid, wanted = parsed({"system": asdict(system), "axes": listed, "spec": {"observe": observe, **spec}})
     return list(rows(grid, wanted, range(len(grid))))
 
 

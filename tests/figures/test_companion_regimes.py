@@ -25,9 +25,9 @@ from vibroimpact.figures import companion_modulation as modulation
 from vibroimpact.figures import companion_regime_map as regime_map
 from vibroimpact.figures.kit import style
 from vibroimpact.regimes.classification import REGIMES, starts
-from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows as rows_of
+from vibroimpact.sweeps.spec import Spec
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -49,16 +49,16 @@ MODULES = {
 def swept():
     """A small map of regimes, one of its points not observed."""
     axes = [axis([name], (0.2, 1.4), cells=6) for name in ("f10_hat", "f20_hat")]
-    grid, asked = Grid(SYSTEMS["equal"], axes), Asked(("regimes", "fixed_points"), 3, 1, observation=OBSERVATION)
-    table = pd.DataFrame(rows_of(grid, asked, range(len(grid))))
+    grid, spec = Grid(SYSTEMS["equal"], axes), Spec(("regimes", "fixed_points"), 3, 1, observation=OBSERVATION)
+    table = pd.DataFrame(rows_of(grid, spec, range(len(grid))))
     table.loc[7, [*REGIMES, "from_rest", "fixed_points", "stable_points"]] = np.nan
     return table
 
 
 @pytest.fixture(scope="module")
 def balls():
-    asked = {"band": BAND, "observation": OBSERVATION, "number": 2, "seed": 1, "cycles": 60, "settle": 40}
-    return tables_of(SYSTEMS["equal"], OBSERVATION) | asked
+    spec = {"band": BAND, "observation": OBSERVATION, "number": 2, "seed": 1, "cycles": 60, "settle": 40}
+    return tables_of(SYSTEMS["equal"], OBSERVATION) | spec
 
 
 @pytest.fixture(scope="module")

@@ -17,9 +17,9 @@ from vibroimpact.figures import (
     force_sweep,
 )
 from vibroimpact.regimes import coexistence
-from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows
+from vibroimpact.sweeps.spec import Spec
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
@@ -41,11 +41,11 @@ def test_a_sweep_without_an_orbit_starts_from_rest():
 
 
 def test_forces_too_weak_for_a_response_are_drawn_without_one():
-    asked = Asked(("amplitudes", "envelopes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
+    spec = Spec(("amplitudes", "envelopes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
     band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 3}
     forces = axis(["f10_hat", "f20_hat"], listed=[0.05, 0.06])
     grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])
-    frequency, force = (pd.DataFrame(rows(grid, asked, range(len(grid)))) for grid in grids)
+    frequency, force = (pd.DataFrame(rows(grid, spec, range(len(grid)))) for grid in grids)
     tables = companion_response.compute(STILL, frequency, force, band)
     assert tables["shares"].empty  # no start meets a wall
     companion_response.draw(tables).draw_without_rendering()

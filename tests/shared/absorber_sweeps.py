@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows
+from vibroimpact.sweeps.spec import Spec
 
 BAND = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}
 FORCES = ["f10_hat", "f20_hat"]
@@ -14,13 +14,13 @@ def tables_of(system, observation):
     """The sweeps frequency_response (as "response"), clearance and design, two starts each."""
     runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": observation}
     observed, detunings = ("amplitudes", "envelopes", "energy", "regimes"), axis(["sigma_e_hat"], (-1.0, 1.0), 5)
-    peaks = Asked(("peaks",), band=BAND, **runs)
+    peaks = Spec(("peaks",), band=BAND, **runs)
     clearances = axis(FORCES, (0.2, 5.0), 4, "logarithmic")
     forces = axis(FORCES, tuples=[[0.4, 0.4], [0.0, 1.0]])
-    asked = {
-        "response": ([detunings, forces], Asked(observed, **runs)),
-        "clearance": ([clearances], Asked(("peaks", *observed), band=BAND, **runs)),
+    spec = {
+        "response": ([detunings, forces], Spec(observed, **runs)),
+        "clearance": ([clearances], Spec(("peaks", *observed), band=BAND, **runs)),
         "design": ([axis(["kappa"], listed=[0.2, 0.4, 0.65]), axis(FORCES, (0.2, 3.0), 4, "logarithmic")], peaks),
     }
-    grids = {name: (Grid(system, axes), what) for name, (axes, what) in asked.items()}
+    grids = {name: (Grid(system, axes), what) for name, (axes, what) in spec.items()}
     return {name: pd.DataFrame(rows(grid, what, range(len(grid)))) for name, (grid, what) in grids.items()}

@@ -7,12 +7,12 @@ from vibroimpact.sweeps.cost import MOST_TILES, core_seconds, points, tiles
 from vibroimpact.sweeps.request import parsed
 
 SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
-ASKED = {"observe": ["amplitudes"], "starts": 2, "seed": 1, "cycles": 4000, "settle": 10}
+SPEC = {"observe": ["amplitudes"], "starts": 2, "seed": 1, "cycles": 4000, "settle": 10}
 
 
-def request(values, **asked):
+def request(values, **spec):
     axes = [{"along": ["kappa"], "range": [0.5, 0.8], "values": values}, {"along": ["f10_hat"], "listed": [0.5, 1.0]}]
-    return {"system": SYSTEM, "axes": axes, "asked": ASKED | asked}
+    return {"system": SYSTEM, "axes": axes, "spec": SPEC | spec}
 
 
 def test_points_are_those_of_the_grid():

@@ -10,27 +10,27 @@ from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.modulation import PER_CYCLE
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.sweeps import observations
-from vibroimpact.sweeps.asked import AMPLITUDES, PEAKS, Asked
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.observations import COLUMNS, OBSERVATIONS, observed
 from vibroimpact.sweeps.rows import columns, rows
+from vibroimpact.sweeps.spec import AMPLITUDES, PEAKS, Spec
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 GRID = Grid(BASE, [axis(["f20_hat"], listed=[0.89, 1.0])])
 OBSERVED = {"cycles": 100, "rounds": 2, "window": 12, "nearness": 0.02, "blocks": 2, "block": 10, "retest": 50}
 BAND = {"along": ["sigma_e_hat"], "range": [-0.5, 1.0], "values": 4}
-ASKED = Asked(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
+SPEC_KEYS = Spec(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
 
-ASKED_FROM_REST = Asked((PEAKS,), starts=1, seed=1, cycles=100, settle=50, band=BAND)
+ASKED_FROM_REST = Spec((PEAKS,), starts=1, seed=1, cycles=100, settle=50, band=BAND)
 
 
 @pytest.fixture(scope="module")
 def found():
-    return list(rows(GRID, ASKED, [0, 1]))
+    return list(rows(GRID, SPEC_KEYS, [0, 1]))
 
 
 def test_a_row_has_every_column_in_order(found):
-    assert [list(row) for row in found] == [columns(GRID, ASKED)] * 2
+    assert [list(row) for row in found] == [columns(GRID, SPEC_KEYS)] * 2
     assert [row["f20_hat"] for row in found] == [0.89, 1.0]
     assert {row["failed"] for row in found} == {""}
 
@@ -49,13 +49,13 @@ def test_amplitudes_are_those_of_runs_that_were_sampled(found):
 
 
 def test_a_peak_is_the_largest_of_the_amplitudes_along_its_band(found):
-    asked = Asked((AMPLITUDES,), starts=3, seed=1, cycles=30, settle=20)
-    along = {value: observed(BASE.with_(sigma_e_hat=value), asked) for value in (-0.5, 0.0, 0.5, 1.0)}
+    spec = Spec((AMPLITUDES,), starts=3, seed=1, cycles=30, settle=20)
+    along = {value: observed(BASE.with_(sigma_e_hat=value), spec) for value in (-0.5, 0.0, 0.5, 1.0)}
     largest = {value: max(row["largest_X1"], row["largest_X2"]) for value, row in along.items()}
     assert found[1]["peak"] == max(largest.values()) == largest[found[1]["peak_at"]]
     assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along.values() for i in (1, 2))  # of a start, not all
     assert found[1]["peak_unfinished"] == 0
-    assert ASKED.runs == 3 * (4 + 4)
+    assert SPEC_KEYS.runs == 3 * (4 + 4)
 
 
 def test_one_ball_is_told_where_the_other_never_moves():
@@ -83,8 +83,8 @@ def test_the_share_of_impacts_is_that_of_the_certified_runs(found):
 def test_starts_whose_balls_rest_are_in_no_share_of_impacts():
     """At this detuning rest never brings a ball to a wall, and the other starts do: it is counted, and left out."""
     system = BASE.with_(sigma_e_hat=-2.0)
-    asked = Asked(("energy",), starts=3, seed=1, cycles=120, settle=60)
-    row = observed(system, asked)
+    spec = Spec(("energy",), starts=3, seed=1, cycles=120, settle=60)
+    row = observed(system, spec)
     runs = [vi.simulate(system, start, 120) for start in spread_starts(3, 1)]
     hits = [any(run.events["tau"] > 60 * system.period) for run in runs]
     assert hits == [False, True, True]
@@ -92,7 +92,7 @@ def test_starts_whose_balls_rest_are_in_no_share_of_impacts():
     work, impacts = (sum(energy[name].sum() for energy in cycles) for name in ("work", "impacts"))
     assert row["impact_share"] == pytest.approx(impacts / work, rel=1e-9)
     assert row["starts_without_impacts"] == 1
-    from_rest = observed(system, Asked(("energy",), starts=1, seed=1, cycles=120, settle=60))
+    from_rest = observed(system, Spec(("energy",), starts=1, seed=1, cycles=120, settle=60))
     assert np.isnan(from_rest["impact_share"])
     assert from_rest["starts_without_impacts"] == 1
 
@@ -116,9 +116,9 @@ def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(fo
 
 
 def test_a_point_and_its_mirror_image():
-    asked = Asked(("regimes", "fixed_points"), starts=1, observation=OBSERVED)
+    spec = Spec(("regimes", "fixed_points"), starts=1, observation=OBSERVED)
     for f10, f20 in ((1.0, 0.89), (1.2, 1.3)):
-        ours, mirrored = (observed(BASE.with_(f10_hat=sign * f10, f20_hat=sign * f20), asked) for sign in (1, -1))
+        ours, mirrored = (observed(BASE.with_(f10_hat=sign * f10, f20_hat=sign * f20), spec) for sign in (1, -1))
         assert ours == mirrored
 
 
@@ -129,13 +129,13 @@ def test_orbits_are_motions_of_the_system(found):
 
 
 def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch):
-    def fail(system, states, asked):
+    def fail(system, states, spec):
         if system.f20_hat == 1.0:
             raise ArithmeticError("no\nroots")
         return 2, 1
 
     monkeypatch.setitem(observations.OBSERVATIONS, "fixed_points", fail)
-    first, second = rows(GRID, Asked(("fixed_points",)), [0, 1])
+    first, second = rows(GRID, Spec(("fixed_points",)), [0, 1])
     assert (first["fixed_points"], first["failed"]) == (2, "")
     assert second == {"point": 1, "f20_hat": 1.0, "failed": "no roots"}
 
@@ -145,14 +145,14 @@ def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
     broken = outcomes.copy()
     broken["status"][1], broken["largest"][1] = 1, np.nan
     monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
-    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, ASKED), strict=True))
+    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
     assert row["unfinished"] == 1
     assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
     monkeypatch.setattr(observations, "ensemble", lambda *given, **more: np.stack([outcomes, broken] * 2))
-    row = dict(zip(COLUMNS[PEAKS], OBSERVATIONS[PEAKS](BASE, None, ASKED), strict=True))
+    row = dict(zip(COLUMNS[PEAKS], OBSERVATIONS[PEAKS](BASE, None, SPEC_KEYS), strict=True))
     assert (row["peak"], row["peak_unfinished"]) == (outcomes["largest"].max(), 2)
     monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
     broken["status"] = 1
-    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, ASKED), strict=True))
+    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
     assert row["unfinished"] == 3
     assert np.isnan(row["rms_X2"])

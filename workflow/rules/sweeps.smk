@@ -4,15 +4,15 @@
 from vibroimpact.sweeps.cost import points, tiles
 
 SWEEPS = config.get("sweeps", {})
-ASKED = ("observe", "starts", "seed", "cycles", "settle", "band")
+SPEC_KEYS = ("observe", "starts", "seed", "cycles", "settle", "band")
 
 
 def sweep_request(sweep):
     """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
-    asked = {name: sweep[name] for name in ASKED if name in sweep}
+    spec = {name: sweep[name] for name in SPEC_KEYS if name in sweep}
     if "regimes" in sweep["observe"]:
-        asked["observation"] = config["regimes"]["observation"]
-    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "asked": asked}
+        spec["observation"] = config["regimes"]["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
 
 
 scattergather:

@@ -6,7 +6,7 @@ import pandas as pd
 
 from vibroimpact.figures.kit import tables
 from vibroimpact.frames import to_dataset
-from vibroimpact.sweeps.asked import POINT
+from vibroimpact.sweeps.spec import POINT
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

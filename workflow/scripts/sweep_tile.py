@@ -9,6 +9,6 @@ from vibroimpact.sweeps.rows import columns, rows
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out, at_most(snakemake.threads):
-    grid, asked = parsed(snakemake.params.request)
+    grid, spec = parsed(snakemake.params.request)
     number, tiles = map(int, snakemake.wildcards.scatteritem.split("-of-"))
-    tables.write(pd.DataFrame(rows(grid, asked, grid.tile(number, tiles)), columns=columns(grid, asked)), out.csv)
+    tables.write(pd.DataFrame(rows(grid, spec, grid.tile(number, tiles)), columns=columns(grid, spec)), out.csv)

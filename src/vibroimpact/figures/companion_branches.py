@@ -35,12 +35,12 @@ SPEC = {
         "dashed. Marked are their folds and ends, and where stability is lost; all other special points are in "
         "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end. Shaded: "
         "chaos and the stable asymmetric pair coexist, from the Neimark-Sacker point up to the crisis (dotted). Below: "
-        "the mean life of the chaos, with standard errors; triangles: lower bounds, where none of the starts left it.",
+        "the mean lifetime of the chaotic transient and its standard errors; triangles: lower bounds, none left it.",
     "alt": "Curves of the saw-tooth amplitude C2 over the forcing amplitude: theory and exact branches, stable bold "
         "solid and unstable dashed, symmetric ones blue and asymmetric ones red, both named, with marked special "
         "points, thin vertical lines at the cases, and dots where simulations from several starts end. Below, the mean "
-        "life of the chaos over one of the amplitudes, which grows without bound towards the crisis; the window of "
-        "coexistence is shaded.",
+        "lifetime of the chaotic transient over one of the amplitudes, which grows without bound towards the crisis; "
+        "the window of coexistence is shaded.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
         "many starts, until it repeats",
     "case": "regimes.branches.case",
@@ -65,7 +65,7 @@ SPEC = {
             "analysis and the slow flow say so", "unit": "true or false"},
         "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always True",
             "unit": "true or false"},
-        "life": {"meaning": "mean life of the chaos at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
+        "life": {"meaning": "mean lifetime of the transient at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
             "compared": "life"},
         "uncertainty": {"meaning": "its standard error", "unit": "forcing periods", "compared": "life"},
         "least": {"meaning": "its lower bound where no start escaped", "unit": "forcing periods", "compared": "life"},
@@ -129,7 +129,7 @@ KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
 BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and the\nstable pair\ncoexist"}
 CRISIS = {"color": BLACK, "linestyle": (0, (1, 1.2)), "linewidth": 1.0, "label": "crisis"}
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
-LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4, "label": "mean life"}
+LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4, "label": "mean lifetime"}
 BARS = {"capsize": 2.0, "elinewidth": 0.8}
 LEAST = {"linestyle": "none", "marker": "^", "color": "white", "markeredgecolor": BLACK, "markersize": 4.4}
 LEAST |= {"label": "its lower bound"}
@@ -323,10 +323,10 @@ def _life(exact, axes, lives, along, letters):
     measured, least = lives[lives["life"].notna()], lives[lives["least"].notna()]
     axes.errorbar(measured["p"], measured["life"], yerr=measured["uncertainty"], **LIFE, **BARS)
     axes.plot(least["p"], least["least"], **LEAST)
-    axes.set(yscale="log", ylabel="mean life, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
+    axes.set(yscale="log", ylabel="mean lifetime, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
     axes.legend(handles=[Line2D([], [], **LIFE), Line2D([], [], **LEAST)], loc="center right", fontsize=8.5)
     letter_panel(axes, next(letters))
-    axes.set_title("life of the chaos", loc="right", pad=3)
+    axes.set_title("lifetime of the chaotic transient", loc="right", pad=3)
 
 
 def _branches(axes, table):

@@ -18,7 +18,7 @@ QUIET = 1e-4
 
 
 def compute_lifetimes(system, along, values, starts: int, seed: int, observation: dict, **watch):
-    """Mean life of the chaos at each value of the parameters `along`.
+    """Mean lifetime of the chaotic transient at each value of the parameters `along`.
 
     Args:
         starts, seed: of `regimes.classification.starts`. observation: arguments of `regimes.settling.Observation`.

@@ -39,10 +39,10 @@ class _Counted:
     """A response of the boxes that counts its evaluations."""
 
     def __init__(self, response):
-        self._response, self.asked = response, 0
+        self._response, self.evaluations = response, 0
 
     def between(self, times, boxes):
-        self.asked += times[..., 0].size
+        self.evaluations += times[..., 0].size
         return self._response.between(times, boxes)
 
 
@@ -61,16 +61,16 @@ def levels(system, harmonics) -> dict[str, Level]:
     leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
     found = {LEADING: Level(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
     found |= {harmonics_name(N): of_harmonics(system, N, free_mass=True) for N in harmonics}
-    roots, asked = _solved(system, impulse_response(system, -1))
+    roots, evaluations = _solved(system, impulse_response(system, -1))
     verdicts = [floquet(symmetric_orbit(system, root)) for root in roots]
-    return found | {EXACT: Level(roots[:, 2:], verdicts, _TAYLOR_TERMS * asked)}
+    return found | {EXACT: Level(roots[:, 2:], verdicts, _TAYLOR_TERMS * evaluations)}
 
 
 def of_harmonics(system, highest: int, free_mass: bool) -> Level:
     """The level of N harmonics, of U_i or (free_mass False) of the balls' force on the boxes."""
     response = HarmonicResponse(system, highest, free_mass)
-    roots, asked = _solved(system, response)
-    return Level(roots[:, 2:], [], response.terms * asked)
+    roots, evaluations = _solved(system, response)
+    return Level(roots[:, 2:], [], response.terms * evaluations)
 
 
 def error(C: np.ndarray, exact: np.ndarray) -> float:
@@ -84,24 +84,24 @@ def error(C: np.ndarray, exact: np.ndarray) -> float:
 
 
 def _two_terms(system, points):
-    asked, C, verdicts = [], [], []
+    responses, C, verdicts = [], [], []
 
     def counted(system, sign):
-        asked.append(_Counted(impulse_response(system, sign)))
-        return asked[-1]
+        responses.append(_Counted(impulse_response(system, sign)))
+        return responses[-1]
 
     for point in points:
         with suppress(NoOrbit):
             C.append(two_terms.amplitudes(system, point, counted))
             verdicts.append(two_terms.verdict(system, point, C[-1]))
-    return Level(_stack(C), verdicts, _TAYLOR_TERMS * sum(one.asked for one in asked))
+    return Level(_stack(C), verdicts, _TAYLOR_TERMS * sum(one.evaluations for one in responses))
 
 
 def _solved(system, response):
-    """The roots (n, 4) that are motions, C > 0, and how often the response was asked."""
+    """The roots (n, 4) that are motions, C > 0, and the number of evaluations of the response."""
     counted = _Counted(response)
     roots = symmetric_solutions(system, counted)
-    return roots[(roots[:, 2:] > 0).all(axis=1)], counted.asked
+    return roots[(roots[:, 2:] > 0).all(axis=1)], counted.evaluations
 
 
 def _stack(C):

@@ -8,7 +8,7 @@ from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.regimes.classification import UNSETTLED, observe
 
 UNSEEN = 0.05
-"""A life below the lower bound would have shown an escape but with this probability."""
+"""A lifetime below the lower bound would have shown an escape but with this probability."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Lifetime:
 
     @property
     def mean(self) -> float:
-        """Mean life in cycles, the most likely one for exponential lives seen every `step` cycles.
+        """Mean lifetime in cycles, the most likely one for exponential lifetimes seen every `step` cycles.
 
         For lives much longer than a step it is total time over escapes. inf if none ended; nan if all ended within
         their first step, which is too long to tell.
@@ -37,7 +37,7 @@ class Lifetime:
 
     @property
     def error(self) -> float:
-        """Standard error of the mean life, nan where none, or all, ended."""
+        """Standard error of the mean lifetime, nan where none, or all, ended."""
         if self.escapes in (0, self.trials):
             return np.nan
         part = self.escapes / self.trials
@@ -45,7 +45,7 @@ class Lifetime:
 
     @property
     def least(self) -> float:
-        """Lower bound of the mean life where none ended, nan elsewhere."""
+        """Lower bound of the mean lifetime where none ended, nan elsewhere."""
         return np.nan if self.escapes else -self.total / np.log(UNSEEN)
 
 

@@ -22,14 +22,14 @@ def core_seconds(request: Mapping) -> float:
     """Predict the core seconds of a sweep, within a factor of some two.
 
     Args:
-        request: "axes" and "asked", as for `vibroimpact.sweeps.request.parsed`.
+        request: "axes" and "spec", as for `vibroimpact.sweeps.request.parsed`.
     """
-    asked, observation = request["asked"], request["asked"].get("observation")
-    starts, cycles = asked.get("starts", 0), asked.get("cycles", 0)
-    simulated = cycles * sum(name in ("amplitudes", "envelopes", "energy") for name in asked["observe"])
-    if "peaks" in asked["observe"]:
-        simulated += cycles * _values(asked["band"])
-    if "regimes" in asked["observe"]:
+    spec, observation = request["spec"], request["spec"].get("observation")
+    starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)
+    simulated = cycles * sum(name in ("amplitudes", "envelopes", "energy") for name in spec["observe"])
+    if "peaks" in spec["observe"]:
+        simulated += cycles * _values(spec["band"])
+    if "regimes" in spec["observe"]:
         settling = observation["cycles"] * observation["rounds"] + observation["blocks"] * observation["block"]
         simulated += settling + RETESTED * observation["retest"]
     return points(request["axes"]) * (POINT + CYCLE * starts * simulated)

@@ -10,8 +10,8 @@ from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.families import FixedPoints
 from vibroimpact.regimes.modulation import PER_CYCLE, cycle_amplitudes, sampled
 from vibroimpact.regimes.settling import Observation, settle
-from vibroimpact.sweeps.asked import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Asked
 from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.spec import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Spec
 
 FROM_REST = "from_rest"
 AMPLITUDE_COLUMNS = (
@@ -32,28 +32,28 @@ LOW, HIGH = 0.05, 0.95
 """An envelope leaves out so much of the cycles below, and above."""
 
 
-def observed(system, asked: Asked) -> dict:
+def observed(system, spec: Spec) -> dict:
     """The columns of all observations at one point.
 
     Raises:
         ArithmeticError, RuntimeError, ValueError: one of them cannot be had there.
     """
-    states = spread_starts(asked.starts, asked.seed) if asked.runs else None
+    states = spread_starts(spec.starts, spec.seed) if spec.runs else None
     row = {}
-    for name in asked.observe:
-        row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, asked), strict=True)
+    for name in spec.observe:
+        row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, spec), strict=True)
     return row
 
 
-def _regimes(system, states, asked):
+def _regimes(system, states, spec):
     """Shares of the starts, and where the first of them, rest, ends."""
-    names = [regime.name for regime in settle(system, states, Observation(**asked.observation))]
+    names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
 
-def _amplitudes(system, states, asked):
+def _amplitudes(system, states, spec):
     """Over all starts the largest |X_i|, the root mean square of X_i and the mean speed of the balls."""
-    runs = ensemble(system, states, asked.cycles, settle=asked.settle)
+    runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
         return *[np.nan] * (len(AMPLITUDE_COLUMNS) - 1), len(runs)
@@ -61,21 +61,21 @@ def _amplitudes(system, states, asked):
     return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
 
 
-def _envelopes(system, states, asked):
+def _envelopes(system, states, spec):
     """Parts LOW and HIGH of the cycles of all starts have an amplitude of X_i, cycle by cycle, below these."""
-    cycles = asked.cycles - asked.settle
-    runs = [sampled(system, state, cycles).samples for state in finals(system, states, asked.settle)]
+    cycles = spec.cycles - spec.settle
+    runs = [sampled(system, state, cycles).samples for state in finals(system, states, spec.settle)]
     found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
     return tuple(float(np.quantile(amplitudes, part)) for part in (LOW, HIGH) for amplitudes in found)
 
 
-def _peaks(system, states, asked):
+def _peaks(system, states, spec):
     """Along the band, over all starts and both boxes: the largest |X_i|, the largest root mean square, where the
     largest |X_i| is met, as the value of the first parameter, and the largest |X_i| with one ball (`_one_ball`).
     """
-    band = Grid(system, [axis(**asked.band)])
+    band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
-    runs = ensemble(systems[:, None], states, asked.cycles, settle=asked.settle)
+    runs = ensemble(systems[:, None], states, spec.cycles, settle=spec.settle)
     done = runs["status"] == FINISHED
     if not done.any():
         return np.nan, np.nan, np.nan, np.nan, done.size
@@ -94,12 +94,12 @@ def _one_ball(runs):
     return runs["largest"].max() if sum(still) == 1 else np.nan
 
 
-def _energy(system, states, asked):
+def _energy(system, states, spec):
     """Share of the impacts in the work of the forces, over starts with impacts; number of starts without.
 
     A start whose balls rest is another motion, without impacts: its work is in no share.
     """
-    runs = ensemble(system, states, asked.cycles, settle=asked.settle, energy=True)
+    runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
     hits = done["impacts"].any(axis=1)
     energy = done["energy"][hits]
@@ -113,7 +113,7 @@ def fixed_point_counts(system) -> tuple[int, int]:
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 
 
-def _orbits(system, states, asked):
+def _orbits(system, states, spec):
     """Number of 1:1 orbits that are motions of the system, and of those with all multipliers inside the circle."""
     found = [orbit for orbit in orbits(system) if orbit.admissible]
     return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
@@ -125,6 +125,6 @@ OBSERVATIONS = {
     ENVELOPES: _envelopes,
     PEAKS: _peaks,
     ENERGY: _energy,
-    FIXED_POINTS: lambda system, states, asked: fixed_point_counts(system),
+    FIXED_POINTS: lambda system, states, spec: fixed_point_counts(system),
     ORBITS: _orbits,
 }

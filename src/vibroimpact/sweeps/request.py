@@ -1,28 +1,21 @@
 """The request of a sweep as plain data that jobs hand on: parameters, axes and observations."""
 
-import hashlib
-import json
 from collections.abc import Mapping
 
-from vibroimpact.sweeps.asked import Asked
 from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.sweeps.spec import Spec
 from vibroimpact.system import System
 
 
-def parsed(request: Mapping) -> tuple[Grid, Asked]:
+def parsed(request: Mapping) -> tuple[Grid, Spec]:
     """The grid and what is observed there.
 
     Args:
-        request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "asked", arguments of
-            `asked.Asked`.
+        request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of
+            `spec.Spec`.
 
     Raises:
         ValueError: the parameters are not those of a system.
     """
     grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
-    return grid, Asked(**request["asked"])
-
-
-def fingerprint(request: Mapping) -> str:
-    """Return a hash of the request, which its tiles bear, so that no tile is taken for one of another sweep."""
-    return hashlib.sha256(json.dumps(request, sort_keys=True).encode()).hexdigest()[:16]
+    return grid, Spec(**request["spec"])

@@ -2,18 +2,18 @@
 
 from collections.abc import Iterable, Iterator
 
-from vibroimpact.sweeps.asked import FAILED, POINT, Asked
 from vibroimpact.sweeps.grid import Grid
 from vibroimpact.sweeps.observations import COLUMNS, observed
+from vibroimpact.sweeps.spec import FAILED, POINT, Spec
 
 
-def columns(grid: Grid, asked: Asked) -> list[str]:
+def columns(grid: Grid, spec: Spec) -> list[str]:
     """Names of the columns, in their order."""
     moved = [name for axis in grid.axes for name in axis.along]
-    return [POINT, *moved, *(column for name in asked.observe for column in COLUMNS[name]), FAILED]
+    return [POINT, *moved, *(column for name in spec.observe for column in COLUMNS[name]), FAILED]
 
 
-def rows(grid: Grid, asked: Asked, numbers: Iterable[int]) -> Iterator[dict]:
+def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
     """A row for each of some points.
 
     A point where something cannot be computed is left blank and says why: it does not cost the others.
@@ -25,6 +25,6 @@ def rows(grid: Grid, asked: Asked, numbers: Iterable[int]) -> Iterator[dict]:
         row = {POINT: number, **grid.place(number)}
         system = grid.system(number)
         try:
-            yield {**row, **observed(system, asked), FAILED: ""}
+            yield {**row, **observed(system, spec), FAILED: ""}
         except (ArithmeticError, RuntimeError, ValueError) as error:
             yield {**row, FAILED: " ".join(str(error).split())}

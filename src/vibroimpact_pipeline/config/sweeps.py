@@ -102,8 +102,8 @@ class Sweep(Section):
 
     def costs(self, observation):
         """Yield problems of points that take too long or too much memory."""
-        asked = {**self.model_dump(exclude_none=True), "observation": dict(observation)}
-        if (hours := core_seconds({"axes": asked["axes"], "asked": asked}) / 3600) > self.limit_hours:
+        spec = {**self.model_dump(exclude_none=True), "observation": dict(observation)}
+        if (hours := core_seconds({"axes": spec["axes"], "spec": spec}) / 3600) > self.limit_hours:
             yield ("limit_hours",), f"it would take about {hours:.3g} core hours, above {self.limit_hours:g}"
         if "regimes" in self.observe and not affordable(observation, self.starts):
             yield ("starts",), f"{self.starts} {DEAR}"

@@ -13,7 +13,7 @@ POINT, FAILED = "point", "failed"
 
 
 @dataclass(frozen=True)
-class Asked:
+class Spec:
     """Observations at every point.
 
     observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
