@@ -52,7 +52,7 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
         text = browser.run(PROSE)
         assert [sign for sign in ("$", "\\frac", "\\tag", "\\hat") if sign in text] == []
         assert_order(browser)
-    browser.page.set_viewport_size({"width": NARROW, "height": 900})
+    browser.resize(NARROW)
     assert browser.run("document.documentElement.scrollWidth") <= NARROW
     assert browser.barriers(rules={"color-contrast": {"enabled": False}}) == []
 

@@ -54,6 +54,11 @@ class Browser:
         self.page.goto(url)
         self.run(TWO_FRAMES)
 
+    def resize(self, width: int, height: int = 900):
+        """Give the window another size, and wait until the page has heard of it and drawn."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.run(TWO_FRAMES)
+
     def run(self, expression: str):
         """The value of a JavaScript expression on the page, a promise awaited.
 
