@@ -37,15 +37,15 @@ class Verdicts extends Chart {
     const index = Number(this.slider.value), points = this.data[this.criterion][index], epsilon = String(this.data.epsilon[index]);
     this.front.replaceChildren();
     const size = (0.36 * this.inner[0]) / this.data.points; // marks of one cell stand beside each other
-    const seen = {}, right = points.filter(([, , stable]) => stable).length;
-    for (const [f1, f2, stable] of points) {
+    const seen = {}, is = (verdict) => points.filter((point) => point[2] === verdict).length;
+    for (const [f1, f2, verdict] of points) {
       const nth = (seen[`${f1},${f2}`] = (seen[`${f1},${f2}`] ?? -1) + 1), [x, y] = this.place(f1, f2), at = x + (nth - 0.25) * 0.8 * size;
-      if (stable) mark(this.front, "circle", "right", { cx: at, cy: y, r: size, "data-stable": true });
+      if (verdict === "stable") mark(this.front, "circle", "right", { cx: at, cy: y, r: size, "data-stable": true });
       else mark(this.front, "path", "wrong", { d: `M${at - size / 2} ${y - size / 2}l${size} ${size}m0 ${-size}l${-size} ${size}`, "data-stable": false });
     }
     this.output.textContent = epsilon;
     this.slider.setAttribute("aria-valuetext", epsilon);
-    this.count.textContent = `At ε = ${epsilon}, ${points.length} points are called stable; of ${right} of them the exact orbit is.`;
+    this.count.textContent = `At ε = ${epsilon}, ${points.length} points are called stable. The exact orbits of ${is("stable")} of them are; ${is("no orbit")} have none.`;
     for (const button of this.buttons) button.setAttribute("aria-pressed", button.dataset.criterion === this.criterion);
   }
 }

@@ -23,7 +23,7 @@ MATRIX, MODES = 1, 2
 """Coupling of their stiffness matrix, and of their modes, over kappa_c."""
 STABLE_AT = 0.983
 """A frequency at which the upper response is stable."""
-PUBLISHED = (
+OF_THE_PROGRAM = (
     (0.98, 1.295545, False, 1.109518, -0.0223438),
     (0.98, 1.392096, True, 1.378723, -1.45826e-05),
     (0.985, 1.360884, False, 1.172214, 0.397354),
@@ -37,8 +37,8 @@ PUBLISHED = (
     (0.992, 1.617034, False, 1.174543, 0.0655739),
     (0.992, 1.891745, True, 1.665244, 0.289937),
 )
-"""Results of their program at commit c4c8a3a: r, theta of harmonic balance, its verdict stable, and from its time
-stepping there theta and the difference of the ball's speeds to either side over their sum."""
+"""What their program at commit c4c8a3a finds for two sectors, a case of ours: r, theta of harmonic balance, its verdict
+stable, and from its time stepping there theta and the difference of the ball's speeds to either side over their sum."""
 
 
 def two_sectors(

@@ -7,9 +7,11 @@ import pandas as pd
 import pytest
 
 from vibroimpact.claims import absorber
-from vibroimpact.claims.finding import HOLDS, IN_PART, REFUTED
+from vibroimpact.claims.finding import HOLDS, IN_PART, OPEN, REFUTED
+from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact.system.state import IMPACT
 
 
 def systems(**changes):
@@ -22,8 +24,8 @@ def test_nearly_elastic_balls_do_not_absorb(monkeypatch):
     """They pass the energy on: what is lost is lost in the dampers, as without them."""
     monkeypatch.setattr(absorber, "IMPULSES", absorber.IMPULSES[3::4])
     inelastic, elastic = systems(), systems(kappa=0.99)
-    assert absorber.absorbs_rapidly(inelastic).verdict == HOLDS
-    assert not absorber.absorbs_rapidly(elastic).parts["impacts take most of the energy"]
+    most = "impacts take most of the energy of some shock"
+    assert [absorber.absorbs_rapidly(one).parts[most] for one in (inelastic, elastic)] == [True, False]
     felt = "felt for a shorter time, if a ball meets a wall"
     assert [absorber.suppresses_shocks(one).parts[felt] for one in (inelastic, elastic)] == [True, False]
 
@@ -31,8 +33,27 @@ def test_nearly_elastic_balls_do_not_absorb(monkeypatch):
 def test_boxes_without_dampers_ring_until_balls_stop_them():
     """What impacts take is then all that is lost, by the balance of energy: nine tenths when a tenth is left."""
     finding = absorber.absorbs_rapidly(systems(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0))
+    assert finding.verdict == HOLDS
     assert finding.numbers["without balls"] == np.inf
-    assert 0.9 <= finding.numbers["share of the impacts"] < 0.95  # up to the end of that cycle
+    assert finding.numbers["shares of the impacts"][:3] == [0.0, 0.0, 0.0]
+    assert all(0.9 <= share < 0.96 for share in finding.numbers["shares of the impacts"][3:])  # up to the end of that cycle
+
+
+def test_impacts_take_most_of_the_energy_of_some_shocks_only():
+    """By what a collision with restitution loses, summed over the impacts."""
+    system = systems().system.with_(f10_hat=0.0, f20_hat=0.0)
+    finding = absorber.absorbs_rapidly(systems())
+    assert finding.verdict == IN_PART
+    assert [part for part, holds in finding.parts.items() if not holds] == ["of every shock that brings a ball to a wall"]
+    shares = finding.numbers["shares of the impacts"]
+    for impulse, time, share in zip(absorber.IMPULSES, finding.numbers["times with balls"], shares, strict=True):
+        run = simulate(system, [0, 0, 0, 0, impulse, 0, 0, 0], int(np.ceil(time / system.period)))
+        impacts = run.events[run.events["kind"] == IMPACT]
+        box = 2 + 2 * impacts["module"]
+        after = np.diff(np.take_along_axis(impacts["state"], np.stack([box, box + 1], axis=1), axis=1))
+        # Of a collision of the masses 1 and epsilon; the relative velocity before it is that after it over -kappa.
+        lost = system.epsilon / (1 + system.epsilon) * (1 / system.kappa**2 - 1) * (after**2).sum() / 2
+        assert lost / (impulse**2 / 2) == pytest.approx(share, abs=1e-9)
 
 
 def table_of_peaks(**values):
@@ -55,10 +76,10 @@ def table_of_peaks(**values):
 
 @pytest.mark.parametrize(
     ("value", "spread", "expected"),
-    [(20.0, 1.0, HOLDS), (51.0, 1.0, IN_PART), (49.0, 1.0, IN_PART), (53.5, 1.0, REFUTED), (60.0, 1.0, REFUTED)],
+    [(20.0, 1.0, OPEN), (51.0, 1.0, IN_PART), (49.0, 1.0, IN_PART), (53.5, 1.0, REFUTED), (60.0, 1.0, REFUTED)],
 )
 def test_efficiency_is_a_peak_lower_than_without_balls_and_with_fixed_ones(value, spread, expected):
-    """By twice its spread; that linear absorbers do better is no part of it."""
+    """By twice its spread. If that is *very* efficient is left open; linear absorbers are no part of it."""
     table = table_of_peaks(balls=(value, spread))
     assert absorber.efficient(SimpleNamespace(absorber=table)).verdict == expected
 

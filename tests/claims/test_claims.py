@@ -11,11 +11,12 @@ from scipy.optimize import fsolve, newton
 
 import vibroimpact as vi
 from pipeline_trees import ROOT
+from vibroimpact.claims import absorber as absorber_claims
 from vibroimpact.claims import equations as claims_equations
 from vibroimpact.claims import manifold as claims_manifold
 from vibroimpact.claims import points as claims_points
 from vibroimpact.claims.finding import HOLDS, IN_PART, MISPRINT, OPEN, REFUTED, VERDICTS, Finding, as_printed
-from vibroimpact.claims.judge import CHECKS, judge, problems, to_markdown
+from vibroimpact.claims.judge import CHECKS, facts, judge, problems, to_markdown
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -190,13 +191,20 @@ def test_a_grid_without_wrong_verdicts_would_leave_nothing_to_hold_against_the_t
     assert verdict("assesses-stability", agreeing) == HOLDS
 
 
-def test_confusion_matrices_count_every_point_with_an_orbit(evidence):
+def test_confusion_matrices_count_every_point(evidence):
     (judged,) = judge([CLAIMS["assesses-stability"]], evidence)
     grid = evidence.verdict_grid.query("epsilon == 0.1")
+    without = grid["floquet"] == "no orbit"
+    (of_all,) = judge([CLAIMS["periodic-solutions"]], evidence)
+    # docs/findings.md: one more exists only if its ball may leave the box.
+    assert judged["numbers"]["without an orbit"] + 1 == of_all["numbers"]["without an orbit between the walls"]
     for name in ("(10.26)", "fast and slow"):
         (calm, wrong), (missed, right) = judged["numbers"][f"{name}, epsilon = 0.1"]
         assert calm + wrong + missed + right == (grid["floquet"] != "no orbit").sum()
         assert calm + missed == (grid["floquet"] == "stable").sum()
+        assert sum(judged["numbers"][f"{name}, epsilon = 0.1, no orbit"]) == without.sum()
+    called = grid["printed_10_26"] == "stable"
+    assert judged["numbers"]["(10.26), epsilon = 0.1, no orbit"][0] == (called & without).sum()
     (calm, wrong), _ = judged["numbers"]["(10.26), epsilon = 0.1"]
     assert calm + wrong == ((grid["printed_10_26"] == "stable") & (grid["floquet"] != "no orbit")).sum()
 
@@ -307,6 +315,55 @@ def test_no_exponents_make_a_misprint_of_10_26(evidence, monkeypatch):
     assert verdict("printed-condition", evidence) == MISPRINT
 
 
+def test_the_captions_need_another_limit_than_the_printed_one(evidence):
+    """By counting stable points with both C_i above a limit, which needs no letters: two, one and none in the cases."""
+    (judged,) = judge([CLAIMS["printed-condition"]], evidence)
+    points = [np.array([p.C for p in vi.fixed_points(evidence.systems[case])]) for case in ("equal", "unequal", "weak")]
+    fold = 1 / (1 + rho(0.65) ** 2)
+
+    def fits(limit):
+        return [int((C > limit).all(axis=1).sum()) for C in points] == [2, 1, 0] and limit < fold
+
+    least, most = (
+        judged["numbers"][name]
+        for name in ("the captions need a limit above", "and a stable piece of the left arm one below")
+    )
+    assert [fits(limit) for limit in (least - 1e-9, least + 1e-9, most - 1e-9, most + 1e-9)] == [False, True, True, False]
+    assert not fits(4 / (4 + np.pi * rho(0.65)))
+    found = dict(zip(map(tuple, judged["numbers"]["exponents of pi and rho that lead there"]),
+                     judged["numbers"]["their limits"], strict=True))  # fmt: skip
+    assert found == {
+        (p, q): pytest.approx(limit)
+        for p in range(4)
+        for q in range(4)
+        if fits(limit := 4 / (4 + np.pi**p * rho(0.65) ** q))
+    }
+    multipliers = [impact_map_multipliers(limit, 0.65).max() for limit in found.values()]
+    np.testing.assert_allclose(judged["numbers"]["largest multipliers there"], multipliers, rtol=1e-6)
+    assert min(multipliers) > 1.009
+
+
+def test_without_an_upper_limit_there_would_be_two_branches(evidence, monkeypatch):
+    """Of the three pieces one is stable; what ends it is the limit that the chapter does not have."""
+    (judged,) = judge([CLAIMS["two-branches"]], evidence)
+    assert judged["parts"] == {"one stable branch": True, "one unstable branch": False}
+    monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa: 1.68)
+    assert verdict("two-branches", evidence) == HOLDS
+    monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa: 0.98)
+    assert verdict("two-branches", evidence) == IN_PART  # no stable branch at all
+
+
+def test_an_idle_ball_hides_no_modulation(evidence):
+    """From rest in the weak case: box 1 is modulated by the measure of the claim `beating`, and ball 2 never moves."""
+    (judged,) = judge([CLAIMS["only-possible-behaviour"]], evidence)
+    assert judged["numbers"]["one ball idle from rest"]
+    box, other = judged["numbers"]["amplitude variation from rest"]
+    assert box > 0.5 / np.sqrt(2) > other
+    share, none = judged["numbers"]["resonant share from rest"]
+    assert 0.1 < share < 0.9
+    assert none == 0
+
+
 def test_impacts_at_another_place_than_the_wall_are_no_misprint(evidence):
     """One sequence per module is what the correction says, so that each impact finds its own ball at its wall."""
     off = {
@@ -371,6 +428,48 @@ def test_a_weaker_damper_makes_the_coupling_weak(evidence):
     assert verdict("weak-coupling", dataclasses.replace(evidence, systems=weaker)) == HOLDS
 
 
+# Facts
+
+PAGE_OF_ERRATA = (ROOT / "docs/errata.md").read_text(encoding="utf-8")
+
+
+def test_what_is_refuted_is_two_facts(evidence):
+    judged = judge(list(CLAIMS.values()), evidence)
+    told = [[claim["id"] for claim in claims] for claims in facts(judged).values()]
+    assert told == [
+        ["printed-condition", "two-branches", "right-arm", "left-arm", "stability-regions"],
+        ["equal-b", "unequal-c"],
+    ]
+    assert list(facts(judged)) == DOCUMENT["facts"]
+    assert not any("fact" in claim for claim in judged if claim["verdict"] == HOLDS)
+
+
+def test_a_refuted_claim_without_a_fact_is_one_of_its_own():
+    claims = [{"verdict": REFUTED, "fact": "f", "refuted_by": "x"}, {"verdict": IN_PART, "fact": "f", "refuted_by": "y"}]
+    claims += [{"verdict": REFUTED, "refuted_by": "z"}, {"verdict": HOLDS, "refuted_by": "w"}]
+    assert facts(claims) == {"f": claims[:2], "z": [claims[2]]}
+    assert facts(claims[3:]) == {}
+
+
+@pytest.mark.parametrize(
+    ("swapped", "expected"),
+    [
+        (["equal"], {"equal-b": IN_PART, "equal-c": REFUTED, "similar-results": REFUTED}),  # labelling I
+        (["unequal"], {}),  # labelling III
+    ],
+)
+def test_the_verdicts_that_hang_on_which_point_is_b_and_which_is_c(evidence, verdicts, swapped, expected):
+    def swap(table):
+        rows = table["case"].isin(swapped)
+        table.loc[rows, "label"] = table.loc[rows, "label"].map({"a": "a", "b": "c", "c": "b"})
+
+    # Those on balls as absorbers take a while and know no points.
+    listed = [claim for claim in CLAIMS.values() if claim["check"] not in absorber_claims.CHECKS]
+    other = {claim["id"]: claim["verdict"] for claim in judge(listed, with_table(evidence, "fixed_points", swap))}
+    assert {claim: found for claim, found in other.items() if found != verdicts[claim]} == expected
+    assert all(f"`{claim}`" in PAGE_OF_ERRATA for claim in expected)
+
+
 # The readable table
 
 
@@ -387,4 +486,5 @@ def test_the_table_has_a_row_per_claim_and_its_verdict(evidence):
     assert "**cannot be decided from the text**" in rows[1]
     assert "a \\| b c" in rows[3]
     assert "4 claims of sections 10.2 to 10.5: 1 holds, 0 holds in part, 1 refuted, 1 cannot be decided" in text
+    assert f"Facts that refute claims, 1 in all:\n\n- {DOCUMENT['facts'][0]} `left-arm` (refuted)\n" in text
     assert "from the text, 1 misprint." in text

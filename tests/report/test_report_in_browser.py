@@ -308,8 +308,10 @@ def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site,
         called = table[(table["epsilon"] == epsilon) & (table[criterion] == "stable")]
         right = int((called["floquet"] == "stable").sum())
         told = browser.run("document.querySelector('#verdicts-count').textContent")
-        assert (
-            told == f"At ε = {epsilon}, {len(called)} points are called stable; of {right} of them the exact orbit is."
+        none = int((called["floquet"] == "no orbit").sum())
+        assert told == (
+            f"At ε = {epsilon}, {len(called)} points are called stable. "
+            f"The exact orbits of {right} of them are; {none} have none."
         )
         assert browser.run("document.querySelectorAll('#verdicts-map [data-stable=true]').length") == right
         assert browser.run("document.querySelectorAll('#verdicts-map [data-stable]').length") == len(called)

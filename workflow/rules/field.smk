@@ -1,4 +1,4 @@
-# Published results beside exact orbits, outside the default build: snakemake field. It runs the program CC by Weidemann
+# A published program beside exact orbits, outside the default build: snakemake field. It runs the program CC by Weidemann
 # et al. (2025) in Octave, from the folder that the environment variable CC_PROGRAM names (docs/field.md).
 
 

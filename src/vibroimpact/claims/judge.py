@@ -1,13 +1,14 @@
 """The chapter's claims, each judged by a check that computes: the verdict is never written by hand.
 
 A claim is a mapping with id, place, statement, check (name of a function of the modules below), arguments (optional,
-of that function) and refuted_by (what would refute it); docs/claims.yaml holds them all. A check takes the Evidence and
-the arguments, and returns a Finding.
+of that function), refuted_by (what would refute it) and fact (optional: why it does not hold, the same text for claims
+that fail for the same reason); docs/claims.yaml holds them all. A check takes the Evidence and the arguments, and
+returns a Finding.
 """
 
 from vibroimpact.claims import absorber, equations, manifold, motion, points
 from vibroimpact.claims.evidence import Evidence
-from vibroimpact.claims.finding import VERDICTS
+from vibroimpact.claims.finding import REFUTED, VERDICTS
 
 MODULES = (equations, manifold, points, motion, absorber)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
@@ -23,7 +24,7 @@ def problems(claims: list[dict]) -> list[str]:
     for place, claim in enumerate(claims, start=1):
         name = claim.get("id") or f"claim {place}"
         found += [f"{name}: {field} is missing" for field in FIELDS if not claim.get(field)]
-        found += [f"{name}: unknown field {field!r}" for field in claim.keys() - {*FIELDS, "arguments"}]
+        found += [f"{name}: unknown field {field!r}" for field in claim.keys() - {*FIELDS, "arguments", "fact"}]
         if ids.index(claim.get("id")) < place - 1:
             found.append(f"{name}: id given twice")
         if claim.get("check") and claim["check"] not in CHECKS:
@@ -53,7 +54,7 @@ def leave_open(claims: list[dict]) -> list[dict]:
 
 
 def to_markdown(judged: list[dict], unlike=()) -> str:
-    """A readable table of judged claims, after a count of verdicts; or why they were not judged, a line each."""
+    """A readable table of judged claims, after counts of verdicts and facts; or why they were not judged, a line each."""
     if unlike:
         lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in unlike)]
         return "\n".join(lines) + "\n"
@@ -65,10 +66,30 @@ def to_markdown(judged: list[dict], unlike=()) -> str:
         + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
         + ".",
         "",
+        *_facts(judged),
         "| claim | place | what it says | verdict | parts and numbers | refuted by |",
         "| --- | --- | --- | --- | --- | --- |",
     ]
     return "\n".join(lines + [_row(claim) for claim in judged]) + "\n"
+
+
+def facts(judged: list[dict]) -> dict[str, list[dict]]:
+    """The facts that refute claims, in their order, each with all claims that do not hold because of it.
+
+    A refuted claim that names none counts as a fact of its own: what would refute it does.
+    """
+    of_claims = [claim.get("fact") or claim.get("refuted_by") for claim in judged]
+    refuting = dict.fromkeys(fact for fact, claim in zip(of_claims, judged, strict=True) if claim["verdict"] == REFUTED)
+    return {fact: [claim for other, claim in zip(of_claims, judged, strict=True) if other == fact] for fact in refuting}
+
+
+def _facts(judged):
+    found = facts(judged)
+    lines = [
+        f"- {fact} " + ", ".join(f"`{claim['id']}` ({claim['verdict']})" for claim in claims)
+        for fact, claims in found.items()
+    ]
+    return [f"Facts that refute claims, {len(found)} in all:", "", *lines, ""] if found else []
 
 
 def _row(claim):

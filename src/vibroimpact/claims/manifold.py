@@ -6,6 +6,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from vibroimpact.claims.finding import Finding
+from vibroimpact.claims.points import CAPTIONS
+from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
 from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
 
@@ -60,7 +62,8 @@ def _furthest(C, kappa):
 def printed_condition(evidence):
     """(10.26) against the multipliers of the impact map: at the limit, and all the way above it.
 
-    It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q).
+    It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q). Beside: the limits that the chapter's
+    own captions allow, and the exponents that lead there.
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
@@ -70,9 +73,12 @@ def printed_condition(evidence):
         "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
         "all motions above it are stable": stable.all(),
     }
-    readings = [4 / (4 + np.pi**p * rho(kappa) ** q) for p, q in product(EXPONENTS, repeat=2)]
+    exponents = np.array(list(product(EXPONENTS, repeat=2)))
+    readings = 4 / (4 + np.pi ** exponents[:, 0] * rho(kappa) ** exponents[:, 1])
     at_readings = np.array([_largest_multiplier(C, kappa) for C in readings])
     right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa).all() for C in readings]
+    least, most = _limits_of_the_captions(evidence)
+    fitting = (least < readings) & (readings < most)
     numbers = {
         "(10.26)": limit,
         "largest multiplier there": at_limit,
@@ -85,8 +91,26 @@ def printed_condition(evidence):
         "other exponents tried": len(readings),
         "right with these": int(right.sum()),
         "multiplier nearest to 1 with these": at_readings[np.abs(at_readings - 1).argmin()],
+        "the captions need a limit above": least,
+        "and a stable piece of the left arm one below": most,
+        "exponents of pi and rho that lead there": exponents[fitting],
+        "their limits": readings[fitting],
+        "largest multipliers there": at_readings[fitting],
     }
     return Finding(parts, numbers, corrected=bool(right.any()))
+
+
+def _limits_of_the_captions(evidence):
+    """Open interval of lower limits in C with which every caption on a point holds and the left arm is stable in part.
+
+    A point is unstable if one C_i is below the limit. Which point bears which letter does not matter to the interval.
+    """
+    smallest = {True: [], False: []}
+    for case, said in CAPTIONS.items():
+        of_points = evidence.points(case)[["C1", "C2"]].min(axis=1)
+        for label in said.keys() & of_points.index:
+            smallest[said[label] == STABLE].append(of_points[label])
+    return max(smallest[False]), min(*smallest[True], lower_limit(evidence.system.kappa))
 
 
 def _largest_multiplier(C, kappa):
@@ -104,11 +128,13 @@ def _stable_above(limit, kappa):
 
 
 def two_branches(evidence):
-    """One stable and one unstable branch: stability changes once along the curve."""
+    """Pieces of the curve that are stable, and that are unstable: one of each."""
     kappa = evidence.system.kappa
     stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
-    changes = int(np.sum(stable[1:] != stable[:-1]))
-    return Finding({"stability changes once": changes == 1}, {"changes": changes})
+    first = np.append(True, stable[1:] != stable[:-1])  # of each piece
+    counts = {name: int((first & (stable == says)).sum()) for name, says in (("stable", True), ("unstable", False))}
+    parts = {f"one {name} branch": count == 1 for name, count in counts.items()}
+    return Finding(parts, {f"{name} pieces": count for name, count in counts.items()})
 
 
 def right_arm_is_stable(evidence):

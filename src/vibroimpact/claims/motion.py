@@ -84,7 +84,10 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest."""
+    """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest.
+
+    A motion with one ball idle is called that before anything else; how modulated its box is is told beside.
+    """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
     motions = evidence.motions(case)
@@ -94,7 +97,11 @@ def only_possible_behaviour(evidence, case):
         "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
     }
     numbers = {f"share {regime}": share for regime, share in shares.items()}
-    return Finding(parts, numbers | {"from rest": rest, "one ball idle from rest": rest == IDLE})
+    numbers |= {"from rest": rest, "one ball idle from rest": rest == IDLE}
+    for quantity in ("amplitude variation", "resonant share"):
+        of_modules = evidence.measured(case, "rest", quantity).set_index("module")["mean"]
+        numbers[f"{quantity} from rest"] = of_modules.loc[[1, 2]].to_list()
+    return Finding(parts, numbers)
 
 
 def no_practical_importance(evidence, case, label):
@@ -201,15 +208,18 @@ def _at_epsilon(evidence):
 def assesses_stability(evidence):
     """Criteria against the multipliers of the exact orbits over a grid of forces: is what they say right, mostly?
 
-    Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable.
+    Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
+    without an exact orbit are counted beside, stable then unstable.
     """
     grid = evidence.verdict_grid.assign(theory=by_theory(evidence.verdict_grid))
-    judged = grid[grid["floquet"].isin(SAYINGS)]
     parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["floquet"] == NO_ORBIT).sum())}
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
-        for epsilon, rows in judged.groupby("epsilon", sort=False):
-            matrix = pd.crosstab(rows[criterion], rows["floquet"]).reindex(index=SAYINGS, columns=SAYINGS, fill_value=0)
+        for epsilon, rows in grid.groupby("epsilon", sort=False):
+            found = pd.crosstab(rows[criterion], rows["floquet"])
+            found = found.reindex(index=SAYINGS, columns=[*SAYINGS, NO_ORBIT], fill_value=0)
+            matrix = found[SAYINGS]
             numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
+            numbers[f"{name}, epsilon = {epsilon}, no orbit"] = found[NO_ORBIT].to_list()
             if epsilon == evidence.system.epsilon:
                 for saying in SAYINGS:
                     right, said = matrix.loc[saying, saying], matrix.loc[saying].sum()

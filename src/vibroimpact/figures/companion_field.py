@@ -1,29 +1,30 @@
-"""Companion: published responses of two sectors in phase, beside all exact ones."""
+"""Companion: responses of two sectors in phase by a published program, beside all exact ones."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.field import PUBLISHED, two_sectors
+from vibroimpact.field import OF_THE_PROGRAM, two_sectors
 from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, STABLE, UNSTABLE, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 
 SPEC = {
-    "title": "Published responses beside exact ones",
-    "caption": "Two sectors of the chain of Weidemann, Bergman, Vakakis and Krack (2025), in phase. Lines: exact "
-        "responses with one impact at each wall per period, thick where stable. Circles: harmonic balance of their "
-        "program, filled where it calls the response stable. Crosses: where their time stepping ends from there. a: "
+    "title": "A published program beside exact orbits",
+    "caption": "The program of Weidemann, Bergman, Vakakis and Krack (2025), run for two sectors in phase, a case of "
+        "ours: their examples have ten sectors. Lines: exact responses with one impact at each wall per period, thick "
+        "where stable. Circles: harmonic balance of the program, filled where it calls the response stable. Crosses: "
+        "where its time stepping ends from there. a: "
         "amplitude of a ball's triangle over the clearance. b: difference of a ball's speeds to either side over their "
         "sum, 0 if both flights are alike.",
     "alt": "Two panels over the frequency. Above, an upper branch that is stable up to 0.988 and unstable beyond, and "
         "a lower one, unstable. From the point of change a stable grey line leads on, hardly rising, below the filled "
         "circles and through the crosses. Below, the grey line rises from 0 like a root, through the crosses.",
-    "method": "exact responses; published values of the program CC",
+    "method": "exact responses; values of the program CC",
     "needs": ["cases.equal"],  # stands beside the chapter's figures, not beside those of other cases
     "columns": {
-        "panel": {"meaning": "exact or published", "values": ["response", "published"]},
-        "series": {"meaning": "of the exact responses; of the published values", "values": ["lower", "upper",
+        "panel": {"meaning": "exact, or of the program", "values": ["response", "program"]},
+        "series": {"meaning": "of the exact responses; of the program", "values": ["lower", "upper",
             "asymmetric", "harmonic balance", "time stepping"]},
         "r": {"meaning": "forcing frequency over that of a sector whose absorber is fixed", "unit": "dimensionless",
             "compared": "algebra"},
@@ -31,22 +32,22 @@ SPEC = {
             "compared": "roots"},
         "lean": {"meaning": "difference of a ball's speeds to either side over their sum; blank for harmonic balance",
             "unit": "dimensionless", "compared": "roots"},
-        "stable": {"meaning": "all multipliers are inside the unit circle; of published values, what the program says",
+        "stable": {"meaning": "all multipliers are inside the unit circle; of the program, what it says",
             "unit": "true or false"},
     },
 }  # fmt: skip
 
 PARTS = (0.979, 0.9875, 18), (0.98775, 0.988, 11), (0.98825, 0.992, 16)
 """Frequencies, denser where symmetry breaks."""
-EXACT, THEIRS = "response", "published"
+EXACT, THEIRS = "response", "program"
 SYMMETRIC, ASYMMETRIC = ("lower", "upper"), "asymmetric"
 BALANCE, STEPPING = "harmonic balance", "time stepping"
 
 
 def compute() -> pd.DataFrame:
-    """Return the exact responses in phase over the frequency r, and the published ones.
+    """Return the exact responses in phase over the frequency r, and what the program finds.
 
-    Columns panel ("response": series "lower", "upper", "asymmetric", one of two mirror images; "published": series
+    Columns panel ("response": series "lower", "upper", "asymmetric", one of two mirror images; "program": series
     "harmonic balance", "time stepping"), r, theta, lean, stable.
     """
     frequencies = np.concatenate([np.linspace(*part) for part in PARTS]).round(6)
@@ -56,7 +57,7 @@ def compute() -> pd.DataFrame:
         curve(EXACT, series, **{name: part[name].to_numpy() for name in ("r", "theta", "lean", "stable")})
         for series, part in exact.groupby("series", sort=False)
     ]
-    r, theta, stable, simulated, lean = zip(*PUBLISHED, strict=True)
+    r, theta, stable, simulated, lean = zip(*OF_THE_PROGRAM, strict=True)
     curves.append(curve(THEIRS, BALANCE, r=r, theta=theta, lean=np.nan, stable=stable))
     followed = np.array(stable)
     ends = {"theta": np.array(simulated)[followed], "lean": np.abs(lean)[followed]}

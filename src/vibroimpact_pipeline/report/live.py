@@ -36,17 +36,16 @@ def regime_map(table) -> dict:
 
 def verdict_data(results, config: dict) -> str:
     """Return the data of the slider of epsilon as JSON: for each epsilon the points that (10.26), or both time scales
-    of the theory, call stable, [f10, f20, True if the exact orbit is stable].
+    of the theory, call stable, [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     table["both"] = [fast_and_slow(row) for row in table.to_dict("records")]
-    table["exact"] = table["floquet"] == STABLE
     by_epsilon = [
         (value, table[table["epsilon"] == value]) for value in sorted(table["epsilon"].unique(), reverse=True)
     ]
     points = {
         criterion: [
-            rows.loc[rows[criterion] == STABLE, ["f10_hat", "f20_hat", "exact"]].round(6).to_numpy().tolist()
+            rows.loc[rows[criterion] == STABLE, ["f10_hat", "f20_hat", "floquet"]].round(6).to_numpy().tolist()
             for _, rows in by_epsilon
         ]
         for criterion in ("both", "printed_10_26")

@@ -14,6 +14,7 @@ import jinja2
 import pypandoc
 
 from vibroimpact.claims.finding import VERDICTS
+from vibroimpact.claims.judge import facts
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
@@ -80,6 +81,7 @@ class Pages:
             "verdict_data": verdict_data,
             "table": markdown_table,
             "verdicts": verdicts,
+            "facts": facts,
         }
 
     def markdown(self, page: dict, target: str) -> str:
