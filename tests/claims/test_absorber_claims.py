@@ -36,7 +36,9 @@ def test_boxes_without_dampers_ring_until_balls_stop_them():
     assert finding.verdict == HOLDS
     assert finding.numbers["without balls"] == np.inf
     assert finding.numbers["shares of the impacts"][:3] == [0.0, 0.0, 0.0]
-    assert all(0.9 <= share < 0.96 for share in finding.numbers["shares of the impacts"][3:])  # up to the end of that cycle
+    assert all(
+        0.9 <= share < 0.96 for share in finding.numbers["shares of the impacts"][3:]
+    )  # up to the end of that cycle
 
 
 def test_impacts_take_most_of_the_energy_of_some_shocks_only():
@@ -44,7 +46,9 @@ def test_impacts_take_most_of_the_energy_of_some_shocks_only():
     system = systems().system.with_(f10_hat=0.0, f20_hat=0.0)
     finding = absorber.absorbs_rapidly(systems())
     assert finding.verdict == IN_PART
-    assert [part for part, holds in finding.parts.items() if not holds] == ["of every shock that brings a ball to a wall"]
+    assert [part for part, holds in finding.parts.items() if not holds] == [
+        "of every shock that brings a ball to a wall"
+    ]
     shares = finding.numbers["shares of the impacts"]
     for impulse, time, share in zip(absorber.IMPULSES, finding.numbers["times with balls"], shares, strict=True):
         run = simulate(system, [0, 0, 0, 0, impulse, 0, 0, 0], int(np.ceil(time / system.period)))

@@ -322,13 +322,18 @@ def test_the_captions_need_another_limit_than_the_printed_one(evidence):
     fold = 1 / (1 + rho(0.65) ** 2)
 
     def fits(limit):
-        return [int((C > limit).all(axis=1).sum()) for C in points] == [2, 1, 0] and limit < fold
+        return [int((limit < C).all(axis=1).sum()) for C in points] == [2, 1, 0] and limit < fold
 
     least, most = (
         judged["numbers"][name]
         for name in ("the captions need a limit above", "and a stable piece of the left arm one below")
     )
-    assert [fits(limit) for limit in (least - 1e-9, least + 1e-9, most - 1e-9, most + 1e-9)] == [False, True, True, False]
+    assert [fits(limit) for limit in (least - 1e-9, least + 1e-9, most - 1e-9, most + 1e-9)] == [
+        False,
+        True,
+        True,
+        False,
+    ]
     assert not fits(4 / (4 + np.pi * rho(0.65)))
     found = dict(zip(map(tuple, judged["numbers"]["exponents of pi and rho that lead there"]),
                      judged["numbers"]["their limits"], strict=True))  # fmt: skip
@@ -445,7 +450,10 @@ def test_what_is_refuted_is_two_facts(evidence):
 
 
 def test_a_refuted_claim_without_a_fact_is_one_of_its_own():
-    claims = [{"verdict": REFUTED, "fact": "f", "refuted_by": "x"}, {"verdict": IN_PART, "fact": "f", "refuted_by": "y"}]
+    claims = [
+        {"verdict": REFUTED, "fact": "f", "refuted_by": "x"},
+        {"verdict": IN_PART, "fact": "f", "refuted_by": "y"},
+    ]
     claims += [{"verdict": REFUTED, "refuted_by": "z"}, {"verdict": HOLDS, "refuted_by": "w"}]
     assert facts(claims) == {"f": claims[:2], "z": [claims[2]]}
     assert facts(claims[3:]) == {}

@@ -84,6 +84,42 @@ def test_the_reading_with_squares():
     assert impact_multipliers(1.65**2 / (2 * (1 + 0.65**2)), 0.65).max() == said(r"multiplier of ([\d.]+) at the limit")
 
 
+def test_limits_like_the_printed_one_against_the_captions():
+    rho, fold = 2 * 0.35 / (np.pi * 1.65), 1 / (1 + (2 * 0.35 / (np.pi * 1.65)) ** 2)
+    exponents = {"printed": (1, 1), "\\pi^2": (2, 2), "4+\\rho": (0, 1), "\\pi^3": (3, 3)}
+    second = sorted(point.C.min() for point in vi.fixed_points(SYSTEMS["unequal"]))[1]
+    assert second == said(r"lies between ([\d.]+), the smaller")
+    assert fold == said(r"C_\{\\min\} = ([\d.]+)\$\. So")
+    for (name, value, fits, multiplier, below), (key, (p, q)) in zip(
+        cells("limit")[1:], exponents.items(), strict=True
+    ):
+        limit = 4 / (4 + np.pi**p * rho**q)
+        assert key in name
+        assert limit == number(value)
+        assert fits.startswith("yes" if second < limit < fold else "no")
+        assert impact_multipliers(limit, 0.65).max() == number(multiplier)
+        if "by" in fits:
+            assert second - limit == number(fits.rpartition(" ")[2])
+        kappa = np.linspace(0.0005, 0.9995, 1000)
+        r = 2 * (1 - kappa) / (np.pi * (1 + kappa))
+        under = 4 / (4 + np.pi**p * r**q) < 1 / (1 + r**2)
+        border = kappa[1:][np.diff(under)]
+        if below.startswith("all"):
+            assert under.all()
+        else:
+            assert border == pytest.approx(float(below.strip("$").split(" ")[-1]), abs=1.1e-3)
+            assert under[0 if "<" in below else -1]
+
+
+def test_the_force_at_which_point_b_passes_a_limit():
+    limit = 4 / (4 + 2 * 0.35 / (np.pi * 1.65))
+
+    def above(f20):
+        return sorted(point.C.min() for point in vi.fixed_points(SYSTEMS["unequal"].with_(f20_hat=f20)))[1] - limit
+
+    assert brentq(above, 0.89, 0.9) == said(r"third at \$\\hat f_\{20\} = ([\d.]+)\$")
+
+
 @pytest.mark.parametrize("column", range(5))
 def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
     """The forcing raised until a half-period multiplier of the upper orbit is -1."""

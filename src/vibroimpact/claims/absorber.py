@@ -31,8 +31,8 @@ SURE = 2
 def efficient(evidence):
     """Peaks over a band of frequencies, at the best clearance of those tried, against those without balls and fixed.
 
-    The chapter cites others and sets no measure of "very efficient": where balls lower the peak, that part is left open.
-    How far linear absorbers go is told beside.
+    The chapter cites others and sets no measure of "very efficient": where balls lower the peak, that part is left
+    open. How far linear absorbers go is told beside.
     """
     peaks = evidence.absorber.query("quantity == 'peak'").set_index("who")
     balls, best = peaks.loc["balls"], peaks.loc["balls, best kappa"]

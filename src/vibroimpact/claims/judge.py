@@ -54,7 +54,7 @@ def leave_open(claims: list[dict]) -> list[dict]:
 
 
 def to_markdown(judged: list[dict], unlike=()) -> str:
-    """A readable table of judged claims, after counts of verdicts and facts; or why they were not judged, a line each."""
+    """A readable table of judged claims, after counts of verdicts and facts; or why they were not judged."""
     if unlike:
         lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in unlike)]
         return "\n".join(lines) + "\n"
