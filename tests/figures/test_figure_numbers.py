@@ -1,5 +1,7 @@
 """The plotted numbers against values computed here, from the chapter's equations alone."""
 
+import re
+
 import mpmath
 import numpy as np
 import pandas as pd
@@ -7,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
-from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
+from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
 from vibroimpact.figures.kit.tables import select
 
 KAPPA = mpmath.mpf("0.65")
@@ -190,6 +192,20 @@ def test_all_points_lie_on_the_manifold(scenes, name):
     points = table[table["series"].str.match("[PS]_|SIM")]
     C = points["C"]
     np.testing.assert_allclose(points["B"] ** 2, 1 - 2 * C + (1 + float(RHO) ** 2) * C**2, rtol=1e-12)
+
+
+def test_the_caption_says_where_point_b_of_the_unequal_case_lies(scenes):
+    """On the line that the printed limit calls stable; unstable under limits above its smaller C_i alone."""
+    table, caption = scenes["fig10_09"].table, fig10_09.SPEC["caption"]
+    limit, least = re.search(r"C_i = (\d\.\d+)`.* above (\d\.\d+)\.", caption).groups()
+    C = {label: [select(table, f"{label}{i}", f"P_{i}")["C"].item() for i in (1, 2)] for label in "abc"}
+    assert float(LIMIT) == pytest.approx(float(limit), abs=5e-4)
+    for i in (1, 2):
+        ends = select(table, f"b{i}", "SIM stable")["C"].agg(["min", "max"])
+        assert ends["min"] == pytest.approx(float(LIMIT))
+        assert ends["min"] < C["b"][i - 1] < ends["max"]
+    assert min(C["b"]) == pytest.approx(float(least), abs=5e-4)
+    assert min(C["a"]) < min(C["b"]) < min(C["c"])
 
 
 def test_planes_keep_the_order_of_the_labels(scenes):
