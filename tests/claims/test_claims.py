@@ -446,6 +446,7 @@ def test_what_is_refuted_is_two_facts(evidence):
         ["equal-b", "unequal-c"],
     ]
     assert list(facts(judged)) == DOCUMENT["facts"]
+    assert "come down to two facts" in (ROOT / "docs/findings.md").read_text(encoding="utf-8")
     assert not any("fact" in claim for claim in judged if claim["verdict"] == HOLDS)
 
 
