@@ -5,12 +5,14 @@ import math
 import re
 from types import SimpleNamespace
 
+import pandas as pd
 import pytest
 import yaml
 from math_core import LatexError
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.report.figure_texts import figure_texts
+from vibroimpact_pipeline.report.live import verdict_data
 from vibroimpact_pipeline.report.notation import named
 from vibroimpact_pipeline.report.pages import Pages, cell, digits, markdown_table, said, section_of, setting, verdicts
 from vibroimpact_pipeline.report.results import Results
@@ -187,6 +189,18 @@ def test_the_section_of_a_statement_is_the_one_it_is_listed_under():
 def test_verdicts_are_counted_in_their_order_with_misprints_last():
     given = ["misprint"] * 3 + ["refuted", "holds", "refuted"]
     assert verdicts([{"verdict": verdict} for verdict in given]) == [("holds", 1), ("refuted", 2), ("misprint", 3)]
+
+
+def test_the_slider_of_epsilon_knows_points_without_an_orbit():
+    """Called stable, and told apart: the exact orbit is stable, unstable, or there is none."""
+    exact = ["stable", "unstable", "no orbit", "no orbit"]
+    table = pd.DataFrame({"epsilon": 0.1, "f10_hat": [1.0, 2.0, 3.0, 4.0], "f20_hat": 0.5, "floquet": exact})
+    table = table.assign(printed_10_26=["stable"] * 3 + ["unstable"], masri_derived="stable", slow_flow="unstable")
+    grid = {"f10_range": [0, 4], "f20_range": [0, 4], "points": 4}
+    results = SimpleNamespace(table=lambda name: table.copy())
+    data = json.loads(verdict_data(results, {"stability": {"verdict_grid": grid}}))
+    assert data["printed_10_26"] == [[[1.0, 0.5, "stable"], [2.0, 0.5, "unstable"], [3.0, 0.5, "no orbit"]]]
+    assert data["both"] == [[]]
 
 
 @pytest.mark.parametrize(
