@@ -204,9 +204,6 @@ class Config(Section):
         for place, section, case in sections(self):
             if hasattr(section, "case") and case not in self.cases:
                 yield (*place, "case"), f"unknown case {case!r}{hint(case, self.cases)}"
-        if (drawn := self.regimes.coexistence.case) != (followed := self.regimes.branches.case):
-            what = f"{drawn!r} is not {followed!r}, over whose branches it is drawn"
-            yield ("regimes", "coexistence", "case"), what
         yield from self._unsound().items()
         for name, sweep in self.sweeps.items():
             for place, what in [*_not_drawn(name, sweep), *sweep.costs(self.regimes.observation)]:

@@ -92,47 +92,6 @@ class Branches(Section):
     ]
 
 
-class Lifetimes(Line, kinds.Starts):
-    """Mean lifetime of the chaotic transient."""
-
-    values: kinds.items(kinds.Number, 1, 1000, "What they are set to")
-    discarded: kinds.Cycles = Field(description="Cycles that do not count [forcing periods]")
-    step: WatchedCycles = Field(description="Starts are looked at every so many cycles from then on [forcing periods]")
-    longest: kinds.Cycles = Field(description="A start is given up after so many [forcing periods]")
-
-    rules: ClassVar = [
-        ("longest", "longest >= discarded + step"),
-        ("longest", f"len(values) * starts * longest <= {CYCLES}"),
-        ("step", f"starts * step <= {HELD}"),
-    ]
-
-
-class TorusPath(Line):
-    """Values on both sides of a Neimark-Sacker point."""
-
-    values: kinds.items(kinds.Number, 2, 1000, "What they are set to")
-
-
-class Tori(Section):
-    """The size of the tori next to Neimark-Sacker points."""
-
-    paths: kinds.items(TorusPath, 1, 10, "Values on both sides of Neimark-Sacker points")
-    cycles: int = Field(ge=2, le=1_000_000, description="Cycles that a torus is seen for [forcing periods]")
-    discarded: kinds.Cycles = Field(description="Cycles before those [forcing periods]")
-
-    rules: ClassVar = [
-        ("discarded", f"2 * sum(len(path.values) for path in paths) * (discarded + cycles) <= {CYCLES}"),
-    ]
-
-
-class Coexistence(Section):
-    """Where chaos and periodic motions coexist."""
-
-    case: kinds.CaseName
-    lifetimes: Lifetimes
-    tori: Tori
-
-
 class Modulation(Exponent, kinds.Starts):
     """Modulated responses in numbers."""
 
@@ -195,7 +154,6 @@ class Regimes(Section):
 
     observation: Observation
     branches: Branches
-    coexistence: Coexistence
     modulation: Modulation
     basins: Basins
     epsilon: EpsilonLimit
