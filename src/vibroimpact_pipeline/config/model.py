@@ -17,8 +17,6 @@ from vibroimpact_pipeline.specs import specs
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
-HIGHEST = 1.69
-"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 WORKFLOW = ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")
@@ -98,16 +96,12 @@ class Case(Section):
     simulation: Simulation
 
 
-class Companion1004(Section):
-    """Companion of figure 10.4."""
-
-    C_max: float = Field(ge=HIGHEST, le=100, description="Right end of the axis, beyond the derived limits (1.68)")
-
-
 class Companion1005(Section):
     """Companion of figure 10.5."""
 
-    C_range: kinds.around(0.6, HIGHEST) = Field(description="Ends of the axis, which holds the derived limits (1.68)")
+    C_range: kinds.around(0.6, kinds.HIGHEST) = Field(
+        description="Ends of the axis, which holds the derived limits"
+    )
 
 
 class VerdictGrid(kinds.ForceGrid):
@@ -123,9 +117,8 @@ class VerdictGrid(kinds.ForceGrid):
 
 
 class Stability(Section):
-    """Axes of the companions of figures 10.4 and 10.5, and the grid for judging the criteria."""
+    """The axis of the companion of figure 10.5, and the grid for judging the criteria."""
 
-    companion_10_04: Companion1004
     companion_10_05: Companion1005
     verdict_grid: VerdictGrid
 

@@ -127,6 +127,14 @@ class EpsilonRange(Section):
         return [{"epsilon": value} for value in self.epsilon]
 
 
+class Asymmetric(EpsilonRange):
+    """Asymmetric pairs towards small epsilon, over the manifold."""
+
+    C_max: float = Field(
+        ge=kinds.HIGHEST, le=100, description="Right end of the manifold, beyond the derived limits"
+    )
+
+
 class EpsilonLimit(EpsilonRange):
     """Theory against exact responses as epsilon tends to 0."""
 
@@ -157,7 +165,7 @@ class Regimes(Section):
     modulation: Modulation
     basins: Basins
     epsilon: EpsilonLimit
-    asymmetric: EpsilonRange
+    asymmetric: Asymmetric
     ladder: Ladder
     decay: Decay
 
