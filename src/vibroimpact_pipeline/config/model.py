@@ -99,9 +99,7 @@ class Case(Section):
 class Companion1005(Section):
     """Companion of figure 10.5."""
 
-    C_range: kinds.around(0.6, kinds.HIGHEST) = Field(
-        description="Ends of the axis, which holds the derived limits"
-    )
+    C_range: kinds.around(0.6, kinds.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
 
 
 class VerdictGrid(kinds.ForceGrid):

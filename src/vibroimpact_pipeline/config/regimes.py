@@ -130,9 +130,7 @@ class EpsilonRange(Section):
 class Asymmetric(EpsilonRange):
     """Asymmetric pairs towards small epsilon, over the manifold."""
 
-    C_max: float = Field(
-        ge=kinds.HIGHEST, le=100, description="Right end of the manifold, beyond the derived limits"
-    )
+    C_max: float = Field(ge=kinds.HIGHEST, le=100, description="Right end of the manifold, beyond the derived limits")
 
 
 class EpsilonLimit(EpsilonRange):
