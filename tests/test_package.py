@@ -112,7 +112,6 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
         "vibroimpact.theory.certify",
         "vibroimpact.exact.orbits.certify",
         "vibroimpact.exact.orbits.proof",
-        "vibroimpact.regimes.coexistence",
     }
 
 

@@ -153,18 +153,6 @@ def test_shares_of_basins_are_those_of_the_figure(table):
     assert columns(starts, "W").max() < 1
 
 
-def test_mean_lives_are_total_time_over_escapes_and_bounds_hold_with_95_per_cent(table):
-    lives = table("regimes/lifetimes.csv")
-    some = lives[lives["escapes"] > 0]
-    # Looked at every 250 cycles, a life is up to that longer than total time over escapes.
-    rough = some["cycles"] / some["escapes"]
-    assert ((rough - some["life"]).between(0, 250)).all()
-    none = lives[lives["escapes"] == 0]
-    np.testing.assert_allclose(np.exp(-none["cycles"] / none["least"]), 0.05, rtol=1e-9)
-    assert none["life"].isna().all()
-    assert some["least"].isna().all()
-
-
 def test_orders_are_slopes_of_the_curves(table):
     curves = table("figures/companion_epsilon.csv")
     for row in table("regimes/epsilon_orders.csv").itertuples():

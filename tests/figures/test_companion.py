@@ -10,12 +10,11 @@ from verdict_tables import verdicts_of
 from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures import companion_10_04, companion_10_05, companion_stability
+from vibroimpact.figures import companion_10_05, companion_stability
 from vibroimpact.figures.kit.tables import select
 
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
-RHO = 14 / (33 * np.pi)
-FOLD, PRINTED, BREAKING = 1 / (1 + RHO**2), 3.3 / 3.65, np.pi**2 / (np.pi**2 - 4)
+BREAKING = np.pi**2 / (np.pi**2 - 4)
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +25,6 @@ def verdict_tables():
 @pytest.fixture(scope="module")
 def tables(verdict_tables):
     return {
-        "companion_10_04": companion_10_04.compute(0.65, 2.5),
         "companion_10_05": companion_10_05.compute((0.5, 2.2)),
         "companion_stability": companion_stability.compute(SYSTEMS, *verdict_tables),
     }
@@ -95,18 +93,6 @@ def test_no_two_fixed_points_share_an_orbit(verdict_tables):
 # Numbers
 
 
-def test_pieces_of_the_manifold(tables):
-    table = tables["companion_10_04"]
-    ends = {"SIM left": (0, FOLD), "SIM stable": (FOLD, BREAKING), "SIM right": (BREAKING, 2.5)}
-    for series, (low, high) in ends.items():
-        piece = select(table, "SIM", series)
-        assert (piece["C"].min(), piece["C"].max()) == pytest.approx((low, high), rel=1e-14)
-        squared = 1 - 2 * piece["C"] + (1 + RHO**2) * piece["C"] ** 2
-        np.testing.assert_allclose(piece["B"] ** 2, squared, rtol=1e-12)
-    for series, C in {"printed": PRINTED, "fold": FOLD, "symmetry breaking": BREAKING}.items():
-        assert select(table, "SIM", series)["C"].tolist() == pytest.approx([C], rel=1e-14)
-
-
 def test_limits_over_kappa(tables):
     table = tables["companion_10_05"]
     rows = {
@@ -131,12 +117,6 @@ def test_limits_over_kappa(tables):
     outline = select(table, "regions", "stable")
     assert outline["C"].max() == pytest.approx(BREAKING)
     assert outline["C"].min() == pytest.approx(rows["fold"]["C"].min())
-
-
-@pytest.mark.parametrize("C_max", [1.6, 5.3])
-def test_a_range_that_cuts_the_limits_or_has_no_motion_is_refused(C_max):
-    with pytest.raises(ValueError, match=r"^C_max: "):
-        companion_10_04.compute(0.65, C_max)
 
 
 @pytest.mark.parametrize("C_range", [(0.7, 2.0), (0.5, 1.6)])

@@ -7,7 +7,6 @@ import pytest
 import vibroimpact as vi
 from absorber_sweeps import BAND, tables_of
 from chapter import FORCES, PARAMETERS
-from lifetimes import LIFETIMES
 from verdict_tables import verdicts_of
 from vibroimpact.absorbers.references import fixed_balls, without_balls
 from vibroimpact.absorbers.tuning import compared
@@ -71,7 +70,6 @@ def tables(balls):
             seeds=2,
             attractors={"values": 3, "starts": 3, "seed": 1},
             observation=OBSERVATION,
-            lifetimes=LIFETIMES,
             systems=SYSTEMS,
         ),
         "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
@@ -126,22 +124,6 @@ def test_simulated_attractors_lie_on_the_stable_branch(tables):
     assert len(simulated)
     for module in ("C1", "C2"):
         np.testing.assert_allclose(simulated[module], np.interp(simulated["p"], stable["p"], stable[module]), atol=0.02)
-
-
-def test_lives_and_the_window_of_coexistence_are_drawn(tables, figures):
-    """Shaded from the Neimark-Sacker point of the stable pair to the crisis, half way between the values around it."""
-    table, special = tables["branches"]["csv"], tables["branches"]["special_points"]
-    window = table[table["series"] == "coexistence"]["p"].tolist()
-    point = special[(special["family"] == "asymmetric orbit") & (special["kind"] == "Neimark-Sacker")]
-    assert window[0] in point[point["admissible"]]["p"].tolist()
-    assert window[1] == pytest.approx(0.955)
-    _, exact, lives = figures["branches"].axes
-    for axes in (exact, lives):
-        (band,) = [patch for patch in axes.patches if patch.get_label() == branches.BOTH["label"]]
-        assert (band.get_x(), band.get_x() + band.get_width()) == pytest.approx(tuple(window))
-    dots = {line.get_marker(): line.get_xydata() for line in lives.lines if len(line.get_xdata()) > 1}
-    np.testing.assert_allclose(dots["o"], LIFETIMES[["p", "life"]].dropna())
-    np.testing.assert_allclose(dots["^"], LIFETIMES[["p", "least"]].dropna())
 
 
 def test_windows_show_what_converges(tables):

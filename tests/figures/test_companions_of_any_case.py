@@ -16,7 +16,6 @@ from vibroimpact.figures import (
     companion_response,
     force_sweep,
 )
-from vibroimpact.regimes import coexistence
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows
 from vibroimpact.sweeps.spec import Spec
@@ -31,13 +30,6 @@ def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
     assert set(tables["csv"]["series"]) == {"start", "shared"}
     np.testing.assert_allclose(sorted(set(tables["csv"]["W1"].dropna())), [-2 / 3, 0, 2 / 3], atol=1e-15)
     companion_basins.draw(tables)
-
-
-def test_a_sweep_without_an_orbit_starts_from_rest():
-    paths = [{"along": ["f10_hat"], "values": [0.04, 0.05]}]
-    tables = coexistence.compute_tori(STILL, paths, 2, 400)
-    assert tables["tori"]["size"].max() < 1e-3  # boxes alone settle on the period of the force
-    assert tables["onsets"]["onset"].isna().all()
 
 
 def test_forces_too_weak_for_a_response_are_drawn_without_one():
@@ -56,8 +48,7 @@ def test_a_path_without_special_points_says_none(first):
     second = {"f10_hat": "f20_hat", "f20_hat": "f10_hat"}[first]
     paths = [{"along": [first], "range": [0.01, 0.02]}, {"along": [second], "range": [0.01, 0.02]}]
     attractors = {"values": 2, "starts": 1, "seed": 1}
-    lifetimes = pd.DataFrame(columns=["path", "p", "starts", "escapes", "cycles", "life", "uncertainty", "least"])
-    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, lifetimes, {})
+    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, {})
     assert tables["special_points"]["path"].tolist() == [first, second]
     assert tables["special_points"]["kind"].tolist() == ["none", "none"]
     companion_branches.draw(tables)

@@ -65,8 +65,7 @@ def config() -> dict:
         "mine": {"notebook": "theoretical_response", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
     }
     made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
-    for part in ("branches", "coexistence"):
-        made["regimes"][part]["case"] = "equal"
+    made["regimes"]["branches"]["case"] = "equal"
     made["system"][HOSTILE] = HOSTILE
     return made
 
@@ -127,7 +126,6 @@ def results(folder: Path) -> Path:
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],
-        "regimes/torus_onsets.csv": [{"path": "f20_hat", "onset": 0.4}],
         "accuracy/scene_models.csv": [
             {"figure": "mine", "rung": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
             | {"meets": True, "cost_s": 0.1, "in_use": True}

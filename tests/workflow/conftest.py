@@ -5,7 +5,7 @@ import pytest
 from archives import checkout
 from pipeline_trees import ROOT, Tree, copied, made_once, whole_copy
 
-FIGURES = "companion_10_08", "companion_10_04"
+FIGURES = "companion_10_08", "companion_10_05"
 """One that reads tables of jobs before it, and one that reads none."""
 
 

@@ -22,8 +22,8 @@ def test_a_second_build_has_nothing_to_do_and_neither_has_one_without_what_snake
 
 
 def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
-    (rebuilt / "results/figures/companion_10_04.png").unlink()
-    said = rebuilt.snakemake("companion_10_04")
+    (rebuilt / "results/figures/companion_10_05.png").unlink()
+    said = rebuilt.snakemake("companion_10_05")
     assert "1 of 1 steps (100%) done" in said
     assert f"All results are in {rebuilt / 'results'}/." in said
 
@@ -39,14 +39,14 @@ def test_every_result_has_a_record_and_every_record_its_result(built):
 
 def test_a_failed_job_shows_its_log(tree):
     tree.edit(
-        "src/vibroimpact/figures/companion_10_04.py",
+        "src/vibroimpact/figures/companion_10_05.py",
         "def compute(",
         "raise SystemExit('no such figure')\n\n\ndef compute(",
     )
-    said = tree.snakemake("companion_10_04", check=False)
+    said = tree.snakemake("companion_10_05", check=False)
     assert tree.returncode != 0
     assert "no such figure" in said
-    assert "results/logs/figures/companion_10_04.log" in said
+    assert "results/logs/figures/companion_10_05.log" in said
 
 
 EDITS = {

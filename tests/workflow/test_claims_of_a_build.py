@@ -15,9 +15,7 @@ FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
 DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md")))
 SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", DOCUMENTS)
 """Numbers of documents with the place in a build that each is from."""
-CHAOTIC = tuple(
-    f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "lifetimes")
-)
+CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
 LARGEST_OF_FEW = (
     *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa", "one ball")),
     *(

@@ -10,7 +10,7 @@ import pytest
 from namespaces import unshared
 from pipeline_trees import ROOT, Tree, run_module
 
-FIGURE = "companion_10_04"
+FIGURE = "fig10_04"
 """A figure with a table, made in a second."""
 KINDS = "csv", "png", "pdf", "svg"
 
@@ -189,7 +189,7 @@ def test_a_user_without_a_name_or_a_home(tree):
 
 def test_jobs_use_the_library_beside_the_rules(tree):
     """Not the one that is installed, which is that of this checkout."""
-    module = "src/vibroimpact/figures/companion_10_04.py"
+    module = "src/vibroimpact/figures/fig10_04.py"
     tree.edit(module, "def compute(", "print('library:', __file__)\n\n\ndef compute(")
     tree.snakemake(FIGURE, PYTHONPATH="/nowhere")
     assert f"library: {tree / module}\n" in (tree / f"results/logs/figures/{FIGURE}.log").read_text()

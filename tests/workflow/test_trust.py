@@ -14,7 +14,7 @@ from pipeline_trees import run_module
 
 FIXED_POINTS = "results/fixed_points/equal.csv"
 CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 1.0", "f20_hat: 0.97"
-FIGURE, DRAWING = "companion_10_08", "companion_10_04"
+FIGURE, DRAWING = "companion_10_08", "companion_10_05"
 """One that reads tables of jobs before it, and one that reads none."""
 
 
@@ -85,7 +85,7 @@ def held(drawn):
     drawn.edit(
         "workflow/scripts/figure.py", "    module = import_module", f"    exec({HOLD!r})\n    module = import_module"
     )
-    drawn.edit("config/config.yaml", "companion_10_04: {C_max: 2.5}", "companion_10_04: {C_max: 3.0}")
+    drawn.edit("config/config.yaml", "companion_10_05: {C_range: [0.5, 2.2]}", "companion_10_05: {C_range: [0.5, 2.4]}")
     return drawn
 
 
@@ -109,7 +109,7 @@ def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
     build.kill()  # Snakemake alone: nobody tells its job
     build.wait()
     held.edit("workflow/scripts/figure.py", f"    exec({HOLD!r})\n", "")
-    held.edit("config/config.yaml", "companion_10_04: {C_max: 3.0}", "companion_10_04: {C_max: 2.0}")
+    held.edit("config/config.yaml", "companion_10_05: {C_range: [0.5, 2.4]}", "companion_10_05: {C_range: [0.5, 2.0]}")
     held.snakemake(DRAWING)
     right = (held / f"results/figures/{DRAWING}.csv").read_bytes()
     (held / "go").touch()

@@ -96,4 +96,3 @@ rule figures:
 rule companions:
     input:
         files_of_figures(of_notebooks=False),
-        rules.coexistence.output,

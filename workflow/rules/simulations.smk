@@ -19,22 +19,3 @@ rule simulation:
     script:
         "../scripts/simulate.py"
 
-
-# Where chaos and periodic motions coexist: mean lifetimes of the chaos, tori on both sides of Neimark-Sacker points.
-rule coexistence:
-    output:
-        lifetimes="results/regimes/lifetimes.csv",
-        tori="results/regimes/tori.csv",
-        onsets="results/regimes/torus_onsets.csv",
-    params:
-        system=system_of(config["regimes"]["coexistence"]["case"]),
-        lifetimes=config["regimes"]["coexistence"]["lifetimes"],
-        tori=config["regimes"]["coexistence"]["tori"],
-        observation=config["regimes"]["observation"],
-        code=FIGURES,
-    log:
-        "results/logs/regimes/coexistence.log",
-    benchmark:
-        "results/benchmarks/regimes/coexistence.tsv"
-    script:
-        "../scripts/coexistence.py"

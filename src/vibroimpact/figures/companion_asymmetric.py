@@ -34,7 +34,7 @@ SPEC = {
     "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
     "systems": True,
     "settings": {"epsilon": "regimes.asymmetric.epsilon", "values": "regimes.asymmetric.values",
-        "fit_below": "regimes.asymmetric.fit_below", "C_max": "stability.companion_10_04.C_max"},
+        "fit_below": "regimes.asymmetric.fit_below", "C_max": "regimes.asymmetric.C_max"},
     "inputs": {"orbits": "results/orbits.csv"},
     "columns": {
         "panel": {"meaning": "manifold, or the case"},

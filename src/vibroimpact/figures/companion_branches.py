@@ -26,21 +26,16 @@ from vibroimpact.regimes.families import (
     FixedPoints,
     SymmetricOrbits,
 )
-from vibroimpact.regimes.lifetimes import bracket
 from vibroimpact.regimes.settling import Observation, settle
 
 SPEC = {
     "title": "Branches of 1:1 responses and what attracts",
     "caption": "Branches of 1:1 responses over the forcing, from the theory and exact: stable bold solid, unstable "
         "dashed. Marked are their folds and ends, and where stability is lost; all other special points are in "
-        "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end. Shaded: "
-        "chaos and the stable asymmetric pair coexist, from the Neimark-Sacker point up to the crisis (dotted). Below: "
-        "the mean lifetime of the chaotic transient and its standard errors; triangles: lower bounds, none left it.",
+        "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end.",
     "alt": "Curves of the saw-tooth amplitude C2 over the forcing amplitude: theory and exact branches, stable bold "
         "solid and unstable dashed, symmetric ones blue and asymmetric ones red, both named, with marked special "
-        "points, thin vertical lines at the cases, and dots where simulations from several starts end. Below, the mean "
-        "lifetime of the chaotic transient over one of the amplitudes, which grows without bound towards the crisis; "
-        "the window of coexistence is shaded.",
+        "points, thin vertical lines at the cases, and dots where simulations from several starts end.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
         "many starts, until it repeats",
     "case": "regimes.branches.case",
@@ -48,27 +43,21 @@ SPEC = {
     "settings": {"paths": "regimes.branches.paths", "longest_step": "regimes.branches.longest_step",
         "seeds": "regimes.branches.seeds", "attractors": "regimes.branches.attractors",
         "observation": "regimes.observation"},
-    "inputs": {"lifetimes": "results/regimes/lifetimes.csv"},
     "columns": {
-        "panel": {"meaning": "a letter for each path, in the order of the config, or mean life"},
-        "series": {"meaning": "family of the branch, attractor, mean life, the window of coexistence, or a case",
-            "values": ["symmetric orbit", "asymmetric orbit", "fixed point", "attractor", "mean life", "coexistence",
-            "case"]},
+        "panel": {"meaning": "a letter for each path, in the order of the config"},
+        "series": {"meaning": "family of the branch, attractor, or a case",
+            "values": ["symmetric orbit", "asymmetric orbit", "fixed point", "attractor", "case"]},
         "label": {"meaning": "of a node of a branch what is special about it, of an attractor its regime, of a case "
-            "its name, else the path; blank for other nodes", "unit": "text", "compared": {"attractor": "outcomes"}},
+            "its name; blank for other nodes", "unit": "text", "compared": {"attractor": "outcomes"}},
         "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special points, "
             "from 0", "unit": "number", "compared": "algebra"},
-        "p": {"compared": {"attractor": "algebra", "mean life": "algebra", "others": "roots"}},
+        "p": {"compared": {"attractor": "algebra", "others": "roots"}},
         "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11); of an attractor that of half the ball's mean way per "
             "cycle", "compared": {"attractor": "sample", "others": "roots"}},
         "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, Masri's "
             "analysis and the slow flow say so", "unit": "true or false"},
         "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always True",
             "unit": "true or false"},
-        "life": {"meaning": "mean lifetime of the transient at `p`, as in `lifetimes.csv`", "unit": "forcing periods",
-            "compared": "life"},
-        "uncertainty": {"meaning": "its standard error", "unit": "forcing periods", "compared": "life"},
-        "least": {"meaning": "its lower bound where no start escaped", "unit": "forcing periods", "compared": "life"},
     },
     "tables": {
         "special_points": {
@@ -126,18 +115,9 @@ DOTS = {
 }
 """Looks of the regimes in which simulated starts end."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
-BOTH = {"color": "0.9", "linewidth": 0, "label": "chaos and the\nstable pair\ncoexist"}
-CRISIS = {"color": BLACK, "linestyle": (0, (1, 1.2)), "linewidth": 1.0, "label": "crisis"}
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
-LIFE = {"linestyle": "none", "color": BLACK, "marker": "o", "markersize": 3.4, "label": "mean lifetime"}
-BARS = {"capsize": 2.0, "elinewidth": 0.8}
-LEAST = {"linestyle": "none", "marker": "^", "color": "white", "markeredgecolor": BLACK, "markersize": 4.4}
-LEAST |= {"label": "its lower bound"}
-LIVES = "mean life"
 NO_SPECIAL_POINT = "none"
 COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
-LIFE_RANGE = (30.0, 1e6)
-"""Fixed, so that the axis does not depend on the error of the shortest life."""
 HUES = {FixedPoints.name: BLACK, SymmetricOrbits.name: "#004488", AsymmetricOrbits.name: "#BB5566"}
 """Blue and red of Paul Tol's high-contrast palette, which colour-blind readers and grey prints tell apart."""
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
@@ -152,7 +132,6 @@ def compute(
     seeds: int,
     attractors: dict,
     observation: dict,
-    lifetimes: pd.DataFrame,
     systems: dict,
 ) -> dict:
     """Branches along each path, their special points, and attractors from several starts.
@@ -162,12 +141,10 @@ def compute(
         longest_step, seeds: of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
         attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
         observation: arguments of `regimes.settling.Observation`.
-        lifetimes: of `coexistence.compute_lifetimes`; those along one of the paths are drawn.
         systems: case -> system; those on a path are marked.
 
     Returns "csv" (columns panel, series, label, branch, piece, p, C1, C2, stable, admissible; of an attractor C belongs
-    to half of the ball's mean path per cycle; of a case, named by the label, the p where it lies; rows of the panel
-    "mean life", labelled by the path, with life, uncertainty, least, and of their coexistence and crisis in p),
+    to half of the ball's mean path per cycle; of a case, named by the label, the p where it lies),
     "special_points" (path, family, kind, p, C1, C2; a path without any has a row of the kind "none"), and "onsets"
     (rows of `regimes.onset.onsets`).
     """
@@ -189,8 +166,6 @@ def compute(
     along = special["panel"].map({panel: " ".join(s["along"]) for panel, s in zip("abcdefgh", paths, strict=False)})
     special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
     special = _every_path(special[["path", "family", "kind", "p", "C1", "C2", "admissible"]], paths)
-    drawn = lifetimes[lifetimes["path"].isin(special["path"])]
-    table = join([table, *_lives(drawn), *_coexistence(drawn, special)])
     return {"csv": table, "special_points": special, "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS)}
 
 
@@ -209,24 +184,6 @@ def _every_path(special, paths):
     if without:
         special = pd.concat([special, pd.DataFrame({"path": without, "kind": NO_SPECIAL_POINT})], ignore_index=True)
     return special.sort_values("path", key=lambda names: names.map(order.index), kind="stable")
-
-
-def _lives(lifetimes):
-    for name, rows in lifetimes.groupby("path"):
-        yield curve(LIVES, LIVES, label=name, **{key: rows[key] for key in ("p", "life", "uncertainty", "least")})
-
-
-def _coexistence(lifetimes, special):
-    """Return the range where chaos and the asymmetric pair both attract: from the pair's last Neimark-Sacker point to
-    the crisis.
-    """
-    for name, rows in lifetimes.groupby("path"):
-        crisis = np.mean(bracket(rows["p"], rows["escapes"]))
-        mine = special[(special["path"] == name) & special["admissible"].eq(True)]
-        pair = mine[mine["family"] == AsymmetricOrbits.name]
-        ends = pair[_is(pair, NEIMARK_SACKER) & (pair["p"] < crisis)]["p"]
-        if len(ends):
-            yield curve(LIVES, "coexistence", label=name, p=[ends.max(), crisis])
 
 
 def _pieces(panel, path, number, branch):
@@ -259,34 +216,25 @@ def _attractors(panel, path, interval, observation, values, starts, seed):
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: C_2 along each path; stable bold solid, unstable dashed, special points marked."""
     table, special = tables["csv"], tables["special_points"]
-    panels = [panel for panel in dict.fromkeys(table["panel"]) if panel != LIVES]
-    along = dict(zip(panels, dict.fromkeys(special["path"]), strict=True))
-    figure = new_figure(DOUBLE_COLUMN, 148.0)
-    grid = figure.subplots(3, len(panels), sharex="col", squeeze=False, height_ratios=(3, 3, 2))
-    lives, letters = table[table["panel"] == LIVES], iter("abcdefghijklmnop"[2 * len(panels) :])
-    for axes in grid[:2].flat:
-        axes.label_outer()
-    for column, panel in enumerate(panels):
+    panels = list(dict.fromkeys(table["panel"]))
+    figure = new_figure(DOUBLE_COLUMN, 118.0)
+    grid = figure.subplots(2, len(panels), sharex="col", squeeze=False)
+    for column, (panel, along) in enumerate(zip(panels, dict.fromkeys(special["path"]), strict=True)):
         mine = table[table["panel"] == panel]
         attractors, theory = mine[mine["series"] == "attractor"], mine["series"] == FixedPoints.name
-        grid[0, column].set(xlim=(attractors["p"].min(), attractors["p"].max()), ylim=(0.0, 2.6))
-        grid[1, column].set(ylim=(0.0, 2.6))
+        for row, what in enumerate(("theory", "exact")):
+            axes = grid[row, column]
+            axes.set(xlim=(attractors["p"].min(), attractors["p"].max()), ylim=(0.0, 2.6), ylabel="$C_2$")
+            letter_panel(axes, "abcdefgh"[row * len(panels) + column])
+            axes.set_title(what, loc="right", pad=3)
         _attractor_dots(grid[1, column], attractors)
-        _cases(*grid[:2, column], mine[mine["series"] == "case"])
-        _life(*grid[1:, column], lives[lives["label"] == along[panel]], along[panel], letters)
+        _cases(*grid[:, column], mine[mine["series"] == "case"])
         _branches(grid[0, column], mine[theory])
         _branches(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
-        for row, what in enumerate(("theory", "exact")):
-            letter_panel(grid[row, column], "abcdefgh"[row * len(panels) + column])
-            grid[row, column].set_title(what, loc="right", pad=3)
-    for axes in grid[:2, 0]:
-        axes.set_ylabel("$C_2$")
-    empty = [axes for axes in grid[2] if not axes.axison]
-    key = {"handles": _legend(grid[:2].flat), "fontsize": 8.5, "columnspacing": 1.0}
-    if empty:  # below a path without a known life there is room
-        empty[-1].legend(**key, loc="lower center", ncols=2)
-    else:
-        figure.legend(**key, loc="outside lower center", ncols=4)
+        grid[1, column].set_xlabel(_axis(along))
+    for axes in grid.flat:
+        axes.label_outer()
+    figure.legend(handles=_legend(grid.flat), fontsize=8.5, columnspacing=1.0, loc="outside lower center", ncols=4)
     return figure
 
 
@@ -304,29 +252,6 @@ def _cases(theory, exact, cases):
             rotation=90,
             fontsize=8.5,
         )
-
-
-def _life(exact, axes, lives, along, letters):
-    """Mean lives below the other panels of a path, and the window of coexistence; nothing where none is known."""
-    if lives.empty:
-        axes.set_axis_off()
-        exact.set_xlabel(_axis(along))
-        exact.tick_params(labelbottom=True)
-        return
-    window = lives[lives["series"] == "coexistence"]["p"]
-    for shaded in (exact, axes) if len(window) else ():
-        shaded.axvspan(*window, zorder=0, **BOTH)
-        shaded.axvline(window.iloc[-1], zorder=0.5, **CRISIS)
-    for p, place, side, style in zip(window, (-4, 3), ("right", "left"), (BOTH, CRISIS), strict=False):
-        name = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points", "va": "top", "fontsize": 8.5}
-        axes.annotate(style["label"], (p, 1), (place, -4), ha=side, **name)
-    measured, least = lives[lives["life"].notna()], lives[lives["least"].notna()]
-    axes.errorbar(measured["p"], measured["life"], yerr=measured["uncertainty"], **LIFE, **BARS)
-    axes.plot(least["p"], least["least"], **LEAST)
-    axes.set(yscale="log", ylabel="mean lifetime, cycles", xlabel=_axis(along), ylim=LIFE_RANGE)
-    axes.legend(handles=[Line2D([], [], **LIFE), Line2D([], [], **LEAST)], loc="center right", fontsize=8.5)
-    letter_panel(axes, next(letters))
-    axes.set_title("lifetime of the chaotic transient", loc="right", pad=3)
 
 
 def _branches(axes, table):

@@ -3,82 +3,104 @@
 Without it they could not integrate the system at all: after chatter there is a ball at rest on a wall, which none of
 them knows. A ball whose rebound is slower than `slow` sticks if the box presses it against the wall; the infinitely
 many impacts left out shift the state by less than their third power. Nothing here checks what the integrator
-returns: a ball that it lets through the wall goes on beyond it.
+returns: a ball that it lets through the wall goes on beyond it. Compiled; q as in `right_hand_side`.
 """
 
-from vibroimpact.integrators.right_hand_side import accelerations, coefficients
-from vibroimpact.system.restitution import after_impact
-from vibroimpact.system.state import BALLS, BOXES
+import math
+
+import numpy as np
+
+from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
+
+SLOWEST = 1e-6
+"""A slower rebound is not followed: what this leaves out, epsilon times its third power, is below rounding."""
+ROOM = 64
+"""Impacts that a run has room for at first."""
+
+
+@inlined()
+def acceleration(tau, s, q, walls, i):
+    """X_i'' in the state s (8,) at a time."""
+    return accelerations(math.sin(q[8] * tau), s, q, walls)[i]
+
+
+@inlined()
+def guard(tau, s, q, walls, i):
+    """Function that falls below zero at the next event of module i: its gap, or the push on a ball that sticks."""
+    if walls[i] != 0.0:
+        return walls[i] * acceleration(tau, s, q, walls, i)
+    return 1.0 - abs(s[2 * i] - s[2 * i + 1])
+
+
+@kept()
+def resolve(tau, s, q, walls, due, rows, count, slow):
+    """Change state s (8,) and walls (2,) at an event of module `due`; the rows of impacts, and how many there are.
+
+    A row is [time, module, wall, speed]. At a start `due` is -1. slow: see the module.
+    """
+    for i in range(2):
+        x = 2 * i
+        gap, speed = s[x] - s[x + 1], s[x + 4] - s[x + 5]
+        wall = 1.0 if gap > 0.0 else -1.0
+        if walls[i] != 0.0:
+            walls[i] = 0.0 if i == due else walls[i]
+        elif i == due or abs(gap) >= 1.0:
+            if wall * speed > 0.0:
+                if count == len(rows):
+                    rows = np.concatenate((rows, np.empty_like(rows)))
+                rows[count, 0], rows[count, 1], rows[count, 2], rows[count, 3] = tau, i + 1.0, wall, wall * speed
+                count += 1
+                impulse = (1.0 + q[10]) / (1.0 + q[9]) * speed
+                s[x + 1] = s[x] - wall
+                s[x + 4] -= q[9] * impulse
+                s[x + 5] += impulse
+            if abs(s[x + 4] - s[x + 5]) <= slow and wall * acceleration(tau, s, q, walls, i) > 0.0:
+                s[x + 4] = s[x + 5] = (s[x + 4] + q[9] * s[x + 5]) / (1.0 + q[9])
+                walls[i] = wall
+    for i in range(2):  # an impact in one module may pull the ball off the wall in the other
+        if walls[i] != 0.0 and guard(tau, s, q, walls, i) < 0.0:
+            walls[i] = 0.0
+    return rows, count
+
+
+@inlined()
+def first_look(tau, s, q, walls, step):
+    """A time to look at the gaps first: a step, or half of the shortest hop that has just begun on a wall."""
+    for i in range(2):
+        x = 2 * i
+        gap, speed = s[x] - s[x + 1], s[x + 4] - s[x + 5]
+        wall = 1.0 if gap > 0.0 else -1.0
+        if walls[i] == 0.0 and abs(gap) > 1.0 - 1e-12 and wall * speed < 0.0:
+            push = wall * acceleration(tau, s, q, walls, i)
+            step = min(step, -wall * speed / push) if push > 0.0 else step
+    return step
+
+
+@inlined()
+def newton_or_middle(t, value, slope, low, high):
+    """The next time to try for a zero that lies between low and high, where the value falls below zero."""
+    after = t - value / slope if slope != 0.0 else math.inf
+    return after if low < after < high else 0.5 * (low + high)
 
 
 class Contacts:
-    """The discrete part of a hybrid motion: walls (wall that each ball sticks to, or 0) and the impacts so far."""
+    """The discrete part of a run by an integrator without a contact logic of its own.
+
+    numbers: `right_hand_side.coefficients`; walls: (2,), the wall that each ball sticks to, or 0; impacts: rows (time,
+    module, wall, speed) so far.
+    """
 
     def __init__(self, system, slow: float):
-        self.system, self.slow = system, slow
-        self.numbers = coefficients(system)
-        self.walls = [0, 0]
-        self.impacts = []
-
-    @property
-    def stuck(self) -> tuple[float, float]:
-        """1.0 for each ball that sticks, else 0.0."""
-        return float(self.walls[0] != 0), float(self.walls[1] != 0)
+        self.system, self.slow, self.numbers = system, slow, coefficients(system)
+        self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
         """Balls that rest on a wall at the start stick if they are pressed against it."""
-        for i in range(2):
-            gap, speed = _relative(s, i)
-            if abs(gap) >= 1.0:
-                wall = 1 if gap > 0 else -1
-                if wall * speed > 0.0:
-                    self._impact(tau, s, i, wall)
-                self._rest(tau, s, i, wall)
+        self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
         """Change the state (8,) in place at an event of the modules `due`: a wall is met, or a force vanishes."""
-        for i in range(2):
-            gap, speed = _relative(s, i)
-            wall = 1 if gap > 0 else -1
-            if self.walls[i]:
-                if i in due:
-                    self.walls[i] = 0
-            elif (i in due or abs(gap) >= 1.0) and wall * speed > 0.0:
-                self._impact(tau, s, i, wall)
-                self._rest(tau, s, i, wall)
-        for i in range(2):  # an impact in one module may pull the ball off the wall in the other
-            if self.walls[i] and self.press(tau, s, i, self.walls[i]) < 0.0:
-                self.walls[i] = 0
-
-    def press(self, tau, s, i, wall):
-        """Acceleration with which box i presses a ball at rest on a wall against it; negative: it leaves."""
-        return wall * accelerations(tau, s, self.numbers, *self.stuck)[i]
-
-    def shortest_hop(self, tau, s):
-        """Duration of the shortest hop that has just begun on a wall, inf if there is none."""
-        hops = [float("inf")]
-        for i in range(2):
-            gap, speed = _relative(s, i)
-            wall = 1 if gap > 0 else -1
-            if not self.walls[i] and abs(gap) > 1.0 - 1e-12 and wall * speed < 0.0:
-                press = self.press(tau, s, i, wall)
-                hops.append(-2.0 * wall * speed / press if press > 0.0 else float("inf"))
-        return min(hops)
-
-    def _impact(self, tau, s, i, wall):
-        x, y = BOXES[i], BALLS[i]
-        self.impacts.append((tau, i + 1, wall, wall * (s[4 + x] - s[4 + y])))
-        s[y] = s[x] - wall
-        s[4 + x], s[4 + y] = after_impact(self.system.epsilon, self.system.kappa, s[4 + x], s[4 + y])
-
-    def _rest(self, tau, s, i, wall):
-        x, y = 4 + BOXES[i], 4 + BALLS[i]
-        if abs(s[x] - s[y]) <= self.slow and self.press(tau, s, i, wall) > 0.0:
-            epsilon = self.system.epsilon
-            s[x] = s[y] = (s[x] + epsilon * s[y]) / (1.0 + epsilon)
-            self.walls[i] = wall
-
-
-def _relative(s, i):
-    """W_i and W_i'."""
-    return s[BOXES[i]] - s[BALLS[i]], s[4 + BOXES[i]] - s[4 + BALLS[i]]
+        for module in due:
+            rows, count = resolve(tau, s, self.numbers, self.walls, module, np.empty((2, 4)), 0, self.slow)
+            self.impacts += map(tuple, rows[:count])

@@ -2,22 +2,19 @@
 
 The best form found: the forcing phase as two states (no transcendental function in the recursion), one event per wall
 with its direction, no compact mode, one integrator for each contact state of the balls, all parameters at run time so
-that it is compiled once.
+that it is compiled once. After an event heyoka is blind to the same event for a while, and a shorter hop would end
+unseen: no rebound slower than SLOWEST is followed.
 """
 
 from functools import lru_cache
 
 import numpy as np
 
-from vibroimpact.integrators.contact import Contacts
+from vibroimpact.integrators.contact import SLOWEST, Contacts
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import NAMES, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.state import NAMES as STATE
-
-SLOWEST = 1e-6
-"""A slower rebound is not followed: after an event heyoka is blind to the same event for a while, and a shorter hop
-would end unseen. What this leaves out, epsilon times its third power, is below rounding."""
 
 try:
     import heyoka

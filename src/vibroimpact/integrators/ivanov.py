@@ -86,7 +86,7 @@ def _rates(tau, z, q, k, boxes, ways, d):
         sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
         d[4 * i] = (1.0 + k * ways[i] * p) * v
         s[2 * i], s[2 * i + 4] = z[4 * i + 2] + share * sign * p, z[4 * i + 3] + share * sign * d[4 * i]
-    a = accelerations(tau, s, q, 0.0, 0.0)
+    a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
     for i in range(2):
         sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
         d[4 * i + 1] = sign * a[i] / (1.0 + k * ways[i] * p) - k * ways[i] * v * v

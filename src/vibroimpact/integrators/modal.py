@@ -9,17 +9,17 @@ from functools import lru_cache
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import kept
-from vibroimpact.integrators.compiled_contact import (
+from vibroimpact.integrators.contact import (
     ROOM,
+    SLOWEST,
     acceleration,
     first_look,
     guard,
-    inlined,
     newton_or_middle,
     resolve,
 )
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import coefficients
+from vibroimpact.integrators.right_hand_side import coefficients, inlined
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 WORST = 1e8
@@ -142,7 +142,7 @@ def _march(q, counts, all_rates, all_shapes, inverses, s, tau, end, step, limit)
     before, there, event, found = np.empty(8), np.empty(8), np.empty(8), np.empty(8)
     for m in range(4):
         _turn(all_rates[m], counts[m], step, ahead[m])
-    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0)
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)
     looks = 0
     while tau < end and looks < limit:
         m = (1 if walls[0] != 0.0 else 0) + (2 if walls[1] != 0.0 else 0)
@@ -175,7 +175,7 @@ def _march(q, counts, all_rates, all_shapes, inverses, s, tau, end, step, limit)
         if due >= 0:
             s[:] = found
             tau += first
-            rows, noted = resolve(tau, s, q, walls, due, rows, noted)
+            rows, noted = resolve(tau, s, q, walls, due, rows, noted, SLOWEST)
         else:
             s[:] = there
             tau = end if last else tau + high

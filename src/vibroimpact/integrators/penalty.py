@@ -116,7 +116,7 @@ def force(gap, speed, law, damping):
 @kept()
 def _rates(tau, s, q, law, dampings, d):
     """Derivative of the state, into d."""
-    a = accelerations(tau, s, q, 0.0, 0.0)
+    a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
     for i in range(2):
         push = force(s[2 * i] - s[2 * i + 1], s[2 * i + 4] - s[2 * i + 5], law, dampings[i])
         d[2 * i], d[2 * i + 1] = s[2 * i + 4], s[2 * i + 5]

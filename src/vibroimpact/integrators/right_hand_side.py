@@ -1,6 +1,7 @@
 """(10.2) between impacts as the general-purpose integrators get it: a compiled right-hand side in the public order."""
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -10,6 +11,11 @@ from vibroimpact.system.state import BALLS, BOXES
 
 NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
+inlined = partial(kept, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
+"""For what runs at every step: code from a cache is inlined only where it is told to be."""
+unfolded = partial(kept, inline="always")
+"""For what rounds as its caller does: SciPy's integrators get no contracted products."""
+
 
 def coefficients(system) -> np.ndarray:
     """The numbers of (10.2), shape (11,), in the order of NAMES."""
@@ -18,22 +24,32 @@ def coefficients(system) -> np.ndarray:
     return np.concatenate([*numbers, [system.Omega, system.epsilon, system.kappa]])
 
 
-@kept()
-def accelerations(tau, s, q, stuck1, stuck2):
-    """X1'' and X2''; a ball that sticks moves with its box as one mass 1 + epsilon."""
-    sine = math.sin(q[8] * tau)
+@unfolded()
+def accelerations(sine, s, q, walls):
+    """X1'' and X2'' in the state s (8,) at a sine of the forcing phase.
+
+    walls: for each ball the wall it sticks to, or 0; such a ball moves with its box as one mass 1 + epsilon.
+    """
     a1 = q[6] * sine - q[0] * s[0] - q[1] * s[2] - q[3] * s[4] - q[4] * s[6]
     a2 = q[7] * sine - q[1] * s[0] - q[2] * s[2] - q[4] * s[4] - q[5] * s[6]
-    return a1 / (1.0 + q[9] * stuck1), a2 / (1.0 + q[9] * stuck2)
+    return (a1 / (1.0 + q[9]) if walls[0] != 0.0 else a1), (a2 / (1.0 + q[9]) if walls[1] != 0.0 else a2)
+
+
+@unfolded()
+def derivative(sine, s, q, walls, d):
+    """Write the derivative of the state s (8,) to d (8,)."""
+    a1, a2 = accelerations(sine, s, q, walls)
+    for k in range(4):
+        d[k] = s[4 + k]
+    d[4], d[5] = a1, a1 if walls[0] != 0.0 else 0.0
+    d[6], d[7] = a2, a2 if walls[1] != 0.0 else 0.0
 
 
 @kept()
-def rates(tau, s, q, stuck1, stuck2):
-    """Derivative of the state, shape (8,), in a contact state of the balls."""
-    a1, a2 = accelerations(tau, s, q, stuck1, stuck2)
+def rates(tau, s, q, walls):
+    """Derivative of the state, shape (8,), at a time."""
     d = np.empty(8)
-    d[0], d[1], d[2], d[3] = s[4], s[5], s[6], s[7]  # a slice at once would take 3 s more to compile
-    d[4], d[5], d[6], d[7] = a1, stuck1 * a1, a2, stuck2 * a2
+    derivative(math.sin(q[8] * tau), s, q, walls, d)
     return d
 
 

@@ -8,17 +8,16 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import kept
-from vibroimpact.integrators.compiled_contact import (
+from vibroimpact.integrators.contact import (
     ROOM,
-    accelerations,
+    SLOWEST,
     first_look,
     guard,
-    inlined,
     newton_or_middle,
     resolve,
 )
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import coefficients
+from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
 
 TRIES, NEAR = 60, 1e-14
 """Steps of Newton's method for an event at most, and the last one."""
@@ -41,26 +40,16 @@ class RungeKutta4(Method):
 
 
 @inlined()
-def _rates(sine, s, q, walls, d):
-    """Write the derivative of the state s (8,)."""
-    a1, a2 = accelerations(sine, s, q, walls)
-    for k in range(4):
-        d[k] = s[4 + k]
-    d[4], d[5] = a1, a1 if walls[0] != 0.0 else 0.0
-    d[6], d[7] = a2, a2 if walls[1] != 0.0 else 0.0
-
-
-@inlined()
 def _step(tau, s, q, walls, h, slopes, there):
     """Write the state after one step of length h; slopes (4, 8) is memory for the stages."""
     omega = q[8]
     middle = math.sin(omega * (tau + 0.5 * h))
-    _rates(math.sin(omega * tau), s, q, walls, slopes[0])
+    derivative(math.sin(omega * tau), s, q, walls, slopes[0])
     for stage in range(1, 4):
         part = h if stage == 3 else 0.5 * h
         for k in range(8):
             there[k] = s[k] + part * slopes[stage - 1, k]
-        _rates(math.sin(omega * (tau + h)) if stage == 3 else middle, there, q, walls, slopes[stage])
+        derivative(math.sin(omega * (tau + h)) if stage == 3 else middle, there, q, walls, slopes[stage])
     for k in range(8):
         there[k] = s[k] + h / 6.0 * (slopes[0, k] + 2.0 * (slopes[1, k] + slopes[2, k]) + slopes[3, k])
 
@@ -86,7 +75,7 @@ def _march(q, s, tau, end, step, limit):
     """The state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)
-    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0)
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)
     steps = 0
     while tau < end and steps < limit:
         steps += 1
@@ -103,5 +92,5 @@ def _march(q, s, tau, end, step, limit):
         s[:] = found if due >= 0 else there
         tau = end if last else tau + first
         if due >= 0:
-            rows, noted = resolve(tau, s, q, walls, due, rows, noted)
+            rows, noted = resolve(tau, s, q, walls, due, rows, noted, SLOWEST)
     return s, rows[:noted], steps, tau

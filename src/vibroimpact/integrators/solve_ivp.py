@@ -4,9 +4,9 @@ import numpy as np
 from scipy.integrate import Radau, solve_ivp
 from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
-from vibroimpact.integrators.contact import Contacts
+from vibroimpact.integrators.contact import Contacts, first_look, guard
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import accelerations, jacobian, rates
+from vibroimpact.integrators.right_hand_side import jacobian, rates
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
@@ -48,7 +48,7 @@ class SolveIvp(Method):
             if steps >= limit:
                 return failed(UNFINISHED, f"{limit} steps reach tau = {tau:.6g}", steps, evaluations, contacts.impacts)
             options = {"jac": jacobian(system, [w != 0 for w in contacts.walls])} if self._implicit else {}
-            first = 0.5 * contacts.shortest_hop(tau, s)
+            first = first_look(tau, s, contacts.numbers, contacts.walls, np.inf)
             if first < end - tau:
                 options["first_step"] = max(first, 1e-14 * (1.0 + abs(tau)))
             try:
@@ -57,7 +57,7 @@ class SolveIvp(Method):
                     (tau, end),
                     s,
                     method=self._implicit or self.name,
-                    args=(contacts.numbers, *contacts.stuck),
+                    args=(contacts.numbers, contacts.walls),
                     events=[event for i, wall in enumerate(contacts.walls) for event in _events(i, wall)],
                     rtol=setting,
                     atol=ABSOLUTE * setting,
@@ -86,15 +86,15 @@ def _events(i, wall):
     x, y = BOXES[i], BALLS[i]
     if wall:
 
-        def force(tau, s, numbers, stuck1, stuck2):
-            return wall * accelerations(tau, s, numbers, stuck1, stuck2)[i]
+        def force(tau, s, numbers, walls):
+            return guard(tau, s, numbers, walls, i)
 
         return [_terminal(force), _terminal(force)]
 
-    def lower(tau, s, numbers, stuck1, stuck2):
+    def lower(tau, s, numbers, walls):
         return 1.0 + s[x] - s[y]
 
-    def upper(tau, s, numbers, stuck1, stuck2):
+    def upper(tau, s, numbers, walls):
         return 1.0 - s[x] + s[y]
 
     return [_terminal(lower), _terminal(upper)]

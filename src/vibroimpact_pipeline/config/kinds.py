@@ -20,6 +20,8 @@ def needs(fits, what: str) -> AfterValidator:
 
 NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
 TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
+HIGHEST = 1.69
+"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
 WORDS = {
     CASE: "a name of a case: a small letter, then 1 to 39 small letters, digits, - and _",
     NAME: "a name: a small letter, then 1 to 39 small letters, digits and _",

@@ -17,8 +17,6 @@ from vibroimpact_pipeline.specs import specs
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
-HIGHEST = 1.69
-"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 WORKFLOW = ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")
@@ -98,16 +96,10 @@ class Case(Section):
     simulation: Simulation
 
 
-class Companion1004(Section):
-    """Companion of figure 10.4."""
-
-    C_max: float = Field(ge=HIGHEST, le=100, description="Right end of the axis, beyond the derived limits (1.68)")
-
-
 class Companion1005(Section):
     """Companion of figure 10.5."""
 
-    C_range: kinds.around(0.6, HIGHEST) = Field(description="Ends of the axis, which holds the derived limits (1.68)")
+    C_range: kinds.around(0.6, kinds.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
 
 
 class VerdictGrid(kinds.ForceGrid):
@@ -123,9 +115,8 @@ class VerdictGrid(kinds.ForceGrid):
 
 
 class Stability(Section):
-    """Axes of the companions of figures 10.4 and 10.5, and the grid for judging the criteria."""
+    """The axis of the companion of figure 10.5, and the grid for judging the criteria."""
 
-    companion_10_04: Companion1004
     companion_10_05: Companion1005
     verdict_grid: VerdictGrid
 
@@ -204,9 +195,6 @@ class Config(Section):
         for place, section, case in sections(self):
             if hasattr(section, "case") and case not in self.cases:
                 yield (*place, "case"), f"unknown case {case!r}{hint(case, self.cases)}"
-        if (drawn := self.regimes.coexistence.case) != (followed := self.regimes.branches.case):
-            what = f"{drawn!r} is not {followed!r}, over whose branches it is drawn"
-            yield ("regimes", "coexistence", "case"), what
         yield from self._unsound().items()
         for name, sweep in self.sweeps.items():
             for place, what in [*_not_drawn(name, sweep), *sweep.costs(self.regimes.observation)]:

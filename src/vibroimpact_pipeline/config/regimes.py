@@ -92,47 +92,6 @@ class Branches(Section):
     ]
 
 
-class Lifetimes(Line, kinds.Starts):
-    """Mean lifetime of the chaotic transient."""
-
-    values: kinds.items(kinds.Number, 1, 1000, "What they are set to")
-    discarded: kinds.Cycles = Field(description="Cycles that do not count [forcing periods]")
-    step: WatchedCycles = Field(description="Starts are looked at every so many cycles from then on [forcing periods]")
-    longest: kinds.Cycles = Field(description="A start is given up after so many [forcing periods]")
-
-    rules: ClassVar = [
-        ("longest", "longest >= discarded + step"),
-        ("longest", f"len(values) * starts * longest <= {CYCLES}"),
-        ("step", f"starts * step <= {HELD}"),
-    ]
-
-
-class TorusPath(Line):
-    """Values on both sides of a Neimark-Sacker point."""
-
-    values: kinds.items(kinds.Number, 2, 1000, "What they are set to")
-
-
-class Tori(Section):
-    """The size of the tori next to Neimark-Sacker points."""
-
-    paths: kinds.items(TorusPath, 1, 10, "Values on both sides of Neimark-Sacker points")
-    cycles: int = Field(ge=2, le=1_000_000, description="Cycles that a torus is seen for [forcing periods]")
-    discarded: kinds.Cycles = Field(description="Cycles before those [forcing periods]")
-
-    rules: ClassVar = [
-        ("discarded", f"2 * sum(len(path.values) for path in paths) * (discarded + cycles) <= {CYCLES}"),
-    ]
-
-
-class Coexistence(Section):
-    """Where chaos and periodic motions coexist."""
-
-    case: kinds.CaseName
-    lifetimes: Lifetimes
-    tori: Tori
-
-
 class Modulation(Exponent, kinds.Starts):
     """Modulated responses in numbers."""
 
@@ -168,6 +127,12 @@ class EpsilonRange(Section):
         return [{"epsilon": value} for value in self.epsilon]
 
 
+class Asymmetric(EpsilonRange):
+    """Asymmetric pairs towards small epsilon, over the manifold."""
+
+    C_max: float = Field(ge=kinds.HIGHEST, le=100, description="Right end of the manifold, beyond the derived limits")
+
+
 class EpsilonLimit(EpsilonRange):
     """Theory against exact responses as epsilon tends to 0."""
 
@@ -195,11 +160,10 @@ class Regimes(Section):
 
     observation: Observation
     branches: Branches
-    coexistence: Coexistence
     modulation: Modulation
     basins: Basins
     epsilon: EpsilonLimit
-    asymmetric: EpsilonRange
+    asymmetric: Asymmetric
     ladder: Ladder
     decay: Decay
 

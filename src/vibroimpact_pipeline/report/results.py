@@ -137,7 +137,9 @@ class Results:
         """
         sweep, special = self.table("force_sweep/force_sweep.csv"), self.table("regimes/special_points.csv")
         stable = sweep["fast_and_slow"].eq(STABLE).groupby(sweep["value"]).sum()
-        special = special[(special["path"] == "f20_hat") & (special["family"] == "fixed point") & special["admissible"]]
+        special = special[(special["path"] == "f20_hat") & special["admissible"]]
+        onsets = special[(special["family"] == "asymmetric orbit") & (special["kind"] == "Neimark-Sacker")]
+        special = special[special["family"] == "fixed point"]
         found = []
         for low, high in pairwise(stable.index):
             if stable[low] != stable[high]:
@@ -145,6 +147,5 @@ class Results:
                 found += [
                     {"value": row.p, "kind": row.kind, "stable": int(stable[high])} for row in between.itertuples()
                 ]
-        onsets = self.table("regimes/torus_onsets.csv").query("path == 'f20_hat'")["onset"]
-        found += [{"value": onset, "kind": "torus", "stable": None} for onset in onsets]
+        found += [{"value": onset, "kind": "torus", "stable": None} for onset in onsets["p"].nsmallest(1)]
         return sorted(found, key=lambda station: station["value"])

@@ -14,8 +14,7 @@ that is given, and counts no references to it: a count is a locked operation and
 are put away.
 
 Compiled code is kept by the content of all sources that may be compiled into it: Numba looks at the file of a function,
-not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation. Each file ends with a
-sum of its content, which is checked before Numba reads it, since Numba would run a damaged one.
+not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation.
 """
 
 import hashlib
@@ -24,11 +23,10 @@ import sys
 import tempfile
 from contextlib import contextmanager
 from functools import cache, partial
-from io import BytesIO
 from pathlib import Path
 
 from numba import config, njit
-from numba.core import caching, event
+from numba.core import event
 
 SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "what certificates, energies and Jacobians of runs need, some 10 s"
@@ -76,7 +74,7 @@ def kept(**options):
     """Return Numba's `njit` for a function whose compiled code is cached on disk."""
 
     def decorate(function):
-        with _numba_keeping_sound_code_in(code_folder(Path(function.__code__.co_filename).parent)):
+        with _numba_caching_in(code_folder(Path(function.__code__.co_filename).parent)):
             return njit(cache=True, **options)(function)
 
     return decorate
@@ -89,51 +87,14 @@ def code_folder(package: Path) -> Path | None:
 
 
 @contextmanager
-def _numba_keeping_sound_code_in(folder):
-    """Set cache folder and class while a function is decorated; functions of other packages keep theirs."""
-    before = config.CACHE_DIR, caching.IndexDataCacheFile
-    config.CACHE_DIR, caching.IndexDataCacheFile = str(folder or config.CACHE_DIR), SummedFiles
+def _numba_caching_in(folder):
+    """Set Numba's cache folder while a function is decorated; functions of other packages keep theirs."""
+    before = config.CACHE_DIR
+    config.CACHE_DIR = str(folder or before)
     try:
         yield
     finally:
-        config.CACHE_DIR, caching.IndexDataCacheFile = before
-
-
-class SummedFiles(caching.IndexDataCacheFile):
-    """Numba's cache files of a function, an index and one per signature, each ending with the SHA-256 of its content.
-
-    Numba ignores what comes after the content. A file that it does not find is compiled anew.
-    """
-
-    def _load_index(self):
-        _remove_if_damaged(self._index_path)
-        return super()._load_index()
-
-    def _load_data(self, name):
-        _remove_if_damaged(self._data_path(name))
-        return super()._load_data(name)
-
-    @contextmanager
-    def _open_for_write(self, filepath):
-        content = BytesIO()
-        yield content
-        with super()._open_for_write(filepath) as file:
-            file.write(content.getvalue() + _sum(content.getvalue()))
-
-
-def _remove_if_damaged(path):
-    try:
-        content = Path(path).read_bytes()
-    except FileNotFoundError:
-        return
-    size = len(content) - len(_sum(b""))
-    if content[size:] != _sum(content[:size]):
-        Path(path).unlink(missing_ok=True)
-        say(f"{path} is damaged: removed, what it held is compiled anew")
-
-
-def _sum(content):
-    return hashlib.sha256(content).digest()
+        config.CACHE_DIR = before
 
 
 @cache

@@ -254,39 +254,7 @@ def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
 
 @compiled
 def _orthonormalize(a, sizes):
-    """Replace a (m, k) by the Q of a = QR, and fill |diag R| into sizes (k,).
-
-    By Householder's reflections, so that Q is orthonormal where columns depend on each other, too; at this size LAPACK
-    takes longer to prepare.
-    """
-    rows, columns = a.shape
-    weights = np.zeros(columns)
-    for j in range(columns):
-        square = 0.0
-        for i in range(j, rows):
-            square += a[i, j] * a[i, j]
-        sizes[j] = math.sqrt(square)
-        a[j, j] += math.copysign(sizes[j], a[j, j])
-        if square > 0.0:
-            weights[j] = 1.0 / (sizes[j] * abs(a[j, j]))
-        _reflect(a, j, j + 1, weights[j])
-    for j in range(columns - 1, -1, -1):  # columns of Q from the last: the reflections of the first unit vectors
-        _reflect(a, j, j + 1, weights[j])
-        for i in range(j + 1, rows):
-            a[i, j] *= -weights[j] * a[j, j]
-        a[j, j] = 1.0 - weights[j] * a[j, j] * a[j, j]
-        for i in range(j):
-            a[i, j] = 0.0
-
-
-@compiled
-def _reflect(a, j, first, weight):
-    """Reflect the columns from the first one on by the vector in column j, its rows from j on."""
-    rows, columns = a.shape
-    for column in range(first, columns):
-        product = 0.0
-        for i in range(j, rows):
-            product += a[i, j] * a[i, column]
-        product *= weight
-        for i in range(j, rows):
-            a[i, column] -= product * a[i, j]
+    """Replace a (m, k) by the Q of a = QR, and fill |diag R| into sizes (k,)."""
+    q, r = np.linalg.qr(a)
+    a[:] = q
+    sizes[:] = np.abs(np.diag(r))
