@@ -1,6 +1,7 @@
 # What every stage needs: where the files are, the checked config, fingerprints of the code, the figures' SPECs.
 
 import importlib.util
+import inspect
 import json
 import os
 import re
@@ -13,8 +14,8 @@ from snakemake.logging import logger
 from snakemake.utils import update_config, validate
 from snakemake_interface_logger_plugins.common import LogEvent
 
-ROOT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
-IS_MODULE = not workflow.modifier.is_main_snakefile()
+# Snakemake evaluates a module in a namespace of its own, under its name.
+IS_MODULE = __name__ != "snakemake.workflow"
 
 
 def refuse(message):
@@ -28,15 +29,25 @@ def own(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# The library beside these rules, for jobs, too, and this Python, also where its path has a space.
-sys.path.insert(0, str(ROOT / "src"))
+# The library beside these rules, for jobs, too; where they come from a git source, it is the one that is installed.
+SOURCES = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
+if SOURCES.is_dir():
+    sys.path.insert(0, str(SOURCES))
+elif importlib.util.find_spec("vibroimpact_pipeline") is None:
+    refuse("Not installed: the pipeline of these rules. Install vibroimpact[pipeline] of the same commit with pip.")
+# This Python, also where its path has a space.
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.specs import case_parameters, made, specs
 from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.cases import title_of, with_cases
-from vibroimpact_pipeline.code import fingerprint
+from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
+
+for path in [] if SOURCES.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
+    name = f"{path.parent.name}/{path.name}"
+    if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
+        refuse(f"workflow/{name} is not that of the installed vibroimpact: install the commit of these rules.")
 
 if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
@@ -105,7 +116,7 @@ def figure_files(stem, spec):
 
 def in_report(outputs, category):
     """Named outputs, the picture and the plotted table marked for `snakemake --report`."""
-    caption = str(ROOT / "report/caption.rst")
+    caption = "../../report/caption.rst"
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
