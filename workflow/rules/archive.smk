@@ -19,5 +19,7 @@ rule archive:
         "results/logs/archive.log",
     benchmark:
         "results/benchmarks/archive.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/archive.py"

@@ -125,6 +125,45 @@ def in_report(outputs, category):
     return outputs | marked
 
 
+def sweep_request(sweep):
+    """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
+    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
+    if "regimes" in sweep["observe"]:
+        spec["observation"] = config["regimes"]["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
+
+
+def figure_params(figure, spec):
+    """The settings of a figure, its systems, and what decides on it: entries of the config by their paths."""
+    asked, case = spec["request"], spec["request"]["case"]
+    decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
+    systems = {}
+    if case:
+        systems["system"] = decides[f"cases.{case}"] = system_of(case)
+    if spec.get("systems"):
+        systems["systems"] = decides["cases"] = all_systems()
+    return {"figure": figure, "case": case, "settings": asked["settings"], "config": decides, **systems}
+
+
+def titled(case):
+    """What words call the case of a figure, if it has one."""
+    return {"case": title_of(config, case)} if case else {}
+
+
+def caption(figure, spec):
+    """The caption of a figure, with the numbers that it asks for."""
+    case = spec["request"]["case"]
+    known = config["figures"].get(figure, {}) | (system_of(case) if case else config["system"]) | titled(case)
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
+
+
+def files_of_figures(of_notebooks):
+    figures = {figure: spec for figure, spec in MADE.items() if ("notebook" in spec) == of_notebooks}
+    return [
+        path for figure, spec in figures.items() for path in figure_files(f"results/figures/{figure}", spec).values()
+    ]
+
+
 # Before a build looks at what is there, results go that are not what a job wrote as it would write them today.
 def params_today(made):
     """The parameters that the job of a record would have today, None if there is no such job."""

@@ -16,6 +16,8 @@ rule simulation:
         "results/logs/simulations/{case}.log",
     benchmark:
         "results/benchmarks/simulations/{case}.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/simulate.py"
 
@@ -36,5 +38,7 @@ rule coexistence:
         "results/logs/regimes/coexistence.log",
     benchmark:
         "results/benchmarks/regimes/coexistence.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/coexistence.py"
