@@ -74,6 +74,7 @@ explore: set-up  ## property-based tests with new random examples (SEED=... draw
 
 lock: set-up  ## pin every package anew into environment.lock, what a cluster needs beside them into cluster.lock
 	$(PIN) --upgrade --all-extras --excludes <(printf '%s\n' snakemake-executor-plugin-slurm jupyterlab) pyproject.toml -o environment.lock
+	sed -i '1i # Read by pip and uv: pip install --require-hashes --no-deps -r environment.lock (workflow/set_up.sh does it).' environment.lock
 	$(PIN) --upgrade --extra cluster --constraint environment.lock \
 		$$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock) pyproject.toml -o cluster.lock
 

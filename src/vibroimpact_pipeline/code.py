@@ -9,8 +9,13 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-"""The checkout."""
+SOURCES = Path(__file__).resolve().parents[1]
+"""The folder of the packages: `src` of a checkout, or where they are installed."""
+SHIPPED = Path(__file__).resolve().with_name("checkout")
+"""What a wheel holds of the checkout besides the packages (pyproject.toml says what)."""
+INSTALLED = SHIPPED.is_dir()
+ROOT = SHIPPED if INSTALLED else SOURCES.parent
+"""The checkout, or what an installed pipeline has of it."""
 FIGURES = "src/vibroimpact/figures"
 PARTS = {
     "library": "src/vibroimpact",
@@ -31,13 +36,21 @@ def fingerprint_now(part: str) -> str:
     """Return a hash of the names and contents of all files of a part."""
     digest = hashlib.sha256()
     for path in files(part):
-        digest.update(f"{path.relative_to(ROOT)}\n".encode() + path.read_bytes())
+        name = f"{PARTS[part]}/{path.relative_to(folder(part))}"  # the same for a checkout and its wheel
+        digest.update(f"{name}\n".encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 
 def files(part: str) -> list[Path]:
     """Return all files of a part, sorted."""
-    return sorted(_files(ROOT / PARTS[part], ROOT / FIGURES if part == "library" else None))
+    left_out = {"library": folder("figures"), "pipeline": SHIPPED}
+    return sorted(_files(folder(part), left_out.get(part)))
+
+
+def folder(part: str) -> Path:
+    """Return the folder of a part; of an installed pipeline, that of the installed package."""
+    top, _, inside = PARTS[part].partition("/")
+    return SOURCES / inside if INSTALLED and top == "src" else ROOT / PARTS[part]
 
 
 def _files(folder: Path, left_out: Path | None) -> Iterator[Path]:

@@ -9,7 +9,7 @@ import yaml
 
 from vibroimpact_pipeline.specs import columns, each, specs
 
-FIGURES, DATA = "src/vibroimpact/figures", "report/data.yaml"
+DATA = "report/data.yaml"
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,7 @@ def stands_for(pattern: str, path: str) -> bool:
 
 def read(root) -> tuple[dict, dict]:
     """Read the SPEC of every figure and report/data.yaml."""
-    root = Path(root)
-    return specs(root / FIGURES), yaml.safe_load((root / DATA).read_text(encoding="utf-8"))
+    return specs(), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
 
 
 def files(known: dict, data: dict) -> list[File]:

@@ -14,22 +14,20 @@ CACHES = {
 """Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
 
 
-def set_environment(root: Path) -> None:
+def set_environment(checkout: Path | None) -> None:
     """Set the variables of this process and of its jobs: the library of the
     checkout, caches there, one thread each.
 
-    Where the checkout cannot be written to, caches lie in the working directory.
+    Without a checkout, or where it cannot be written to, caches lie in the working directory.
     """
-    cache_folder = (root if os.access(root, os.W_OK) else Path.cwd()) / ".cache"
+    cache_folder = (checkout if checkout and os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():
         (cache_folder / folder).mkdir(parents=True, exist_ok=True)
         os.environ[variable] = str(cache_folder / folder)
-    paths = [str(root / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
-    os.environ |= {
-        "PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)),
-        "OMP_NUM_THREADS": "1",
-        "JUPYTER_PREFER_ENV_PATH": "1",
-    }
+    if checkout:
+        paths = [str(checkout / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
+        os.environ["PYTHONPATH"] = os.pathsep.join(dict.fromkeys(paths))
+    os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         getpass.getuser()

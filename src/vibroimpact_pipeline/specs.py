@@ -22,19 +22,18 @@ import ast
 from functools import cache
 from pathlib import Path
 
-from vibroimpact_pipeline.code import FIGURES, ROOT
+from vibroimpact_pipeline.code import folder
 
-FOLDER = ROOT / FIGURES
 LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
 LIKE |= {"physical_units": "machines"}
 """The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
 
 
 @cache
-def specs(folder=FOLDER) -> dict[str, dict]:
-    """Return SPEC by figure for all modules in a folder that have one; the plotted table is "csv" among its tables."""
+def specs() -> dict[str, dict]:
+    """Return SPEC by figure for all modules of figures that have one; the plotted table is "csv" among its tables."""
     found = {}
-    for path in sorted(Path(folder).glob("*.py")):
+    for path in sorted(folder("figures").glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)

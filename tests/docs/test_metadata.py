@@ -65,6 +65,7 @@ def test_the_catalog_tells_of_files_that_are_there():
     assert catalog["mandatory-flags"]["flags"] == ""
     assert (ROOT / "workflow/Snakefile").exists()
     assert catalog["software-stack-deployment"]["apptainer"] == ("container:" in text("workflow/Snakefile"))
+    assert catalog["software-stack-deployment"]["conda"]
     assert catalog["software-stack-deployment"]["conda"] == any((ROOT / "workflow").rglob("envs/*.yaml"))
     assert catalog["report"] == ("report(" in "".join(p.read_text() for p in (ROOT / "workflow/rules").glob("*.smk")))
     assert all(

@@ -5,9 +5,12 @@ import re
 import signal
 import subprocess
 import time
+import tomllib
 import zipfile
 
 import pytest
+import yaml
+from packaging.requirements import Requirement
 
 import compile as script
 from chapter import PARAMETERS
@@ -16,6 +19,7 @@ from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
+from vibroimpact_pipeline import builds
 
 RECORDING = """#!/bin/sh
 # An interpreter that makes an environment of itself, and writes down what pip is asked to install.
@@ -118,12 +122,41 @@ def test_packages_are_checked_by_hash(tree):
 def test_the_locks_are_whole():
     """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
     text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
-    packages = [line.split() for line in text.splitlines()]
+    packages = [line.split() for line in text.splitlines() if not line.startswith("#")]
     assert all("==" in package[0] and package[-1].startswith("--hash=sha256:") for package in packages)
     assert sum(package[0].startswith("snakemake-executor-plugin-slurm==") for package in packages) == 1
     assert "://" not in text
     [heyoka] = [line for line in text.splitlines() if line.startswith("heyoka==")]
     assert "sys_platform == 'linux'" in heyoka
+
+
+def test_the_lock_says_what_reads_it():
+    """And `make lock`, which writes it anew, says so again."""
+    (head,) = re.findall(r"sed -i '1i (#.*)' environment\.lock", (ROOT / "Makefile").read_text())
+    assert (ROOT / "environment.lock").read_text().startswith(f"{head}\n")
+    assert "pip and uv" in head
+
+
+def requirements(*extras):
+    """The requirements of the library and of some of its extras, of which one may name others."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    asked = [*project["dependencies"], *(one for extra in extras for one in project["optional-dependencies"][extra])]
+    others = [name for one in asked for name in Requirement(one).extras]
+    return {one for one in asked if not Requirement(one).extras} | (requirements(*others) if others else set())
+
+
+def test_the_conda_environment_has_what_jobs_import():
+    """The library is the one beside the rules; Snakemake starts the jobs from its own environment."""
+    environment = yaml.safe_load((ROOT / "workflow/envs/vibroimpact.yaml").read_text(encoding="utf-8"))
+    *_, packages = environment["dependencies"]
+    needed = requirements("pipeline", "integrators", "report", "archive")
+    assert {*packages["pip"]} == {one for one in needed if not one.startswith("snakemake")}
+
+
+def test_the_extra_pipeline_brings_what_a_build_asks_for():
+    brought = {Requirement(one).name for one in requirements("pipeline")}
+    distributions = {"flint": "python-flint", "yaml": "pyyaml"}
+    assert {distributions.get(name, name) for name in builds.NEEDED} <= brought
 
 
 def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):

@@ -24,6 +24,8 @@ rule work_precision:
         "results/logs/accuracy/work_precision.log",
     benchmark:
         "results/benchmarks/accuracy/work_precision.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/work_precision.py"
 
@@ -40,6 +42,8 @@ rule hazards:
         "results/logs/accuracy/hazards.log",
     benchmark:
         "results/benchmarks/accuracy/hazards.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/hazards.py"
 
@@ -69,6 +73,8 @@ rule scene_models:
         "results/logs/accuracy/scene_models.log",
     benchmark:
         "results/benchmarks/accuracy/scene_models.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/scene_models.py"
 

@@ -5,18 +5,21 @@ import tomllib
 from vibroimpact_pipeline.git import git
 
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
 
 
 rule archive:
     input:
         rules.all.input,
     output:
-        archive=f"results/archive/vibroimpact-{VERSION}-{git('rev-parse', '--short=12', 'HEAD', root=ROOT)}.tar.gz",
+        archive=f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
     params:
         code=PIPELINE,
     log:
         "results/logs/archive.log",
     benchmark:
         "results/benchmarks/archive.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/archive.py"

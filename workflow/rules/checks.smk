@@ -1,7 +1,7 @@
 # The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
 
 
-# Has no output, so that it compares anew each time. No log either: what it says is for who has asked.
+# Has no output, so that it compares anew each time; what it says is on the terminal, too.
 rule figure_check:
     input:
         rules.figures.input,
@@ -11,6 +11,10 @@ rule figure_check:
         strict=False,
         code=PIPELINE,
     threads: ALL_CORES
+    log:
+        "results/logs/figure_check.log",
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/figure_check.py"
 
@@ -21,3 +25,5 @@ use rule figure_check as figure_check_strict with:
         config={name: entry for name, entry in config.items() if name != "captions"},
         strict=True,
         code=PIPELINE,
+    log:
+        "results/logs/figure_check_strict.log",

@@ -34,5 +34,7 @@ rule claims:
         "results/logs/claims.log",
     benchmark:
         "results/benchmarks/claims.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/claims.py"

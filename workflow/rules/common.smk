@@ -1,6 +1,7 @@
 # What every stage needs: where the files are, the checked config, fingerprints of the code, the figures' SPECs.
 
 import importlib.util
+import inspect
 import json
 import os
 import re
@@ -13,8 +14,8 @@ from snakemake.logging import logger
 from snakemake.utils import update_config, validate
 from snakemake_interface_logger_plugins.common import LogEvent
 
-ROOT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
-IS_MODULE = not workflow.modifier.is_main_snakefile()
+# Snakemake evaluates a module in a namespace of its own, under its name.
+IS_MODULE = __name__ != "snakemake.workflow"
 
 
 def refuse(message):
@@ -28,15 +29,25 @@ def own(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# The library beside these rules, for jobs, too, and this Python, also where its path has a space.
-sys.path.insert(0, str(ROOT / "src"))
+# The library beside these rules, for jobs, too; where they come from a git source, it is the one that is installed.
+SOURCES = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
+if SOURCES.is_dir():
+    sys.path.insert(0, str(SOURCES))
+elif importlib.util.find_spec("vibroimpact_pipeline") is None:
+    refuse("Not installed: the pipeline of these rules. Install vibroimpact[pipeline] of the same commit with pip.")
+# This Python, also where its path has a space.
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.specs import case_parameters, made, specs
 from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.cases import title_of, with_cases
-from vibroimpact_pipeline.code import fingerprint
+from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
+
+for path in [] if SOURCES.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
+    name = f"{path.parent.name}/{path.name}"
+    if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
+        refuse(f"workflow/{name} is not that of the installed vibroimpact: install the commit of these rules.")
 
 if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
@@ -105,13 +116,52 @@ def figure_files(stem, spec):
 
 def in_report(outputs, category):
     """Named outputs, the picture and the plotted table marked for `snakemake --report`."""
-    caption = str(ROOT / "report/caption.rst")
+    caption = "../../report/caption.rst"
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
         if kind in ("svg", "csv")
     }
     return outputs | marked
+
+
+def sweep_request(sweep):
+    """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
+    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
+    if "regimes" in sweep["observe"]:
+        spec["observation"] = config["regimes"]["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
+
+
+def figure_params(figure, spec):
+    """The settings of a figure, its systems, and what decides on it: entries of the config by their paths."""
+    asked, case = spec["request"], spec["request"]["case"]
+    decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
+    systems = {}
+    if case:
+        systems["system"] = decides[f"cases.{case}"] = system_of(case)
+    if spec.get("systems"):
+        systems["systems"] = decides["cases"] = all_systems()
+    return {"figure": figure, "case": case, "settings": asked["settings"], "config": decides, **systems}
+
+
+def titled(case):
+    """What words call the case of a figure, if it has one."""
+    return {"case": title_of(config, case)} if case else {}
+
+
+def caption(figure, spec):
+    """The caption of a figure, with the numbers that it asks for."""
+    case = spec["request"]["case"]
+    known = config["figures"].get(figure, {}) | (system_of(case) if case else config["system"]) | titled(case)
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
+
+
+def files_of_figures(of_notebooks):
+    figures = {figure: spec for figure, spec in MADE.items() if ("notebook" in spec) == of_notebooks}
+    return [
+        path for figure, spec in figures.items() for path in figure_files(f"results/figures/{figure}", spec).values()
+    ]
 
 
 # Before a build looks at what is there, results go that are not what a job wrote as it would write them today.

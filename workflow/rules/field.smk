@@ -14,5 +14,7 @@ rule field:
         "results/logs/field.log",
     benchmark:
         "results/benchmarks/field.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/field.py"

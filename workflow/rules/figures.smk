@@ -3,34 +3,8 @@
 
 CHAPTER = config["figures"]
 
-
-def figure_params(figure, spec):
-    """The settings of a figure, its systems, and what decides on it: entries of the config by their paths."""
-    asked, case = spec["request"], spec["request"]["case"]
-    decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
-    systems = {}
-    if case:
-        systems["system"] = decides[f"cases.{case}"] = system_of(case)
-    if spec.get("systems"):
-        systems["systems"] = decides["cases"] = all_systems()
-    return {"figure": figure, "case": case, "settings": asked["settings"], "config": decides, **systems}
-
-
 # The SPEC of every figure that the config makes.
 MADE = made(config, specs())
-
-
-def titled(case):
-    """What words call the case of a figure, if it has one."""
-    return {"case": title_of(config, case)} if case else {}
-
-
-def caption(figure, spec):
-    """The caption of a figure, with the numbers that it asks for."""
-    case = spec["request"]["case"]
-    known = CHAPTER.get(figure, {}) | (system_of(case) if case else config["system"]) | titled(case)
-    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
-
 
 # For `snakemake --report`.
 config["captions"] = {name: spec["caption"] for name, spec in SPECS.items()}
@@ -58,6 +32,8 @@ for figure, spec in MADE.items():
                 f"results/logs/figures/{figure}.log",
             benchmark:
                 f"results/benchmarks/figures/{figure}.tsv"
+            conda:
+                "../envs/vibroimpact.yaml"
             script:
                 "../scripts/notebook.py"
 
@@ -77,15 +53,10 @@ for figure, spec in MADE.items():
                 f"results/logs/figures/{figure}.log",
             benchmark:
                 f"results/benchmarks/figures/{figure}.tsv"
+            conda:
+                "../envs/vibroimpact.yaml"
             script:
                 "../scripts/figure.py"
-
-
-def files_of_figures(of_notebooks):
-    figures = {figure: spec for figure, spec in MADE.items() if ("notebook" in spec) == of_notebooks}
-    return [
-        path for figure, spec in figures.items() for path in figure_files(f"results/figures/{figure}", spec).values()
-    ]
 
 
 rule figures:

@@ -12,5 +12,7 @@ rule fixed_points:
         "results/logs/fixed_points/{case}.log",
     benchmark:
         "results/benchmarks/fixed_points/{case}.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/fixed_points.py"

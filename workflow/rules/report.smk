@@ -22,6 +22,8 @@ for name, scene in MOVING["animations"].items():
             f"results/logs/report/{name}.log",
         benchmark:
             f"results/benchmarks/report/{name}.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
         script:
             "../scripts/animation.py"
 
@@ -37,6 +39,8 @@ rule force_sweep:
         "results/logs/report/force_sweep.log",
     benchmark:
         "results/benchmarks/report/force_sweep.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/force_sweep.py"
 
@@ -65,5 +69,7 @@ rule report:
         "results/logs/report/report.log",
     benchmark:
         "results/benchmarks/report/report.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/report.py"

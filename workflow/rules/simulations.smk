@@ -16,6 +16,7 @@ rule simulation:
         "results/logs/simulations/{case}.log",
     benchmark:
         "results/benchmarks/simulations/{case}.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/simulate.py"
-

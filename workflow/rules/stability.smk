@@ -12,6 +12,8 @@ rule orbits:
         "results/logs/orbits/{case}.log",
     benchmark:
         "results/benchmarks/orbits/{case}.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/orbits.py"
 
@@ -29,6 +31,8 @@ rule verdicts:
         "results/logs/verdicts/{case}.log",
     benchmark:
         "results/benchmarks/verdicts/{case}.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/verdicts.py"
 
@@ -47,6 +51,8 @@ rule gather:
         "results/logs/gather.log",
     benchmark:
         "results/benchmarks/gather.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/gather.py"
 
@@ -64,6 +70,8 @@ rule proofs:
         "results/logs/proofs.log",
     benchmark:
         "results/benchmarks/proofs.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/proofs.py"
 
@@ -80,6 +88,8 @@ rule verdict_grid:
         "results/logs/verdict_grid.log",
     benchmark:
         "results/benchmarks/verdict_grid.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
     script:
         "../scripts/verdict_grid.py"
 

@@ -4,15 +4,6 @@
 from vibroimpact.sweeps.cost import points, tiles
 
 SWEEPS = config.get("sweeps", {})
-SPEC_KEYS = ("observe", "starts", "seed", "cycles", "settle", "band")
-
-
-def sweep_request(sweep):
-    """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
-    spec = {name: sweep[name] for name in SPEC_KEYS if name in sweep}
-    if "regimes" in sweep["observe"]:
-        spec["observation"] = config["regimes"]["observation"]
-    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
 
 
 scattergather:
@@ -34,6 +25,8 @@ for name, sweep in SWEEPS.items():
             f"results/logs/sweeps/{name}/{{scatteritem}}.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
         script:
             "../scripts/sweep_tile.py"
 
@@ -53,6 +46,8 @@ for name, sweep in SWEEPS.items():
             f"results/logs/sweeps/{name}/table.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/table.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
         script:
             "../scripts/sweep_table.py"
 
@@ -74,6 +69,8 @@ for name, sweep in SWEEPS.items():
             f"results/logs/sweeps/{name}/figure.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/figure.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
         script:
             "../scripts/figure.py"
 

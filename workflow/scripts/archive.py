@@ -4,12 +4,11 @@ import sys
 from pathlib import Path
 
 from vibroimpact_pipeline import archive
-from vibroimpact_pipeline.code import FIGURES, ROOT
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.specs import specs
 
 with running(snakemake) as out:
-    titles = {figure: spec["title"] for figure, spec in specs(ROOT / FIGURES).items()}
+    titles = {figure: spec["title"] for figure, spec in specs().items()}
     try:
         behind = archive.results_behind(snakemake.input, Path("results"))
         archive.write(Path.cwd(), behind, titles, out.archive)

@@ -1,6 +1,7 @@
 """All figures against the reference set -> page, verdicts, summary; exit status 1 if a figure fails."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from vibroimpact_pipeline.specs import made, specs
 
 BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module
 FOLDER = BUILD / "results/figure_check"
+TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
 
 with running(snakemake):
     found = check_all(made(snakemake.params.config, specs()), ROOT / "figures", BUILD, snakemake.threads)
@@ -24,13 +26,14 @@ with running(snakemake):
     for name, text in texts.items():
         with replacing(FOLDER / name) as partial:
             partial.write_text(text, encoding="utf-8")
-    print(*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html", sep="\n")
+    said = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
     if failed := [verdict for verdict in found if verdict["status"] == FAILED]:
         drawing = all(reason.startswith(("picture:", "pdf:", "svg:")) for one in failed for reason in one["reasons"])
-        said = command(one["figure"] for one in failed) + " PICTURES=1" * drawing
-        print(f"To take a change on purpose into the reference set: {said}")
+        accept = command(one["figure"] for one in failed) + " PICTURES=1" * drawing
+        said += [f"To take a change on purpose into the reference set: {accept}"]
     if others := [verdict["figure"] for verdict in found if verdict["status"] == NOT_COMPARABLE]:
-        print("Pictures are comparable with the versions that drew the reference, those of environment.lock.")
-        print(f"To keep the tables and draw these anew: {command(others)} PICTURES=1")
-    sys.stdout.flush()
+        said += ["Pictures are comparable with the versions that drew the reference, those of environment.lock."]
+        said += [f"To keep the tables and draw these anew: {command(others)} PICTURES=1"]
+    for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
+        print(*said, sep="\n", file=stream, flush=True)
 sys.exit(int(has_failed(found, snakemake.params.strict)))

@@ -146,7 +146,7 @@ def true_fixed_point(system: System, point):
 
         def residual(C1, psi1, C2, psi2):
             C, B = (C1, C2), [_true_B(C1, r), _true_B(C2, r)]
-            b = [B[0] * mp.expj(-psi1), B[1] * mp.expj(-psi2)]
+            b = [B[0] * mp.exp(-1j * psi1), B[1] * mp.exp(-1j * psi2)]
             found = []
             for i in range(2):
                 impacts = 8 / mp.pi**2 * C[i] * ((1 - C[i]) + 1j * r * C[i]) / B[i] ** 2

@@ -1,12 +1,10 @@
 """The whole config: its smaller sections, and the conditions across sections."""
 
-import re
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, ValidationError
 
 from vibroimpact.system import System
-from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import problems_of
@@ -19,9 +17,11 @@ SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
-WORKFLOW = ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")
 RULES = {
-    name for path in WORKFLOW for name in re.findall(r"(?m)^(?:use rule \w+ as|rule) (\w+)", path.read_text("utf-8"))
+    *("accuracy", "all", "archive", "claims", "coexistence", "companions", "field", "figure_check"),
+    *("figure_check_strict", "figures", "fixed_points", "force_sweep", "gather", "hazards", "index", "orbits"),
+    *("proofs", "report", "scene_models", "simulation", "stability", "sweeps", "verdict_grid", "verdicts"),
+    "work_precision",
 }
 """Rules whose names figures and animations, which become rules as well, cannot have."""
 Coefficient = Annotated[float, Field(ge=0, le=10_000)]

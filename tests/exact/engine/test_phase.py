@@ -1,5 +1,7 @@
 """The forcing phase of any start, and of a run that goes on, against arbitrary precision."""
 
+import subprocess
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -78,3 +80,20 @@ def test_an_end_is_an_exact_time_for_any_system(chapter):
     end = vi.simulate(one, START, 9, tau0=0.25).end  # at 1/4 + 16 pi
     assert phase_at(end, other.Omega) == (0.125, 0.0)
     assert float(end) == pytest.approx(0.25 + 16 * np.pi, rel=1e-16)
+
+
+RUNS = "simulate(s, [0] * 8, 1)", "simulate_many(s, [[0] * 8] * 9, 1)", "ensemble(s, [[0] * 8], 1)"
+
+
+@pytest.mark.parametrize("run", RUNS)
+def test_without_compilation_one_line_says_so(run):
+    program = f"""
+import vibroimpact as vi
+from chapter import PARAMETERS
+s = vi.System(**PARAMETERS, f10_hat=1, f20_hat=1)
+vi.{run}
+"""
+    environment = {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": ":".join(sys.path)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    last = "RuntimeError: NUMBA_DISABLE_JIT is set: the simulation works compiled only; unset it"
+    assert done.stderr.splitlines()[-1] == last

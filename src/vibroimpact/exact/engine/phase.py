@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from numba import types
+from numba import config, types
 from numba.extending import intrinsic
 
 from vibroimpact.exact.engine.compiled import inlined
@@ -86,6 +86,13 @@ def fused(_, a, b, c):
         return LANES(a, b, c), fused_lanes
     signature = types.float64(types.float64, types.float64, types.float64)
     return signature, lambda context, builder, signature, arguments: builder.fma(*arguments)
+
+
+if config.DISABLE_JIT:
+
+    def fused(*_):
+        """Raise RuntimeError: nothing but compiled code rounds a b + c once."""
+        raise RuntimeError("NUMBA_DISABLE_JIT is set: the simulation works compiled only; unset it")
 
 
 @inlined

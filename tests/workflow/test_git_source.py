@@ -1,0 +1,103 @@
+"""The rules from a git source, in a directory without a checkout beside it, with the wheel installed."""
+
+import json
+import os
+import subprocess
+import sys
+import zipfile
+
+import pytest
+
+from archives import commit
+from compiled_code import share
+from pipeline_trees import ROOT, SNAKEMAKE, Tree
+
+FIGURES = "fig10_03", "companion_10_05"
+"""One that a notebook of the package draws, and one of a script; both in seconds."""
+OUTER = """
+module vibroimpact:
+    snakefile: github("owner/vibroimpact", path="workflow/Snakefile", {ref})
+    config: {{}}
+use rule * from vibroimpact as chapter_*
+"""
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The folder of an installed wheel."""
+    folder = tmp_path_factory.mktemp("wheel")
+    build = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", folder / "dist"]
+    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    (packed,) = (folder / "dist").glob("*.whl")
+    with zipfile.ZipFile(packed) as files:
+        files.extractall(folder / "site")
+    share(folder / "site/vibroimpact")
+    return folder / "site"
+
+
+@pytest.fixture
+def outer(tree, tmp_path, wheel):
+    """Runs another workflow that has the rules from a commit of its repository; GitHub is a folder of this machine."""
+    commit(tree.path)
+    folder = Tree(tmp_path / "outer")
+    folder.path.mkdir()
+    environment = {
+        "PYTHONPATH": str(wheel),
+        "HOME": str(tmp_path / "home"),
+        "XDG_CACHE_HOME": str(tmp_path / "cache"),
+        "GIT_CONFIG_COUNT": "1",
+        "GIT_CONFIG_KEY_0": f"url.file://{tmp_path}/.insteadOf",
+        "GIT_CONFIG_VALUE_0": "https://github.com/",
+    }
+
+    def run(*arguments):
+        (tmp_path / "owner").mkdir(exist_ok=True)
+        source = tmp_path / "owner/vibroimpact"
+        if not source.exists():
+            subprocess.run(["git", "clone", "--bare", tree.path, source], check=True, capture_output=True)
+        named = subprocess.run(
+            ["git", "rev-parse", "HEAD"], cwd=tree.path, check=True, capture_output=True, text=True
+        ).stdout.strip()
+        (folder / "Snakefile").write_text(OUTER.format(ref=f'commit="{named}"'))
+        done = subprocess.run(
+            [*SNAKEMAKE, *arguments],
+            cwd=folder.path,
+            env={name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+        return done.returncode, done.stdout
+
+    run.path = folder.path
+    return run
+
+
+def record_of(figure, results):
+    record = json.loads((results / f"figures/{figure}.provenance.json").read_text())
+    return {name: value for name, value in record.items() if name not in ("commit", "tree")}
+
+
+def test_figures_are_those_of_the_checkout_and_are_made_once(tree, outer):
+    targets = [f"chapter_{figure}" for figure in FIGURES]
+    status, said = outer(*targets)
+    assert status == 0, said
+    tree.snakemake(*FIGURES)
+    for figure in FIGURES:
+        for kind in ("csv", "png", "pdf", "svg"):
+            name = f"results/figures/{figure}.{kind}"
+            assert (outer.path / name).read_bytes() == (tree / name).read_bytes(), name
+        assert record_of(figure, outer.path / "results") == record_of(figure, tree / "results")
+    status, said = outer("--dry-run", *targets)
+    assert "Nothing to be done" in said, said
+
+
+def test_rules_of_another_commit_than_the_installed_package_are_refused(tree, outer):
+    tree.edit("workflow/scripts/figure.py", '"""One figure', '"""A figure')
+    commit(tree.path)
+    status, said = outer("--dry-run", "chapter_companion_10_05")
+    assert status == 1
+    assert said.splitlines()[-1] == (
+        "workflow/scripts/figure.py is not that of the installed vibroimpact: install the commit of these rules."
+    ), said
