@@ -30,9 +30,9 @@ def own(path):
 
 
 # The library beside these rules, for jobs, too; where they come from a git source, it is the one that is installed.
-SOURCES = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
-if SOURCES.is_dir():
-    sys.path.insert(0, str(SOURCES))
+SRC = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
+if SRC.is_dir():
+    sys.path.insert(0, str(SRC))
 elif importlib.util.find_spec("vibroimpact_pipeline") is None:
     refuse("Not installed: the pipeline of these rules. Install vibroimpact[pipeline] of the same commit with pip.")
 # This Python, also where its path has a space.
@@ -44,7 +44,7 @@ from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 
-for path in [] if SOURCES.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
+for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"
     if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
         refuse(f"workflow/{name} is not that of the installed vibroimpact: install the commit of these rules.")
