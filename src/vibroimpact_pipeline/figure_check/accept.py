@@ -53,14 +53,14 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     (reference / SUMS).write_text(json.dumps(dict(sorted(sums.items())), indent=1) + "\n", encoding="utf-8")
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
-    entries = "\n".join(f"- {line(verdict)}{_built_from(verdict, build)}" for verdict in verdicts)
+    entries = "\n".join(f"- {line(verdict)}.{_built_from(verdict, build)}" for verdict in verdicts)
     changes.write_text(f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n{entries}\n{earlier}", encoding="utf-8")
 
 
 def _built_from(verdict, build):
     record = build / f"results/figures/{verdict['figure']}.provenance.json"
     made = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {}
-    return f". Built from {made['commit'][:10]} ({made['tree']} tree)" if made.get("commit") else ""
+    return f" Built from {made['commit'][:10]} ({made['tree']} tree)." if made.get("commit") else ""
 
 
 def main(arguments=None) -> int:
@@ -78,17 +78,14 @@ def main(arguments=None) -> int:
             raise ValueError(f"figures: unknown {', '.join(unknown)}; there are {', '.join(known)}")
         named = given.figures or [figure for figure, verdict in known.items() if verdict["status"] != PASSED]
         found = [known[figure] for figure in named]
-        if found:
-            accept(found, given.build, given.reference, given.reason, datetime.date.today(), given.pictures)
+        if not found:
+            print("Nothing to accept: every figure agrees with its reference.")
+            return 0
+        accept(found, given.build, given.reference, given.reason, datetime.date.today(), given.pictures)
     except (OSError, ValueError) as error:
         print(f"Not accepted. {error}", file=sys.stderr)
         return 1
-    print(*map(line, found), sep="\n")
-    print(
-        f"Accepted {len(found)} figure(s); recorded in {given.reference / 'CHANGES.md'}."
-        if found
-        else "Nothing to accept: every figure agrees with its reference."
-    )
+    print(*map(line, found), f"Accepted {len(found)} figure(s); recorded in {given.reference}/CHANGES.md.", sep="\n")
     return 0
 
 

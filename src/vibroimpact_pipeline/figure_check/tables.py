@@ -15,8 +15,8 @@ FAR = 999.0
 """Distance of what no limit allows: a value that is not finite, a class that vanishes."""
 SMALLEST = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
-CHANCE = 5.0
-"""Standard deviations of their number by which rows may leave or join a class."""
+SAME = 1e-6
+"""Counts and shares that differ by less are the same."""
 DIGITS = 6
 """Decimals of the values of a sample, so that those equal but for rounding are ties."""
 
@@ -31,7 +31,7 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
         columns: entries of a SPEC. A column of words that is not compared must be the same.
 
     Returns as distances: column, kind, measure, distance (1 is the limit), where the largest is, and there the value of
-    the reference and the new one (of a whole series the medians, or numbers of rows).
+    the reference and the new one (of a whole series the medians).
     """
     if list(old) != list(new):
         return [f"columns {', '.join(new)} instead of {', '.join(old)}"], []
@@ -102,24 +102,17 @@ def _distances(old, new, name, kind):
     before, after = (part[name].to_numpy() for part in (old, new))
     for measure, limit in KINDS[kind]["limits"].items():
         with np.errstate(all="ignore"):
-            far = MEASURES[measure](before, after, limit)
+            far = np.nan_to_num(MEASURES[measure](before, after, limit), nan=FAR)
         if np.ndim(far):
-            far = np.where((before == after) | pd.isna(before), 0.0, np.nan_to_num(far, nan=FAR))
+            far = np.where((before == after) | pd.isna(before), 0.0, far)
             row = int(far.argmax())
             far, values, place = far[row], (before[row], after[row]), f"row {old.index[row] + 1}"
         else:
             row, values, place = 0, (np.nanmedian(before), np.nanmedian(after)), "in the middle"
         where = ", ".join([*map(str, old[_words(old)].iloc[row].dropna()), place])
-        before_there, after_there = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
-        yield {
-            "column": name,
-            "kind": kind,
-            "measure": measure,
-            "distance": min(float(far), FAR),
-            "where": where,
-            "reference": before_there,
-            "new": after_there,
-        }
+        old_value, new_value = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
+        found = {"column": name, "kind": kind, "measure": measure, "distance": min(float(far), FAR), "where": where}
+        yield found | {"reference": old_value, "new": new_value}
 
 
 # Measures of two columns, arrays (n,): the distance of each row, or one of all rows, of which 1 is the limit.
@@ -144,19 +137,23 @@ def _shifts(old, new):
     return np.log10(np.maximum(new, SMALLEST)) - np.log10(np.maximum(old, SMALLEST))
 
 
-def _moved(old, new, limit):
-    """Compare classes by the rows that left or joined them; columns of counts by the sum of their changes.
+def _rows(old, new, limit):
+    """Compare classes, or counts, by the share of rows in which they differ."""
+    differ = old != new if old.dtype == object else np.abs(new - old) > SAME
+    return differ * differ.mean() / limit
 
-    The limit is the share of rows that rounding moves. Of a class of n rows it may move limit * n, and CHANCE times
-    the root of that, and one; all of them never.
+
+def _classes(old, new, limit):
+    """Compare numbers of rows in each class, or sums of counts, in standard deviations of Poisson counts.
+
+    A class that vanishes is never near.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
         before, after = (np.nan_to_num((x if label is None else x == label).astype(float)) for x in (old, new))
-        changes, expected = np.abs(before - after), limit * np.maximum(before, after).sum()
-        vanishes = before.any() and not after.any()
-        distance = FAR if vanishes else changes.sum() / max(1.0, expected + CHANCE * np.sqrt(expected))
-        far = np.maximum(far, np.where(changes > 0, distance, 0.0))
+        n, m = before.sum(), after.sum()
+        distance = FAR if n and not m else abs(n - m) / np.sqrt(n + m) / limit
+        far = np.maximum(far, np.where(before != after, distance, 0.0))
     return far
 
 
@@ -177,7 +174,8 @@ MEASURES = {
     "difference": _difference,
     "decades": _decades,
     "middle": _middle,
-    "moved": _moved,
+    "rows": _rows,
+    "classes": _classes,
     "distribution": _distribution,
     "size": _size,
 }

@@ -25,7 +25,7 @@ TABLES = {
     if (ROOT / "figures" / file).is_file()
 }
 """Columns by name of each published table."""
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "sample", "extremes", "mean", "life", "free"}
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "sample", "extremes", "life", "free"}
 
 
 @pytest.fixture
@@ -71,24 +71,22 @@ def test_measures_against_numbers_known_otherwise(apart):
     assert apart("middle", old, old * 10.0 ** RANDOM.uniform(-1, 1, size=101)) < 0.5
 
 
-def test_a_class_may_lose_and_gain_rows_by_the_statistics_of_its_own_number(apart):
-    old, few = np.repeat(["one", "two"], [900, 100]), np.repeat(["one", "two"], [903, 97])
-    of_two = 3 / (
-        0.04 * 100 + 5 * np.sqrt(0.04 * 100)
-    )  # three of a hundred rows where chance moves four, and five roots
-    assert apart("moved", old, few, 0.04) == pytest.approx(of_two)
-    swapped = np.concatenate([old[-100:], old[:-100]])  # as many of each class, elsewhere
-    assert apart("moved", old, swapped, 0.04) > 1
-    assert apart("moved", np.array([2.0] * 50), np.array([2.0] * 44 + [3.0] * 6), 0.04) == pytest.approx(
-        6 / (0.04 * 106 + 5 * np.sqrt(0.04 * 106))
-    )
+def test_classes_are_compared_by_their_own_number_and_by_the_rows_that_differ(apart):
+    old, few = np.repeat(["one", "two"], [900, 100]), np.repeat(["one", "two"], [930, 70])
+    assert apart("classes", old, few) == pytest.approx(30 / np.sqrt(100 + 70))
+    assert apart("rows", old, few) == pytest.approx(0.03)
+    elsewhere = np.concatenate([old[-100:], old[:-100]])  # as many of each class
+    assert (apart("classes", old, elsewhere), apart("rows", old, elsewhere)) == (0, pytest.approx(0.2))
+    counts, more = np.full(50, 2.0), np.repeat([2.0, 3.0], [44, 6])
+    assert apart("classes", counts, more) == pytest.approx(6 / np.sqrt(100 + 106))
+    assert apart("rows", counts, more + 1e-9) == pytest.approx(6 / 50)
 
 
 @pytest.mark.parametrize("number", [1, 2, 7])
 def test_a_class_that_vanishes_is_never_near(apart, number):
     old = np.repeat(["one", "two"], [900, number])
-    assert apart("moved", old, np.repeat(["one"], 900 + number), 0.5) == FAR
-    assert apart("moved", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 0.5) == FAR
+    assert apart("classes", old, np.repeat(["one"], 900 + number), 99) == FAR
+    assert apart("classes", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 99) == FAR
 
 
 def test_samples_of_one_distribution_are_near_and_rounding_of_equal_values_is_nothing(apart):
@@ -96,6 +94,11 @@ def test_samples_of_one_distribution_are_near_and_rounding_of_equal_values_is_no
     assert max(apart("distribution", *random.exponential(size=(2, 400))) for _ in range(50)) < 2.2
     equal = np.append(np.ones(40), 5.0)
     assert apart("distribution", equal, equal + random.normal(0, 1e-12, 41)) == 0
+
+
+@pytest.mark.filterwarnings("ignore:One or more sample arguments")
+def test_a_sample_without_values_is_never_near(apart):
+    assert apart("distribution", [1.0, 2.0, 3.0], [np.nan] * 3) == FAR
 
 
 def test_infinity_is_a_place_where_it_is_declared(monkeypatch):
@@ -108,7 +111,7 @@ def test_infinity_is_a_place_where_it_is_declared(monkeypatch):
 
 
 def test_classes_are_words_that_may_differ_and_others_may_not(monkeypatch):
-    monkeypatch.setitem(KINDS, "outcome", {"limits": {"moved": 0.3}})
+    monkeypatch.setitem(KINDS, "outcome", {"limits": {"rows": 0.3}})
     monkeypatch.setitem(KINDS, "kind", {"limits": {"decades": 1.0}})
     old = join([curve("a", "s", label=["one", "two", "two", "two"], value=np.arange(1.0, 5.0))])
     new = old.assign(label=["one", "one", "two", "two"])
@@ -119,7 +122,7 @@ def test_classes_are_words_that_may_differ_and_others_may_not(monkeypatch):
 
 
 def test_classes_after_a_sample_of_another_size_are_compared(monkeypatch):
-    monkeypatch.setitem(KINDS, "outcome", {"limits": {"moved": 0.3}})
+    monkeypatch.setitem(KINDS, "outcome", {"limits": {"rows": 0.3}})
     monkeypatch.setitem(KINDS, "some", {"limits": {"distribution": 9.0}})
     columns = {"value": {"compared": {"dots": "some"}}, "label": {"compared": {"ends": "outcome"}}}
     old, new = (
@@ -185,7 +188,7 @@ def numbers(name):
             if series == "others":
                 rows = table.index[~table.iloc[:, :2].isin([*kinds]).any(axis=1)]
             rows = rows[table.loc[rows, column].notna()]
-            if kind not in DECIDED_BY_ROUNDING and "moved" not in KINDS[kind]["limits"] and len(rows):
+            if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"] and len(rows):
                 yield column, rows
 
 
