@@ -96,7 +96,7 @@ def test_samples_of_one_distribution_are_near_and_rounding_of_equal_values_is_no
     assert apart("distribution", equal, equal + random.normal(0, 1e-12, 41)) == 0
 
 
-@pytest.mark.filterwarnings("ignore:One or more sample arguments")
+@pytest.mark.filterwarnings("ignore:One or more sample arguments", "ignore:All-NaN slice")
 def test_a_sample_without_values_is_never_near(apart):
     assert apart("distribution", [1.0, 2.0, 3.0], [np.nan] * 3) == FAR
 
