@@ -86,7 +86,8 @@ def figure_check(folder):
         "figure": HOSTILE,
         "status": "failed",
         "reasons": [HOSTILE] * 30,
-        "tables": [row | {"measure": "largest", "distance": 1.0, "limit": 2.0}],
+        "distance": 1.0,
+        "tables": [row | {"measure": HOSTILE, "distance": 1.0}],
     }
     return check_page([verdict], folder, folder)
 

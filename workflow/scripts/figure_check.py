@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from vibroimpact_pipeline.code import ROOT
-from vibroimpact_pipeline.figure_check.check import FAILED, NOT_COMPARABLE, check_all, command, has_failed, lines
+from vibroimpact_pipeline.figure_check.check import PASSED, check_all, has_failed, lines
 from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results import replacing
@@ -27,13 +27,9 @@ with running(snakemake):
         with replacing(FOLDER / name) as partial:
             partial.write_text(text, encoding="utf-8")
     said = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
-    if failed := [verdict for verdict in found if verdict["status"] == FAILED]:
-        drawing = all(reason.startswith(("picture:", "pdf:", "svg:")) for one in failed for reason in one["reasons"])
-        accept = command(one["figure"] for one in failed) + " PICTURES=1" * drawing
-        said += [f"To take a change on purpose into the reference set: {accept}"]
-    if others := [verdict["figure"] for verdict in found if verdict["status"] == NOT_COMPARABLE]:
-        said += ["Pictures are comparable with the versions that drew the reference, those of environment.lock."]
-        said += [f"To keep the tables and draw these anew: {command(others)} PICTURES=1"]
+    if others := " ".join(verdict["figure"] for verdict in found if verdict["status"] != PASSED):
+        said += [f'To accept a change on purpose: make accept REASON="why" FIGURES="{others}"']
+        said += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
     for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
         print(*said, sep="\n", file=stream, flush=True)
 sys.exit(int(has_failed(found, snakemake.params.strict)))

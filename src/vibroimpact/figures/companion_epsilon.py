@@ -44,8 +44,8 @@ SPEC = {
                 "panel": {"meaning": "the error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
                     "distance", "slow", "fast", "two terms"]},
                 "order": {"meaning": "the exponent $p$, by least squares on the logarithms", "unit": "dimensionless",
-                    "compared": "trajectory"},
-                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless", "compared": "certificate"},
+                    "compared": "exponent"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless", "compared": "exponent"},
             },
         },
     },

@@ -26,7 +26,7 @@ SPEC = {
         "panel": {}, "series": {"values": ["measured", "expected", "horizon", "window"]},
         "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$, in "
             "window both ends of figure 10.11", "unit": "forcing periods", "compared": {"measured": "algebra",
-            "others": "trajectory"}},
+            "others": "horizon"}},
         "error": {"meaning": "largest difference of a component of the state from the truth, and what the certificate "
             "of the run expects of it", "unit": "dimensionless", "compared": {"measured": "rounding",
             "others": "certificate"}},

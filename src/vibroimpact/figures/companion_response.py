@@ -56,7 +56,7 @@ SPEC = {
             "theory": "roots", "symmetric orbits": "roots", "others": "algebra"}},
         "low, high": {"meaning": "of balls: amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of "
             "the cycles", "unit": "dimensionless", "compared": "extremes"},
-        "impact_share": {"compared": {"balls": "mean", "others": "roots"}},
+        "impact_share": {"compared": {"balls": "extremes", "others": "roots"}},
         "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
             "analysis and the slow flow say so", "unit": "true or false"},
     },

@@ -1,6 +1,7 @@
 """Verdicts on figures: new tables against reference tables, and `draw(reference table)` against the reference picture.
 
-A figure has passed, failed, or is not comparable: its tables agree, but other versions drew the reference's picture.
+A figure has passed, failed, or is not comparable: its tables agree, but its picture is another one, as other versions
+of what draws may make it.
 """
 
 import json
@@ -12,12 +13,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from vibroimpact.figures.kit.tables import read
+from vibroimpact.figures.kit.versions import drawn_with
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.tables import compare
 from vibroimpact_pipeline.specs import each
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
-OTHER_VERSIONS = "picture not compared: other versions drew that of the reference, see pictures.json"
+OTHER_VERSIONS = "other versions drew the reference, see pictures.json, and these make another picture of its table"
 SUMS = "pictures.json"
 """File of a reference set with the sums of PDF and SVG by figure, and the versions that drew them."""
 
@@ -51,33 +53,51 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         reference: folder of the reference set. build: folder in which results/ lies, up to date.
 
     Returns keys figure, module, files (of each table that is compared its name in the reference set, and its path in
-    the build), status, reasons (one line each), tables (see `tables.compare`, with the table's name).
+    the build), status, reasons (one line each), distance (the largest, of which 1 is the limit), tables (see
+    `tables.compare`, with the table's name).
     """
-    verdict = {"figure": figure, "module": None, "files": {}, "status": FAILED, "reasons": [], "tables": []}
+    verdict = {
+        "figure": figure,
+        "module": None,
+        "files": {},
+        "status": FAILED,
+        "reasons": [],
+        "distance": 0.0,
+        "tables": [],
+    }
     if spec is None:
         return verdict | {"reasons": ["not built: the config has no such figure"]}
-    reference, build, reasons = Path(reference), Path(build), verdict["reasons"]
-    verdict["module"], verdict["files"] = spec["module"], kept(figure, spec)
-    png, built = reference / f"{figure}.png", {kind: f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
-    published = [png, *(reference / file for file, _ in verdict["files"].values())]
-    made = [build / path for path in [*built.values(), *(path for _, path in verdict["files"].values())]]
+    reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], kept(figure, spec)
+    verdict |= {"module": spec["module"], "files": files}
+    built = {kind: build / f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
+    published = [reference / file for file in (f"{figure}.png", *(file for file, _ in files.values()))]
+    made = [*built.values(), *(build / path for _, path in files.values())]
     for said, paths in (("no reference", published), ("not built", made)):
         if missing := [path.name for path in paths if not path.is_file()]:
             reasons.append(f"{said}: {', '.join(missing)}")
     if reasons:
         return verdict
     old, new = {}, {}
-    for name, (file, path) in verdict["files"].items():
+    for name, (file, path) in files.items():
         with _told(reasons, f"{file}: unreadable"):
             old[name], new[name] = read(reference / file), read(build / path)
             said, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
             reasons += [f"{file}: {reason}" for reason in said]
             verdict["tables"] += [{"table": file, **one} for one in distances]
-    if len(new) == len(verdict["files"]):
-        paths = {kind: build / path for kind, path in built.items()}
-        comparable = _compare_pictures(reasons, figure, spec["module"], png, paths, old, new)
-        verdict["status"] = FAILED if reasons else PASSED if comparable else NOT_COMPARABLE
-    return verdict
+    others = []
+    with _told(reasons, "picture: cannot be read or drawn"), TemporaryDirectory() as folder:
+        # Where the tables are equal, the built picture is what today's `draw` makes of the reference's tables.
+        equal = all(name in new and old[name].equals(new[name]) for name in files)
+        today = pictures.sums(built if equal else pictures.draw(spec["module"], old, figure, folder))
+        known = reference_sums(reference).get(figure, {})
+        before = known | pictures.sums({"png": published[0]})
+        others = [kind for kind in pictures.KINDS if today[kind] != before.get(kind)]
+        if pictures.is_blank(built["png"]):
+            reasons.append("picture: blank")
+        if others and known.get("drawn with") == drawn_with():
+            reasons.append(f"picture: `draw` makes another {', '.join(others)} of the reference's tables")
+    far = max((one["distance"] for one in verdict["tables"]), default=0.0)
+    return verdict | {"status": FAILED if reasons else NOT_COMPARABLE if others else PASSED, "distance": far}
 
 
 @contextmanager
@@ -89,63 +109,26 @@ def _told(reasons, what):
         reasons.append(f"{what}: {' '.join(str(error).split()) or type(error).__name__}")
 
 
-def _compare_pictures(reasons, figure, module, png, built, old, new):
-    """Append reasons; return True if the versions in use drew the picture of the reference.
-
-    Where the tables are equal, the built picture is what today's `draw` makes of the reference's table.
-    """
-    known = reference_sums(png.parent).get(figure, {})
-    comparable = known.get("drawn with") == pictures.environment()
-    with TemporaryDirectory() as folder, _told(reasons, "picture: cannot be read or drawn"):
-        found, after = pictures.sums(built), pictures.pixels(built["png"].read_bytes())
-        if (after == after[0, 0]).all():
-            reasons.append("picture: blank")
-        if not comparable:
-            return False
-        if not all(old[name].equals(new[name]) for name in old):
-            drawn = pictures.draw(module, old, figure, folder)
-            found, after = pictures.sums(drawn), pictures.pixels(drawn["png"].read_bytes())
-        before = pictures.pixels(png.read_bytes())
-        if before.shape != after.shape:
-            reasons.append("picture: {1} x {0} pixels instead of {3} x {2}".format(*after.shape[:2], *before.shape))
-        elif changed := int((before != after).any(axis=-1).sum()):
-            reasons.append(f"picture: `draw` makes {changed} other pixels of the reference's table")
-        others = [kind for kind in ("pdf", "svg") if known.get(kind) != found[kind]]
-        reasons += [f"{kind}: `draw` makes another one of the reference's table" for kind in others]
-    return comparable
-
-
-def share(verdict: dict) -> float:
-    """Return the largest distance of a figure's tables as a share of its limit."""
-    return max(
-        (one["distance"] / one["limit"] for one in verdict["tables"] if one["distance"] and one["limit"]), default=0
-    )
-
-
 def ordered(verdicts: list[dict]) -> list[dict]:
     """Sort verdicts: failures first, then by distance, then by name."""
     order = [FAILED, NOT_COMPARABLE, PASSED]
-    return sorted(verdicts, key=lambda one: (order.index(one["status"]), -share(one), one["figure"]))
+    return sorted(verdicts, key=lambda one: (order.index(one["status"]), -one["distance"], one["figure"]))
 
 
-def command(figures) -> str:
-    """Return the command that accepts figures as they are now."""
-    return f'make accept REASON="why" FIGURES="{" ".join(figures)}"'
+def line(verdict: dict) -> str:
+    """Return a line on a figure, with the first reason why it has not passed."""
+    reasons = verdict["reasons"] or [OTHER_VERSIONS] * (verdict["status"] == NOT_COMPARABLE)
+    more = f" ({len(reasons) - 1} more on the page)" * (len(reasons) > 1)
+    return ": ".join([verdict["figure"], verdict["status"], *reasons[:1]]) + more
 
 
 def lines(verdicts: list[dict]) -> list[str]:
-    """Return one line per figure that did not pass, with its first reason, and a summary line."""
-    said = []
-    for verdict in (verdict for verdict in ordered(verdicts) if verdict["status"] != PASSED):
-        first, *more = verdict["reasons"] or [OTHER_VERSIONS]
-        said.append(
-            f"{verdict['figure']}: {verdict['status']}: {first}"
-            + f" ({len(more)} more reasons on the page)" * bool(more)
-        )
+    """Return a line per figure that did not pass, and a summary."""
     counts = Counter(verdict["status"] for verdict in verdicts)
-    far = max(map(share, verdicts), default=0.0)
-    summary = f"{len(verdicts)} figures: " + ", ".join(f"{n} {status}" for status, n in counts.items())
-    return [*said, f"{summary}; largest distance {far:.2g} of its limit"]
+    summary = ", ".join(f"{n} {status}" for status, n in counts.items())
+    far = max((verdict["distance"] for verdict in verdicts), default=0.0)
+    said = [line(verdict) for verdict in ordered(verdicts) if verdict["status"] != PASSED]
+    return [*said, f"{len(verdicts)} figures: {summary}; largest distance {far:.2g} of its limit"]
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:

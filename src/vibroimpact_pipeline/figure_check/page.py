@@ -1,13 +1,19 @@
 """The figure check as one offline HTML page: reference, new picture, difference and numbers of every figure."""
 
+import base64
+import io
+from contextlib import suppress
 from pathlib import Path
 
 from jinja2 import Environment
+from PIL import ImageChops, ImageFilter
 
 from vibroimpact_pipeline.figure_check import check, pictures, tables
 from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
+SPREAD = 7
+"""A changed pixel is shown as wide as so many, so that one is seen on a page that shows several as one."""
 
 
 def page(verdicts: list[dict], reference, build) -> str:
@@ -15,20 +21,27 @@ def page(verdicts: list[dict], reference, build) -> str:
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
-    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, tables=tables))
+    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=tables.KINDS))
 
 
-def _pictures(verdict, reference, build) -> dict[str, str]:
-    """Return the pictures of a figure by caption: one if it has passed, since nothing differs."""
-    figure, found = verdict["figure"], {}
-    for name, folder in (("reference", Path(reference)), ("new", Path(build) / "results/figures")):
-        try:
-            content = (folder / f"{figure}.png").read_bytes()
-            if verdict["status"] == check.PASSED:
-                return {"same": pictures.address(content)}
-            found[name] = pictures.pixels(content)
-        except Exception:
-            continue  # the verdict says so, whatever the library has raised
-    if len({picture.shape for picture in found.values()}) == 1 and len(found) == 2:
-        found["difference"] = pictures.difference(**found)
-    return {name: pictures.address(pictures.smaller(picture)) for name, picture in found.items()}
+def _pictures(verdict, reference, build):
+    """Return reference, new picture and difference as PNG files; of a figure that has passed the reference alone."""
+    files, shown = {}, []
+    for name, folder in (("Reference", Path(reference)), ("New", Path(build) / "results/figures")):
+        with suppress(Exception):  # the verdict says so, whatever the library raises
+            content = (folder / f"{verdict['figure']}.png").read_bytes()
+            shown.append(pictures.picture(content))
+            files[name] = content
+        if verdict["status"] == check.PASSED:
+            break
+    if len(files) == 2:
+        files["Difference"] = difference(*shown)
+    return {name: "data:image/png;base64," + base64.b64encode(content).decode() for name, content in files.items()}
+
+
+def difference(old, new) -> bytes:
+    """Return a PNG file, white where two pictures are alike and dark where not; of two sizes, the part of both."""
+    unlike = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
+    content = io.BytesIO()
+    ImageChops.invert(unlike).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")
+    return content.getvalue()

@@ -1,229 +1,181 @@
 """Distances of tables of plotted numbers from their references, by series and column."""
 
-import math
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import yaml
+from scipy.stats import ks_2samp
 
-FLOOR = 1e-17
-"""Errors below this are as good as none; so low does a logarithmic axis go."""
-SAME = 1e-6
-"""Share of the axis: an outcome, or a value of a sample, that moves by less is the same."""
-KEYS = ("panel", "series"), ("quantity",)
-"""Columns that part the rows of a table into series."""
+KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
+"""Kinds of numbers: the limit of each of the MEASURES that compare them, and the reason."""
 OTHERS = "others"
 """Stands for the series that have no kind of their own."""
-KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
-"""Kinds of numbers: the MEASURES they are compared by, each with its limit, and the reason."""
+FAR = 999.0
+"""Distance of what no limit allows: a value that is not finite, a class that vanishes."""
+SMALLEST = 1e-17
+"""Errors below this are as good as none; so low does a logarithmic axis go."""
+SAME = 1e-6
+"""Counts and shares that differ by less are the same."""
+DIGITS = 6
+"""Decimals of the values of a sample, so that those equal but for rounding are ties."""
 
 
 def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, one line each, and the distance of each column from its reference.
 
+    Rows whose first two words are equal are a series. In a series rows correspond one by one, unless its numbers are
+    samples.
+
     Args:
-        columns: entries of a SPEC. A column of text that is not compared names its row, and must be the same.
+        columns: entries of a SPEC. A column of words that is not compared must be the same.
 
-    Returns as distances: column, kind, measure, limit, distance, where it is (the row that is farthest off), reference
-    and new (the values there; of a sample the medians).
+    Returns as distances: column, kind, measure, distance (1 is the limit), where the largest is, and there the value of
+    the reference and the new one (of a whole series the medians).
     """
-    reasons = _structure(old, new, columns) or _lacks(new, columns)
-    found = [] if reasons else list(_distances(old, new, columns).values())
-    for one in found:
-        if one["kind"] is None:
-            reasons.append(f"no limit is stated for column {one['column']}")
-        elif not one["distance"] <= one["limit"]:
-            before, after = (v if isinstance(v, str) else f"{v:.9g}" for v in (one["reference"], one["new"]))
-            far = f"{one['column']} is off by {one['distance']:.2g} {UNITS[one['measure']]}, limit {one['limit']:g}"
-            reasons.append(f"{far} ({one['where']}: {after} instead of {before})")
-    return reasons, [{key: _plain(value) for key, value in one.items()} for one in found]
-
-
-def _plain(value):
-    """Return a value that JSON can hold: no NumPy scalar, None for a number that is not finite."""
-    value = value.item() if hasattr(value, "item") else value
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _structure(old, new, columns):
-    """Return reasons why two tables cannot be compared: different columns, rows or blanks."""
     if list(old) != list(new):
-        return [f"columns {', '.join(new)} instead of {', '.join(old)}"]
-    found, texts = [], _texts(old)
+        return [f"columns {', '.join(new)} instead of {', '.join(old)}"], []
+    reasons, farthest = _wrong_in_itself(new, columns), {}
     before, after = _by_series(old), _by_series(new)
     for series in before | after:
-        parts = [table.get(series, old.iloc[:0]) for table in (before, after)]
-        kinds = [_kinds(part, series, columns) for part in parts]
-        if not all(map(_is_sample, kinds)):
-            found += _rows_that_differ(*parts, [name for name in texts if name not in kinds[0]])
-    return found or ["the same series in another order"] * (list(before) != list(after))
+        a, b = (parts.get(series, old.iloc[:0]) for parts in (before, after))
+        kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and _given(a[name]).any()}
+        words = [name for name in _words(old) if name not in kinds]
+        sample = bool(kinds) and all("distribution" in KINDS[kind]["limits"] for kind in kinds.values())
+        if a.empty or b.empty or not (sample or _same(a[words], b[words])):
+            reasons.append(f"{', '.join(series)}: other rows, {len(b)} instead of {len(a)}")
+            continue
+        for name in (name for name in old if name not in words):
+            if not sample and (_given(a[name]).to_numpy() != _given(b[name]).to_numpy()).any():
+                reasons.append(f"{name}: blank in other rows ({', '.join(series)})")
+            elif name in kinds:
+                for found in _distances(a, b, name, kinds[name]):
+                    key = name, found["kind"], found["measure"]
+                    farthest[key] = max(farthest.get(key, found), found, key=lambda one: one["distance"])
+            elif _given(a[name]).any():
+                reasons.append(f"no limit is stated for column {name}")
+    reasons += ["the same series in another order"] * (not reasons and list(before) != list(after))
+    for one in (one for one in farthest.values() if one["distance"] > 1):
+        far = f"{one['column']} is off by {one['distance']:.2g} times its limit ({one['kind']}, {one['measure']})"
+        reasons.append(f"{far}: {one['new']} instead of {one['reference']} ({one['where']})")
+    return reasons, list(farthest.values())
 
 
-def _rows_that_differ(old, new, texts):
-    names, new_names = _names(old, texts), _names(new, texts)
-    counts, new_counts = Counter(names), Counter(new_names)
-    if counts != new_counts:
-        differ = [name for name in counts | new_counts if counts[name] != new_counts[name]]
-        return [f"{name}: {new_counts[name] or 'no'} rows instead of {counts[name] or 'none'}" for name in differ]
-    if names != new_names:
-        return ["the same rows in another order"]
-    blanks = old.isna().to_numpy() != new.isna().to_numpy()
-    return [f"{name}: blank in other rows" for name, other in zip(old, blanks.any(axis=0), strict=True) if other]
-
-
-def _lacks(table, columns):
-    """Return what a table lacks: rows, declared columns, values, finite numbers; its reference may lack the same."""
-    compared = {name: entry["compared"] for name, entry in columns.items() if "compared" in entry and name in table}
+def _wrong_in_itself(table, columns):
+    """Return what a table lacks, though its reference may lack the same."""
+    compared = [name for name, entry in columns.items() if "compared" in entry and name in table]
     if table.empty or not compared:
         return ["no rows" if table.empty else "none of the columns that its SPEC declares"]
-    found = []
-    for name, kinds in compared.items():
-        key = "series" if "series" in table else "quantity"
-        parts = {} if isinstance(kinds, str) else {s: table[table[key] == s] for s in kinds if s != OTHERS}
-        lacking = [f" in series {s}" for s, part in parts.items() if len(part) and not _given(part[name]).any()]
-        found += [f"no value of {name}{where}" for where in ([] if _given(table[name]).any() else [""]) or lacking]
     finite = [name for name in table.select_dtypes("number") if not columns.get(name, {}).get("infinite")]
-    return found + [f"{name} is infinite" for name in finite if np.isinf(table[name].to_numpy(float)).any()]
+    lacking = [f"no value of {name}" for name in compared if not _given(table[name]).any()]
+    return lacking + [f"{name} is infinite" for name in finite if np.isinf(table[name]).any()]
 
 
-def _distances(old, new, columns):
-    """Return by column, kind and measure the entry with the largest distance over all series."""
-    new_parts, farthest = _by_series(new), {}
-    numbers, texts = old.select_dtypes("number").columns, _texts(old)
-    for series, part in _by_series(old).items():
-        fresh, kinds = new_parts[series], _kinds(part, series, columns)
-        unruled = {name: None for name in numbers if name not in kinds and part[name].notna().any()}
-        for column, kind in (kinds | unruled).items():
-            scales = _scales(old, column)[part.index]
-            for measure, limit in (KINDS[kind]["limits"] if kind else {"largest": None}).items():
-                far, row = MEASURES[measure][0](part[column], fresh[column], scales)
-                if far > farthest.get((column, kind, measure), {"distance": -1})["distance"]:
-                    place = {"where": ", ".join(series)} | {
-                        name: float(values[column].median()) if row is None else values[column].iloc[row]
-                        for name, values in (("reference", part), ("new", fresh))
-                    }
-                    if row is not None:
-                        place["where"] = f"{_names(part.iloc[[row]], texts)[0]}, row {part.index[row] + 1}"
-                    rule = {"column": column, "kind": kind, "measure": measure, "limit": limit}
-                    farthest[column, kind, measure] = rule | {"distance": float(far)} | place
-    return farthest
+def _by_series(table):
+    """Return the rows of each series, in order; a table without words is one, ("",)."""
+    words = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])][:2]
+    return dict(iter(table.groupby(words, sort=False))) if words else {("",): table}
 
 
-def _kinds(part, series, columns):
-    """Return the kind of each column that has values in a series."""
-    found = {}
-    for name in part:
-        kind = columns.get(name, {}).get("compared")
-        kind = kind.get(series[-1], kind.get(OTHERS)) if isinstance(kind, dict) else kind
-        if kind and _given(part[name]).any():
-            found[name] = kind
-    return found
+def _kind(columns, name, series):
+    """Return the kind of a column in a series, None if it is not compared."""
+    kinds = columns.get(name, {}).get("compared")
+    if not isinstance(kinds, dict):
+        return kinds
+    return next((kinds[word] for word in series if word in kinds), kinds.get(OTHERS))
 
 
-def _is_sample(kinds):
-    """True if a series with columns of these kinds is a sample, in which no row has its counterpart."""
-    return bool(kinds) and all("distribution" in KINDS[kind]["limits"] for kind in kinds.values())
-
-
-def _largest(old, new, scales):
-    shares = _shares(old, new, scales)
-    return shares.max(), int(shares.argmax())
-
-
-def _decades(old, new, scales):
-    return _largest(*(np.log10(values.clip(lower=FLOOR)) for values in (old, new)), 1.0)
-
-
-def _middle_of_decades(old, new, scales):
-    """Return the shift of the median of log10, whatever single values do."""
-    old, new = (np.log10(values.dropna().clip(lower=FLOOR)) for values in (old, new))
-    return abs(new.median() - old.median()), None
-
-
-def _part_of_rows(old, new, scales):
-    numbers = pd.api.types.is_numeric_dtype(old)
-    # Texts as arrays: rows after a sample of another size have other numbers.
-    before, after = (None, None) if numbers else (values.fillna("").to_numpy() for values in (old, new))
-    differs = _shares(old, new, scales) > SAME if numbers else before != after
-    return differs.mean(), int(differs.argmax())
-
-
-def _times_chance(old, new, scales):
-    """Return the two-sample Kolmogorov-Smirnov statistic; values equal to rounding count as ties."""
-    old, new = (np.sort(values.dropna().to_numpy(float)) for values in (old, new))
-    slack, n, m = SAME * float(scales.max()), len(old), len(new)
-    return max(_lead(old, new, slack), _lead(new, old, slack)) * np.sqrt(n * m / (n + m)), None
-
-
-def _lead(ahead, behind, slack):
-    """Return the largest excess of one empirical distribution over another that is shifted by the slack."""
-    below = np.searchsorted(behind, ahead + slack, side="right") / len(behind)
-    return (np.arange(1, len(ahead) + 1) / len(ahead) - below).max()
-
-
-def _standard_score_of_sizes(old, new, scales):
-    """Return the difference of two sample sizes in standard deviations of Poisson counts."""
-    n, m = (int(values.notna().sum()) for values in (old, new))
-    return abs(n - m) / np.sqrt(n + m), None
-
-
-def _standard_errors(old, new, scales):
-    """Return the difference of two means in standard errors."""
-    old, new = (values.dropna().to_numpy(float) for values in (old, new))
-    error = np.sqrt(sum(values.var(ddof=1) / len(values) if len(values) > 1 else 0.0 for values in (old, new)))
-    return abs(old.mean() - new.mean()) / (error + SAME * float(scales.max())), None
-
-
-MEASURES = {
-    "largest": (_largest, "of its axis"),
-    "decades": (_decades, "decades"),
-    "middle of decades": (_middle_of_decades, "decades in the middle"),
-    "part of rows": (_part_of_rows, "of its rows"),
-    "distribution": (_times_chance, "times chance"),
-    "size": (_standard_score_of_sizes, "times chance in number"),
-    "mean": (_standard_errors, "standard errors"),
-}
-UNITS = {measure: unit for measure, (_, unit) in MEASURES.items()}
-"""Units of the distances. The axis is the range of the reference's column in its panel; if that range is zero, and in
-tables without panels, the reference itself. The distance of values that are not finite is infinite."""
-
-
-def _shares(old, new, scales):
-    old, new = (pd.to_numeric(values, errors="coerce").to_numpy(float) for values in (old, new))
-    with np.errstate(invalid="ignore"):
-        shares = np.abs(new - old) / np.asarray(scales)
-    return np.where(np.isnan(old) | (old == new), 0.0, np.where(np.isfinite(shares), shares, np.inf))
-
-
-def _scales(table, name):
-    """Return the length of the axis for every row; NaN for a column of text."""
-    if name in _texts(table):
-        return pd.Series(np.nan, table.index)
-    values = table[name].replace([np.inf, -np.inf], np.nan)
-    sizes = values.abs().where(values != 0, 1.0)
-    if "panel" not in table:
-        return sizes
-    panels = values.groupby(table["panel"])
-    ranges = panels.transform("max") - panels.transform("min")
-    return ranges.where(ranges > 0, sizes)
-
-
-def _texts(table):
+def _words(table):
     return list(table.select_dtypes(exclude="number"))
+
+
+def _same(old, new):
+    return old.reset_index(drop=True).equals(new.reset_index(drop=True))
 
 
 def _given(values):
     return values.notna() & (values != "")
 
 
-def _by_series(table):
-    """Return rows by (panel, series) or by (quantity,), in order; a table without these columns as one group, ("",)."""
-    keys = next((keys for keys in KEYS if {*keys} <= {*table}), None)
-    return dict(iter(table.groupby(list(keys), sort=False))) if keys else {("",): table}
+def _distances(old, new, name, kind):
+    """Yield the largest distance of a column in a series by each measure of its kind."""
+    before, after = (part[name].to_numpy() for part in (old, new))
+    for measure, limit in KINDS[kind]["limits"].items():
+        with np.errstate(all="ignore"):
+            far = np.nan_to_num(MEASURES[measure](before, after, limit), nan=FAR)
+        if np.ndim(far):
+            far = np.where((before == after) | pd.isna(before), 0.0, far)
+            row = int(far.argmax())
+            far, values, place = far[row], (before[row], after[row]), f"row {old.index[row] + 1}"
+        else:
+            row, values, place = 0, (np.nanmedian(before), np.nanmedian(after)), "in the middle"
+        where = ", ".join([*map(str, old[_words(old)].iloc[row].dropna()), place])
+        old_value, new_value = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
+        found = {"column": name, "kind": kind, "measure": measure, "distance": min(float(far), FAR), "where": where}
+        yield found | {"reference": old_value, "new": new_value}
 
 
-def _names(table, texts):
-    """Return the text columns of each row, joined: "a1, SIM stable"."""
-    return [", ".join(map(str, row)) for row in table[texts].itertuples(index=False, name=None)]
+# Measures of two columns, arrays (n,): the distance of each row, or one of all rows, of which 1 is the limit.
+
+
+def _difference(old, new, limit):
+    """Compare numbers by their difference; the limit has an absolute part and one relative to the reference."""
+    return np.abs(new - old) / (limit["absolute"] + limit["relative"] * np.abs(old))
+
+
+def _decades(old, new, limit):
+    """Compare numbers by their logarithms."""
+    return np.abs(_shifts(old, new)) / limit
+
+
+def _middle(old, new, limit):
+    """Compare numbers by the median shift of their logarithms, whatever single ones do."""
+    return np.abs(np.nanmedian(_shifts(old, new))) / limit
+
+
+def _shifts(old, new):
+    return np.log10(np.maximum(new, SMALLEST)) - np.log10(np.maximum(old, SMALLEST))
+
+
+def _rows(old, new, limit):
+    """Compare classes, or counts, by the share of rows in which they differ."""
+    differ = old != new if old.dtype == object else np.abs(new - old) > SAME
+    return differ * differ.mean() / limit
+
+
+def _classes(old, new, limit):
+    """Compare numbers of rows in each class, or sums of counts, in standard deviations of Poisson counts.
+
+    A class that vanishes is never near.
+    """
+    far = np.zeros(len(old))
+    for label in {*old, *new} if old.dtype == object else [None]:
+        before, after = (np.nan_to_num((x if label is None else x == label).astype(float)) for x in (old, new))
+        n, m = before.sum(), after.sum()
+        distance = FAR if n and not m else abs(n - m) / np.sqrt(n + m) / limit
+        far = np.maximum(far, np.where(before != after, distance, 0.0))
+    return far
+
+
+def _distribution(old, new, limit):
+    """Compare samples by the two-sample Kolmogorov-Smirnov statistic, times the root of their size."""
+    old, new = (np.round(values[~np.isnan(values)], DIGITS) for values in (old, new))
+    n, m = len(old), len(new)
+    return ks_2samp(old, new, method="asymp").statistic * np.sqrt(n * m / (n + m)) / limit
+
+
+def _size(old, new, limit):
+    """Compare sizes of samples, in standard deviations of Poisson counts."""
+    n, m = (np.count_nonzero(~np.isnan(values)) for values in (old, new))
+    return abs(n - m) / np.sqrt(n + m) / limit
+
+
+MEASURES = {
+    "difference": _difference,
+    "decades": _decades,
+    "middle": _middle,
+    "rows": _rows,
+    "classes": _classes,
+    "distribution": _distribution,
+    "size": _size,
+}
