@@ -5,6 +5,7 @@ Rounding errors are estimated by a unit error at the start and after every event
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,14 +14,26 @@ from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
 from vibroimpact.exact.engine.phase import ahead, phase_at
-from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, land, start_of
+from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, WALLS, land, start_of
 from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
-ALIKE = 0.02
-"""Correlation of two roundings by the same entry of the flow tables."""
+TABLE, REBOUND = 0.15, 0.25
+"""Typical rounding, in units, of an entry of the flow tables, and of restitution times approach. One that repeats, the
+same entry being read again or kappa being next to 1, adds up instead of averaging out."""
+
+
+class Errors(NamedTuple):
+    """Estimated errors of a state in units of rounding.
+
+    independent: covariance (8, 8) of roundings that add by their squares; repeated: sums (8, 6) of those that are alike
+    each time, a column for each: growth and turn of either box by the tables, rebound of either ball.
+    """
+
+    independent: np.ndarray
+    repeated: np.ndarray
 
 
 @compiled
@@ -30,25 +43,23 @@ def errors_of(flow, flights, events, limit):
     exceeds the limit.
     """
     q = flow.coefficients
-    errors, known, repeated = np.full((len(flights), 2), math.inf), limit / UNIT, 0
-    covariance, matrix, product, part = np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
-    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
+    told, known = np.full((len(flights), 2), math.inf), limit / UNIT
+    errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
+    matrix, product, part = np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
+    _begin(q, flights[0], errors)
     for n in range(len(flights)):
-        errors[n, 0] = errors[n, 1] = UNIT * _root(covariance)
+        told[n, 0] = told[n, 1] = UNIT * _root(errors)
         if flights[n, LENGTH] > 0.0:
             _copy(flights[n], part)
-            repeated = _fly(flow, part, repeated, covariance, matrix, product)
-            errors[n, 1] = UNIT * _root(covariance)
+            _fly(flow, part, errors, matrix, product)
+            told[n, 1] = UNIT * _root(errors)
         if n < len(events):
-            _pass(q, flights, events, n, covariance, matrix, product)
-            reached = flights[n + 1, BEFORE:AFTER]
+            _pass(q, flights, events, n, errors, matrix, product)
         else:
-            _add_lateness(q, covariance, flights[n], 0.0, product[0])
-            reached = flights[n, AFTER:]
-        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], reached, 0)
-        if not _root(covariance) <= known:  # also where it is no number: an impact without velocity
-            return errors, math.inf
-    return errors, UNIT * _root(covariance)
+            _end(q, flights[n], 0.0, errors, product[0])
+        if not _root(errors) <= known:  # also where it is no number: an impact without velocity
+            return told, math.inf
+    return told, UNIT * _root(errors)
 
 
 @compiled
@@ -57,85 +68,109 @@ def errors_at(flow, flights, events, times, limit):
     run that ends there.
     """
     q = flow.coefficients
-    errors, known, start, k, repeated = np.full(len(times), math.inf), limit / UNIT, 0.0, 0, 0
-    covariance, there, matrix, product = np.zeros((8, 8)), np.zeros((8, 8)), np.empty((8, 8)), np.empty((8, 8))
-    part = np.empty(COLUMNS)
-    _add_rounding(q, covariance, flights[0, BEFORE:AFTER], flights[0, BEFORE:AFTER], 0)
+    told, known, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
+    errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
+    there = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
+    matrix, product, part = np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
+    _begin(q, flights[0], errors)
     for n in range(len(flights)):
         last = n == len(events)
         while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
             _copy(flights[n], part)
-            _copy(covariance.flat, there.flat)
+            _copy(errors.independent.flat, there.independent.flat)
+            _copy(errors.repeated.flat, there.repeated.flat)
             part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
-            _fly(flow, part, repeated, there, matrix, product)
+            _fly(flow, part, there, matrix, product)
             land(flow, part)
-            _add_lateness(q, there, part, times[k], product[0])
-            _add_rounding(q, there, part[BEFORE:AFTER], part[AFTER:], 0)
+            _end(q, part, times[k], there, product[0])
             if _root(there) <= known:
-                errors[k] = UNIT * _root(there)
+                told[k] = UNIT * _root(there)
             k += 1
         if last:
             break
         _copy(flights[n], part)
-        repeated = _fly(flow, part, repeated, covariance, matrix, product)
-        _pass(q, flights, events, n, covariance, matrix, product)
-        _add_rounding(q, covariance, flights[n, BEFORE:AFTER], flights[n + 1, BEFORE:AFTER], 0)
-        if not _root(covariance) <= known:
+        _fly(flow, part, errors, matrix, product)
+        _pass(q, flights, events, n, errors, matrix, product)
+        if not _root(errors) <= known:
             break
         start += flights[n, LENGTH]
-    return errors
+    return told
 
 
 @inlined
-def _fly(flow, flight, repeated, covariance, matrix, product):
-    """Carry a covariance over a flight, adding a rounding error at each end of the tables; the row becomes its last
-    part.
+def _begin(q, flight, errors):
+    """Add to errors at the start of a run a rounding, also of the velocity of a ball on a wall, put there."""
+    state = flight[BEFORE:AFTER]
+    touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
+    _add_rounding(q, errors, flight[:AFTER], state, touching)
 
-    repeated: how often the tables ended before. Returns how often they have by now.
+
+@inlined
+def _fly(flow, flight, errors, matrix, product):
+    """Carry errors over a flight, adding those of the tables, and a rounding at each end of them; the row becomes its
+    last part.
     """
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
+        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry is the unit matrix
+            _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
-        _carry(matrix, covariance, product)
+        _carry(matrix, errors, product)
         left -= flight[LENGTH]
         if left > 0.0:
-            repeated += 1
             land(flow, flight)
-            _add_rounding(flow.coefficients, covariance, flight[BEFORE:AFTER], flight[AFTER:], repeated)
+            _add_rounding(flow.coefficients, errors, flight[:AFTER], flight[AFTER:], (False, False))
             _copy(flight[AFTER:], flight[BEFORE:AFTER])
             flight[FORCING], _ = ahead(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
-    return repeated
 
 
 @inlined
-def _pass(q, flights, events, n, covariance, matrix, product):
-    """Carry a covariance over event n."""
-    _add_miss(covariance, flights[n], events[n])
+def _pass(q, flights, events, n, errors, matrix, product):
+    """Carry errors over event n, adding a rounding."""
+    _add_miss(errors.independent, flights[n], events[n])
     fill_event(q, flights, events, n, matrix)
-    _carry(matrix, covariance, product)
+    _carry(matrix, errors, product)
+    i, reached = int(events[n, 1]) - 1, flights[n + 1, BEFORE:AFTER]
+    if events[n, 3] == IMPACT:
+        follows = (6 if q.epsilon <= 1.0 else 2) + i
+        errors.repeated[follows, 4 + i] += REBOUND * (reached[2 + i] - reached[6 + i])
+    _add_rounding(q, errors, flights[n, :AFTER], reached, (i == 0, i == 1))
 
 
 @inlined
-def _carry(matrix, covariance, product):
-    """Replace a covariance C by that of the error times a matrix M, M (M C)^T."""
+def _end(q, flight, elapsed, errors, rate):
+    """Add to errors at the end of a run, or at a sample, those of its time and the rounding of the state."""
+    _add_lateness(q, errors.independent, flight, elapsed, rate)
+    _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
+
+
+@inlined
+def _carry(matrix, errors, product):
+    """Replace errors by those times a matrix M, a covariance C by M (M C)^T."""
+    covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
         for j in range(i):
             product[i, j], product[j, i] = product[j, i], product[i, j]
     _multiply(matrix, product, covariance)
+    _multiply(matrix, sums, product)
+    for i in range(8):
+        for j in range(sums.shape[1]):
+            sums[i, j] = product[i, j]
 
 
 @inlined
 def _multiply(a, b, product):
-    """Fill in the product of two matrices (8, 8), the first of them sparse."""
+    """Fill in the product of a sparse matrix (8, 8) and vectors (8, m)."""
+    columns = b.shape[1]
     for i in range(8):
-        for j in range(8):
+        for j in range(columns):
             product[i, j] = 0.0
         for k in range(8):
             weight = a[i, k]
             if weight != 0.0:
-                for j in range(8):
+                for j in range(columns):
                     product[i, j] += weight * b[k, j]
 
 
@@ -147,12 +182,14 @@ def _copy(source, target):
 
 
 @inlined
-def _root(covariance):
-    """Return the square root of the trace."""
-    trace = 0.0
+def _root(errors):
+    """Return the root mean square of errors over the whole state."""
+    total = 0.0
     for k in range(8):
-        trace += covariance[k, k]
-    return math.sqrt(trace)
+        total += errors.independent[k, k]
+        for j in range(errors.repeated.shape[1]):
+            total += errors.repeated[k, j] ** 2
+    return math.sqrt(total)
 
 
 @unfolded
@@ -179,24 +216,34 @@ def _add_lateness(q, covariance, flight, elapsed, rate):
 
 
 @inlined
-def _add_rounding(q, covariance, began, state, repeated):
-    """Add a unit rounding error of a flight between two states (8,), [boxes, balls], to a covariance.
+def _add_table(q, state, sums):
+    """Add to sums before a flight from a state (8,) the rounding of a table entry: each box grows and turns by it."""
+    for i in range(2):
+        x, v = state[i], state[2 + i]
+        omega = math.sqrt(max(q.k11 if i == 0 else q.k22, 1.0))
+        sums[i, 2 * i] += TABLE * x
+        sums[2 + i, 2 * i] += TABLE * v
+        sums[i, 2 * i + 1] += TABLE * v / omega
+        sums[2 + i, 2 * i + 1] -= TABLE * x * omega
+
+
+@inlined
+def _add_rounding(q, errors, flight, state, met):
+    """Add a unit rounding error of a state (8,), [boxes, balls], at the end of a flight (row up to its start).
 
     A flight sums what the force does on the way, F / Omega^2 to a position and F / Omega to a velocity, and loses the
     last digits of it however little of it is left. So it does with the velocities that a stiff spring gives the boxes.
-    Where it is that of the whole table once more, as so many times before (repeated), a part of it adds linearly.
+    The velocity of a free ball is not computed but where it has met a wall.
     """
+    covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
     place = speed / max(1.0, q.omega)
     farthest = max(abs(began[0]), abs(state[0])) + max(abs(began[1]), abs(state[1]))
     speed += (math.sqrt(max(q.k11, q.k22, 1.0)) - 1.0) * farthest
-    if repeated > 0:
-        for j in range(8):
-            for k in range(8):
-                covariance[j, k] *= 1.0 + ALIKE / repeated
     for k in range(8):
         swing = 0.0 if k > 3 else (place if k < 2 else speed)
-        covariance[k, k] += (1.0 + ALIKE * repeated) * (1.0 + abs(state[k]) + swing) ** 2
+        if k < 6 or met[k - 6] or flight[WALLS + k - 6] != 0.0:
+            covariance[k, k] += (1.0 + abs(state[k]) + swing) ** 2
 
 
 KNOWN = 1e-3
