@@ -280,17 +280,17 @@ def true_over_told(genes, most_events=150):
         return None
 
 
-def climbed(rng, draws, steps):
-    """Ratios (`true_over_told`) of random draws and of a hill climb from the worst of them."""
-    genes = rng.uniform(0, 1, (draws, GENES))
-    ratios = [true_over_told(one) for one in genes]
+def climbed(rng, draws, steps, ratio=true_over_told, genes=GENES):
+    """Ratios of random draws of genes and of a hill climb from the worst of them."""
+    drawn = rng.uniform(0, 1, (draws, genes))
+    ratios = [ratio(one) for one in drawn]
     worst, best = max(((r, n) for n, r in enumerate(ratios) if r is not None), default=(0.0, 0))
-    at = genes[best]
+    at = drawn[best]
     for _ in range(steps):
-        moved = rng.random(GENES) < 0.2
-        moved[rng.integers(GENES)] = True
-        there = np.clip(at + moved * rng.normal(size=GENES) * 10 ** rng.uniform(-6, -0.5), 0, 1)
-        ratios.append(ratio := true_over_told(there))
-        if ratio is not None and ratio > worst:
-            worst, at = ratio, there
-    return [ratio for ratio in ratios if ratio is not None]
+        moved = rng.random(genes) < 0.2
+        moved[rng.integers(genes)] = True
+        there = np.clip(at + moved * rng.normal(size=genes) * 10 ** rng.uniform(-6, -0.5), 0, 1)
+        ratios.append(found := ratio(there))
+        if found is not None and found > worst:
+            worst, at = found, there
+    return [found for found in ratios if found is not None]

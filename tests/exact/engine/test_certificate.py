@@ -5,6 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from attacks import Attack, Observer, fast_attack, truth
+from one_box import judged, one_box
 from vibroimpact.exact.engine.certificate import KNOWN
 
 MISSES = [
@@ -82,6 +83,30 @@ def test_a_rounding_that_repeats_at_every_flight_or_impact(parameters, start, cy
     run = vi.simulate(attack.system, attack.start, cycles)
     assert run.certificate.decided
     assert np.abs(run.final - truth(attack, cycles=cycles).final).max() < run.certificate.error
+
+
+@pytest.mark.parametrize(
+    ("parameters", "start", "cycles"),
+    [((0.5, 1 - 2**-53, -0.5), [0, 0, 0, 5.97389950059458], 300), ((2.778, 1 - 1e-14, -0.244), [0, 0.6, -7, 8.3], 300)],
+    ids=["rounding of kappa times a speed", "one entry of the flow table"],
+)
+def test_a_rounding_that_repeats_where_nothing_is_lost(parameters, start, cycles):
+    assert judged(one_box(*parameters), start, cycles) < 1
+
+
+def test_a_run_of_25_000_impacts_without_loss_is_not_decided_with_a_wrong_number_of_them():
+    system, start = one_box(0.5, 1 - 2**-53, -0.5), [0, 0, 0, 5.97389950059458]
+    certificate = vi.simulate(system, [0, 0, 0, 0, 0, start[3], 0, 0], 1000).certificate
+    assert not certificate.decided or judged(system, start, 1000) < 2.6
+
+
+def test_the_error_of_a_module_at_peace_beside_one_that_impacts(chapter):
+    """Its ball flies freely and its box swings: what a rounding at each event of the other module would make of it."""
+    system = chapter(0.0, 1.0, alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=0.0)
+    attack = Attack("at peace", system, np.array([0.5, 0, 0, 0, 0, 0, 0, 0.5]), 0.0)
+    run = vi.simulate(system, attack.start, 300)
+    assert len(run.events) > 500
+    assert run.certificate.error < 50 * np.abs(run.final - truth(attack, cycles=300).final).max()
 
 
 def test_arrays_of_a_run_cannot_be_written_to(chapter):
