@@ -1,5 +1,8 @@
 """What the certificate promises, promise by promise; test_attack.py attacks the same at random."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -109,8 +112,12 @@ def test_the_error_of_a_module_at_peace_beside_one_that_impacts(chapter):
     assert run.certificate.error < 50 * np.abs(run.final - truth(attack, cycles=300).final).max()
 
 
-def test_arrays_of_a_run_cannot_be_written_to(chapter):
-    run = vi.simulate(chapter(), np.zeros(8), 2, sample_times=[1.0])
+@pytest.mark.parametrize("copied", [lambda run: run, copy.deepcopy, lambda run: pickle.loads(pickle.dumps(run))])
+def test_arrays_of_a_run_cannot_be_written_to(chapter, copied):
+    original = vi.simulate(chapter(), np.zeros(8), 2, sample_times=[1.0])
+    run = copied(original)
+    np.testing.assert_array_equal(run.rows, original.rows)
+    assert run.certificate == original.certificate
     arrays = (
         run.start,
         run.samples,

@@ -115,10 +115,15 @@ def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):
         "speeds": orbit.ball_speeds * 1.05,
         "kind": True,
         "system": orbit.system.with_(f10_hat=1.01),
+        "state": orbit.state + np.eye(8)[5] * 1e-3,
+        "multipliers": orbit.multipliers * [1, 1, 1, 0.99, 1, 1, 1, 1],
     }
-    names = {"phases": "impact_phases", "speeds": "ball_speeds", "kind": "symmetric", "system": "system"}
+    names = {"phases": "impact_phases", "speeds": "ball_speeds", "kind": "symmetric"}
     for what, value in spoilt.items():
-        assert said(prove(dataclasses.replace(orbit, **{names[what]: value}))) == REFUSED, what
+        assert said(prove(dataclasses.replace(orbit, **{names.get(what, what): value}))) == REFUSED, what
+    double = orbit.multipliers.copy()
+    double[-1] = double[0]
+    assert said(prove(dataclasses.replace(orbit, multipliers=double))) == REFUSED
     assert said(prove(dataclasses.replace(orbits["S4"], symmetric=False))) == REFUSED
     off = dataclasses.replace(orbit, ball_speeds=orbit.ball_speeds + 1e-7, multipliers=orbit.multipliers * (1 + 1e-6))
     assert prove(off).error == pytest.approx(1e-7, rel=1e-3)

@@ -139,6 +139,11 @@ class Run(Representation):
         for array in (start, samples, final, counters):
             array.flags.writeable = False
 
+    def __reduce__(self):
+        """Make a copy or an unpickled run anew, since NumPy forgets that an array is read-only."""
+        given = self.system, self.start, self.begin, self.cycles, self.samples, self.final, self.pieces, self.counters
+        return type(self), given
+
     def _shown(self):
         counts = np.bincount(self.events["kind"], minlength=len(KINDS))
         return {

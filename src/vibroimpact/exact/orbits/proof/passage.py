@@ -19,6 +19,7 @@ _DRIVEN = [*BOXES.tolist(), 8, 9]
 GAPS = arb_mat([[1, -1] + [0] * 8, [0, 0, 1, -1] + [0] * 6])
 """W_1 and W_2 of a state (10, 1)."""
 LEGAL, ILLEGAL, NOT_PROVED = "legal", "not legal", "not proved"
+_NEAR = 1e-9
 _MOST = 2000  # pieces of a flight to look at
 
 
@@ -43,6 +44,13 @@ class EnclosedPassage:
         order = sorted(range(4), key=lambda m: float(self._unknowns[m].mid()))
         for m, following in zip(order, [*order[1:], order[0]], strict=True):
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
+
+    def states(self):
+        """States (10, 1) at tau = 0: two, before and after an impact, where one is nearer than floats can tell."""
+        *_, (last, first, state, _) = self.flights()
+        yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
+        if abs(self._unknowns[first]) < _NEAR:
+            yield self._impacts[first // 2] * self._before(first)
 
     def monodromy(self) -> arb_mat:
         """Derivative (8, 8) of the state before the first impact of a period by that before the same one earlier.
