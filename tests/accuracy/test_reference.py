@@ -8,6 +8,7 @@ import pytest
 
 pytest.importorskip("flint")
 
+import one_box
 from vibroimpact.accuracy.reference.roots import Undecidable
 from vibroimpact.accuracy.reference.run import departure, proven_run, reference_run
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
@@ -235,3 +236,15 @@ def test_doubled_digits_prove_the_modulated_case_through_chatter():
     nudged = [Fraction(start[0]) + Fraction(1, 10**20), *start[1:]]
     apart = departure(reference_run(MODULATED, nudged, 160, 60), proven.run)[1]
     assert apart.max() > 1e-10
+
+
+def test_a_system_is_judged_with_its_floats_and_decimals_where_one_asks():
+    """Of one undamped box in closed form, at the float Omega and start; decimals give another motion."""
+    system, start = one_box.one_box(0.1, 0.7, 0.3), [0.3, 0.1, 0.2, 0.9]
+    state = [start[0], start[1], 0, 0, start[2], start[3], 0, 0]
+    impacts, final = one_box.motion(system, start, 3)
+    run, decimals = (reference_run(system, state, 3, 40, **more) for more in ({}, {"exact_floats": False}))
+    assert len(run.events) == impacts > 5
+    for place, value in zip((0, 1, 4, 5), final, strict=True):
+        assert abs(run.final_exact[place] - value) < 1e-30
+    assert max(abs(run.final_exact[place] - decimals.final_exact[place]) for place in (0, 1, 4, 5)) > 1e-18

@@ -1,7 +1,6 @@
 """Random systems and starts made to break what a run says of itself, and an observer that shares no code with it."""
 
-from dataclasses import asdict, dataclass
-from fractions import Fraction
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import expm
@@ -201,15 +200,8 @@ def _rest(rng, base, distance):
 
 
 def truth(attack, digits=40, cycles=1):
-    """The reference's run of an attack, from exactly its floats; where they are beyond a wall by rounding, from it."""
-    start = [Fraction(x) for x in attack.start.tolist()]
-    for i in (0, 2):
-        gap = start[i] - start[i + 1]
-        if abs(gap) > 1 or float(attack.start[i] - attack.start[i + 1]) in (1.0, -1.0):
-            start[i + 1] = start[i] - (1 if gap > 0 else -1)
-    parameters = {name: Fraction(value) for name, value in asdict(attack.system).items()}
-    parameters["sigma_e_hat"] = (Fraction(attack.system.Omega) - 1) / parameters["epsilon"]  # the float Omega
-    return reference_run(parameters, start, cycles, digits, tau0=Fraction(attack.tau0))
+    """The reference's run of an attack, from exactly its floats."""
+    return reference_run(attack.system, attack.start, cycles, digits, tau0=attack.tau0)
 
 
 def same_events(one, other):

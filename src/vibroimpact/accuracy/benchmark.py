@@ -25,7 +25,7 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     Args:
         seconds: how long each setting is repeated, as in `work_precision.measure`.
     """
-    impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS).events)
+    impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
     rows = [{**row, "us_per_impact": 1e6 * row["seconds_per_cycle"] * problem.cycles / impacts} for row in rows]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
@@ -49,7 +49,7 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
 
 def _after_one_cycle(system, state, digits):
     """The state (8,) a forcing period later, as rational numbers good to the digits."""
-    return [Fraction(text) for text in reference_run(system, state, 1, digits).final_text]
+    return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]
 
 
 def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:

@@ -222,7 +222,7 @@ def _settled_levels(system, settings, points, stable, samples):
     drawn_error = error(drawn["X2"], drawn["X2"] - drawn["Y2"])
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     work = partial(simulate, system, settings["initial_state"], cycles)
-    followed = [simulate(system, state, 1, sample_times=phase).samples for state in stable]
+    followed = [simulate(system, state, 1, sample_times=phase, exact_floats=False).samples for state in stable]
     orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
     return [
         *_theory(system, theory),
@@ -234,10 +234,12 @@ def _settled_levels(system, settings, points, stable, samples):
 def _settled_truth(system, state, phase, digits=40):
     """X_2 and W_2 (n, 2) of the periodic motion next to a state, by one Newton step of the 40-digit period map."""
     jacobian = simulate(system, state, 1).jacobian
-    moved = reference_run(system, [repr(float(x)) for x in state], 1, digits).final - state
+    moved = reference_run(system, [repr(float(x)) for x in state], 1, digits, exact_floats=False).final - state
     # The shortest step: where a ball is idle, motions with the ball elsewhere in its box repeat as well.
     start = state - np.linalg.lstsq(jacobian - np.eye(8), moved)[0]
-    samples = reference_run(system, [repr(float(x)) for x in start], 1, digits, sample_times=phase).samples
+    samples = reference_run(
+        system, [repr(float(x)) for x in start], 1, digits, sample_times=phase, exact_floats=False
+    ).samples
     return np.column_stack([samples[:, 2], samples[:, 2] - samples[:, 3]])
 
 

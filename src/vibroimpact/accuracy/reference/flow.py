@@ -14,14 +14,16 @@ from vibroimpact.system import System
 REACH = 4
 
 
-def exact(name: str, value) -> Fraction:
-    """The rational number a decimal stands for: a float is read as its shortest decimal, 0.1 as 1/10.
+def exact(name: str, value, exact_floats: bool = False) -> Fraction:
+    """The rational number that a value stands for: a float its binary value, or its shortest decimal, 0.1 then 1/10.
 
     Raises:
         ValueError: not a finite number.
     """
     try:
-        return Fraction(value if isinstance(value, Fraction | int | str | Decimal) else repr(float(value)))
+        if isinstance(value, Fraction | int | str | Decimal):
+            return Fraction(value)
+        return Fraction(float(value) if exact_floats else repr(float(value)))
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name}: {value!r} is not a finite number") from None
 
@@ -43,8 +45,10 @@ class ExactSystem:
     forcing: tuple
 
     @classmethod
-    def of(cls, parameters) -> "ExactSystem":
-        """From a System or a mapping of its ten parameters to numbers or decimal strings.
+    def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
+        """From a System or a mapping of its ten parameters to numbers or decimal strings; floats as in `exact`.
+
+        With exact floats Omega is a float, too, as the engine has it.
 
         Raises:
             ValueError: a parameter is missing, unknown or not admissible (see System).
@@ -54,8 +58,8 @@ class ExactSystem:
             parameters = {name: getattr(parameters, name) for name in names}
         if set(parameters) != set(names):
             raise ValueError(f"system_parameters: got {sorted(parameters)}, needs exactly {names}")
-        System(**{name: float(value) for name, value in parameters.items()})
-        q = {name: exact(name, value) for name, value in parameters.items()}
+        rounded = System(**{name: float(value) for name, value in parameters.items()})
+        q = {name: exact(name, value, exact_floats) for name, value in parameters.items()}
         epsilon = q["epsilon"]
         coupling, coupling_damping = epsilon * q["alpha12_hat"], epsilon * q["gamma12_hat"]
         ground = (Fraction(1), 1 + epsilon * q["sigma20_hat"])
@@ -63,7 +67,7 @@ class ExactSystem:
         return cls(
             epsilon=epsilon,
             kappa=q["kappa"],
-            Omega=1 + epsilon * q["sigma_e_hat"],
+            Omega=Fraction(rounded.Omega) if exact_floats else 1 + epsilon * q["sigma_e_hat"],
             stiffness=_coupled(ground, coupling),
             damping=_coupled(ground_damping, coupling_damping),
             forcing=(epsilon * q["f10_hat"], epsilon * q["f20_hat"]),

@@ -7,6 +7,7 @@ decided by running again with more digits: see proven_run.
 """
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 from flint import arb, ctx
@@ -14,7 +15,10 @@ from flint import arb, ctx
 from vibroimpact.accuracy.reference.flow import ExactSystem, exact
 from vibroimpact.accuracy.reference.roots import Undecidable
 from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
+from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
+
+ROUNDED = Fraction(1, 10**12)  # farthest beyond a wall that a ball is by rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +63,17 @@ class ProvenRun:
     agreement: float
 
 
-def reference_run(system_parameters, state, cycles, digits, tau0=0, sample_times=None) -> ReferenceRun:
+def reference_run(
+    system_parameters, state, cycles, digits, tau0=0, sample_times=None, exact_floats=None
+) -> ReferenceRun:
     """Simulate (10.1) for a number of forcing periods from tau0, every flight to the given decimals.
 
     system_parameters: a System or a mapping of its ten parameters; state: [X1, Y1, X2, Y2, X1', Y1', X2', Y2'];
     tau0, cycles: start and length of the window. All of these are rational numbers: decimal strings, Fractions,
-    or floats read as their shortest decimals. sample_times: ascending times in the window; floats among them
-    are taken at their binary value. A sample at an event is the state after it.
+    or floats. exact_floats: True takes floats, and that of Omega, at their binary values and puts a ball near a wall by
+    rounding on it, as `simulate` does; False reads them as their shortest decimals. By default True for a System, else
+    False. sample_times: ascending times in the window; floats among them are taken at their binary value. A sample at
+    an event is the state after it.
 
     A ball that rests on a wall at the start sticks there if the wall pushes it (w X'' > 0, or the first
     derivative that does not vanish to the digits), else it leaves at once.
@@ -79,23 +87,35 @@ def reference_run(system_parameters, state, cycles, digits, tau0=0, sample_times
     length = exact("cycles", cycles)
     if length < 0:
         raise ValueError(f"cycles: {cycles} is below 0")
-    system = ExactSystem.of(system_parameters)
-    start = [exact("state", value) for value in state]
+    if exact_floats is None:
+        exact_floats = isinstance(system_parameters, System)
+    system = ExactSystem.of(system_parameters, exact_floats)
+    start = [exact("state", value, exact_floats) for value in state]
+    if exact_floats:
+        _put_on_walls(start)
     _require_inside(start)
     bits = int(digits * 3.3219281) + 1
     with ctx.workprec(bits + GUARD_BITS):
-        trajectory = Trajectory(system, start, exact("tau0", tau0), length, bits, sample_times)
+        trajectory = Trajectory(system, start, exact("tau0", tau0, exact_floats), length, bits, sample_times)
         trajectory.run()
         return _collect(trajectory, digits)
 
 
 def proven_run(
-    system_parameters, state, cycles, accuracy=1e-15, digits=None, tau0=0, sample_times=None, max_digits=5000
+    system_parameters,
+    state,
+    cycles,
+    accuracy=1e-15,
+    digits=None,
+    tau0=0,
+    sample_times=None,
+    max_digits=5000,
+    exact_floats=None,
 ) -> ProvenRun:
     """The run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
 
     Args:
-        system_parameters, state, cycles, tau0, sample_times: as in `reference_run`.
+        system_parameters, state, cycles, tau0, sample_times, exact_floats: as in `reference_run`.
         digits: where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the
             modulated case, and 40 more.
 
@@ -106,7 +126,7 @@ def proven_run(
     coarse, agreement = None, np.inf
     while digits <= max_digits:
         try:
-            fine = reference_run(system_parameters, state, cycles, digits, tau0, sample_times)
+            fine = reference_run(system_parameters, state, cycles, digits, tau0, sample_times, exact_floats)
         except Undecidable:
             fine = None
         if coarse and fine:
@@ -166,6 +186,14 @@ def _agreement(coarse, fine):
 
 def _distance(one, other):
     return max(float(abs(a - b).upper()) for a, b in zip(one, other, strict=True))
+
+
+def _put_on_walls(start):
+    """Move balls that are on a wall to rounding, or by rounding beyond it, onto it."""
+    for i in (0, 2):
+        gap = start[i] - start[i + 1]
+        if float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED:
+            start[i + 1] = start[i] - (1 if gap > 0 else -1)
 
 
 def _require_inside(start):
