@@ -244,7 +244,7 @@ def test_a_system_is_judged_with_its_floats_and_decimals_where_one_asks():
     state = [start[0], start[1], 0, 0, start[2], start[3], 0, 0]
     impacts, final = one_box.motion(system, start, 3)
     run, decimals = (reference_run(system, state, 3, 40, **more) for more in ({}, {"exact_floats": False}))
-    assert len(run.events) == impacts > 5
+    assert len(run.events) == impacts > 3
     for place, value in zip((0, 1, 4, 5), final, strict=True):
         assert abs(run.final_exact[place] - value) < 1e-30
     assert max(abs(run.final_exact[place] - decimals.final_exact[place]) for place in (0, 1, 4, 5)) > 1e-18

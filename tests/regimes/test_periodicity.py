@@ -68,3 +68,21 @@ def test_impacts_are_counted_per_cycle_module_and_wall():
     wall = np.array([1, -1, 1, 1, -1, -1, -1, 1])
     counts = impacts_per_cycle(tau, module, wall, 100, PERIOD, 3)
     assert counts.tolist() == [[[1, 1], [1, 0]], [[1, 2], [0, 0]], [[0, 0], [0, 1]]]
+
+
+@pytest.mark.parametrize(("off", "refused"), [(0.5e-6, False), (2e-6, True)])
+def test_samples_may_be_uneven_by_a_millionth_of_a_step(off, refused):
+    step = PERIOD / PER_CYCLE
+    uneven, longer = times(4), times(4)[0] + (times(4) - times(4)[0]) * (1 + off)
+    uneven[7] += off * step
+    for tau in (uneven, longer):
+        if refused:
+            with pytest.raises(ValueError, match="evenly"):
+                samples_per_cycle(tau, PERIOD)
+        else:
+            assert samples_per_cycle(tau, PERIOD) == PER_CYCLE
+
+
+def test_an_odd_number_of_samples_has_no_mirror_image():
+    with pytest.raises(ValueError, match="per_cycle: 23 is odd"):
+        mirror_distance(waves(2, 1.0), 23)

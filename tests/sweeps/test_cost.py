@@ -3,7 +3,7 @@
 import pytest
 
 from chapter import PARAMETERS
-from vibroimpact.sweeps.cost import MOST_TILES, core_seconds, points, tiles
+from vibroimpact.sweeps.cost import MOST_TILES, POINT, core_seconds, points, tiles
 from vibroimpact.sweeps.request import parsed
 
 SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
@@ -33,3 +33,14 @@ def test_there_is_one_tile_at_least_and_one_per_point_at_most(seconds, number):
 
 def test_there_are_never_more_tiles_than_a_disk_likes():
     assert tiles(request(100_000), 1e-9) == MOST_TILES
+
+
+def test_starts_and_cycles_are_none_where_a_sweep_has_none():
+    spec = {"observe": ["orbits"]}
+    assert core_seconds({"axes": request(3)["axes"], "spec": spec}) == pytest.approx(6 * POINT)
+
+
+def test_regimes_cost_their_rounds_blocks_and_a_tenth_of_the_retest():
+    observation = {"cycles": 100, "rounds": 3, "blocks": 4, "block": 50, "retest": 2000}
+    cost = core_seconds(request(3, observe=["regimes"], observation=observation))
+    assert cost == pytest.approx(6 * (0.01 + 5e-6 * 2 * (300 + 200 + 200)))

@@ -8,7 +8,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.theory.asymmetric.search import fixed_points
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, rho
-from vibroimpact.theory.relaxation import describing_function, lost_at, relax
+from vibroimpact.theory.relaxation import _mean_length, describing_function, lost_at, relax
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
 EQUAL = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
@@ -80,3 +80,12 @@ def test_the_pair_is_lost_where_its_module_passes_the_fold(pair):
     assert above.C[0] > C_min(R) > below.C[0]
     assert (above.slow_verdict(), above.fast_verdict(EQUAL.kappa)) == ("stable", "stable")
     assert (below.slow_verdict(), below.fast_verdict(EQUAL.kappa)) == ("unstable", "unstable")
+
+
+@pytest.mark.parametrize(
+    ("states", "mean"),
+    [([1, 1, 0, 1, 1, 1, 0, 1, 0], 2.0), ([0, 1, 1, 0, 1], 2.0), ([1, 1, 0, 0], np.nan), ([0, 1, 1, 1], np.nan)],
+)
+def test_bursts_count_that_have_begun_and_ended(states, mean):
+    """One that was on at the start does not, nor one still on at the end."""
+    np.testing.assert_equal(_mean_length(np.array(states, dtype=float)), mean)
