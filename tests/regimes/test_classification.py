@@ -35,6 +35,18 @@ def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter, observation)
     assert {np.sign(regime.lean) for regime in regimes} == {1, -1}
 
 
+def test_the_lean_sums_both_modules_flights_from_either_wall(chapter):
+    """Against the phases of the exact orbit: the time from wall +1 to wall -1 less that back, of each module."""
+    system, window = chapter(), 24
+    for orbit in stable_orbits(system):
+        regime, expected = observe(system, orbit.state, window, 0.02), 0.0
+        for module, (plus, minus) in enumerate(orbit.impact_phases, start=1):
+            walls = regime.impacts["wall"][regime.impacts["module"] == module][:-1]  # the last flight is not over
+            flights = {1: (minus - plus) % 1.0, -1: (plus - minus) % 1.0}
+            expected += sum(wall * flights[wall] for wall in walls) / window
+        assert regime.lean == pytest.approx(expected, abs=1e-9)
+
+
 @pytest.mark.parametrize(("f10", "f20", "name"), [(1.3, 1.25, SYMMETRIC), (1.0, 1.2, ASYMMETRIC)])
 def test_an_exact_stable_orbit_is_recognised(chapter, f10, f20, name):
     system = chapter(f10, f20)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from vibroimpact.accuracy.scene_models import true_fixed_point
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -73,6 +74,22 @@ def test_error_of_a_fixed_point_covers_its_distance_from_the_exact_one():
     away = {"C": point.C + np.array([3e-8, 0]), "psi": point.psi - np.array([0, 2e-8])}
     moved = type(point)(**{**vars(point), **away})
     assert 3e-8 <= 1.01 * verdicts.fixed_point_error(system, moved) < 3e-7
+
+
+def test_error_of_a_fixed_point_covers_the_rounding_that_its_residual_does_not_show():
+    """Against the same point with 40 digits, over random forces."""
+    random, beyond_the_step = np.random.default_rng(5), 0
+    for f10, f20 in random.uniform(0.3, 1.5, (12, 2)):
+        system = vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20)
+        for point in vi.fixed_points(system):
+            truth = true_fixed_point(system, point)
+            turns = 2 * np.pi * np.round((np.array(truth.psi, float) - point.psi) / (2 * np.pi))
+            away = [abs(float(c - x)) for c, x in zip(truth.C, point.C, strict=True)]
+            away += [abs(float(p - t - x)) for p, t, x in zip(truth.psi, turns, point.psi, strict=True)]
+            assert max(away) <= verdicts.fixed_point_error(system, point)
+            residual, J = verdicts.equations(system, point.psi, point.C)
+            beyond_the_step += max(away) > np.abs(np.linalg.inv(J) @ residual).max()
+    assert beyond_the_step  # where Newton's step alone would be too small
 
 
 def test_nothing_is_decided_where_fixed_points_coincide():
