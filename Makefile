@@ -12,7 +12,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up matrix
 .DEFAULT_GOAL := help
 
 # A progress bar in a terminal; plain lines elsewhere, and with V=1 all that Snakemake says.
@@ -66,6 +66,9 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 
 test-all: export THOROUGH := 1
 test-all: test  ## the same and what takes minutes: Slurm under faults, a second build to the byte, all kinds of a fault
+
+matrix: set-up  ## set up, build and test on each Python, with locked, lowest, newest packages (PYTHONS="3.12" PACKAGES="lock")
+	@$(TEMPORARY) .venv/bin/python workflow/scripts/matrix.py $(if $(PYTHONS),--python $(PYTHONS)) $(if $(PACKAGES),--packages $(PACKAGES))
 
 explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
 	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \
