@@ -5,7 +5,10 @@ from pathlib import Path
 from vibroimpact_pipeline.data_dictionary import File
 
 BLANKS = ["", "NA"]
-TYPES = {"text": {"type": "string"}, "true or false": {"type": "boolean", "trueValues": ["True"], "falseValues": ["False"]}}
+TYPES = {
+    "text": {"type": "string"},
+    "true or false": {"type": "boolean", "trueValues": ["True"], "falseValues": ["False"]},
+}
 """Type of a column by its unit; all others are numbers."""
 
 

@@ -12,7 +12,6 @@ from vibroimpact_pipeline.datapackage import data_package
 from vibroimpact_pipeline.jobs import running
 
 
-
 def header(path):
     with open(path, encoding="utf-8", newline="") as table:
         return next(csv.reader(table))
