@@ -68,7 +68,7 @@ test-all: export THOROUGH := 1
 test-all: test  ## the same and what takes minutes: Slurm under faults, a second build to the byte, all kinds of a fault
 
 matrix: set-up  ## set up, build and test on each Python, with locked, lowest, newest packages (PYTHONS="3.12" PACKAGES="lock")
-	@$(TEMPORARY) .venv/bin/python workflow/scripts/matrix.py $(if $(PYTHONS),--python $(PYTHONS)) $(if $(PACKAGES),--packages $(PACKAGES))
+	@.venv/bin/python workflow/matrix.py $(if $(PYTHONS),--python $(PYTHONS)) $(if $(PACKAGES),--packages $(PACKAGES))
 
 dist: set-up  ## build wheel and source distribution into dist/, check them as a package index would
 	rm -rf dist
@@ -76,7 +76,7 @@ dist: set-up  ## build wheel and source distribution into dist/, check them as a
 	$(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv twine==7.0.0 check --strict dist/*
 
 release: set-up  ## write a version into every file that bears it, and date the changes (VERSION=0.2.0)
-	@.venv/bin/python workflow/scripts/release.py "$(VERSION)"
+	@.venv/bin/python workflow/release.py "$(VERSION)"
 
 explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
 	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 NEXT = "## [Unreleased]\n"
 PLACES = {
     "pyproject.toml": [(r'^version = ".*"$', 'version = "{version}"')],

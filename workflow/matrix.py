@@ -15,8 +15,10 @@ import tomllib
 from glob import glob
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 PLACE = Path(".cache/matrix")
+LINES = 12
+"""Of the output of a step that failed, the last ones are shown."""
 PACKAGES = {"lock": None, "lowest": "lowest-direct", "newest": "highest"}
 """Name of each set of packages, and what uv calls its resolution; None for environment.lock as it is."""
 FIGURES = ["fig10_06", "fig10_08", "fig10_11", "companion_branches", "companion_epsilon"]
@@ -103,11 +105,12 @@ def run(version: str, python: str, packages: str) -> dict[str, str]:
                 ).returncode
             )
             outcomes[step] = "failed" if status else f"{time.monotonic() - begun:.0f} s"
+            if status:
+                ends = Path(log.name).read_text(encoding="utf-8").splitlines()[-LINES:]
+                print(*(f"    {line}" for line in ends), f"{step} failed; {log.name} has all", sep="\n")
             if status and step == "set-up":
                 break
-    if "failed" in outcomes.values():
-        print(f"{version}, {packages}: failed: {clone}.log has the output, {clone} what there is")
-    else:
+    if "failed" not in outcomes.values():
         shutil.rmtree(clone)
     return outcomes
 
