@@ -43,6 +43,8 @@ def test_version_title_licence_authors_and_keywords_are_the_same_everywhere():
     assert citation["license"] == deposit["license"] == project["license"]
     assert citation["keywords"] == deposit["keywords"] == meta["keywords"]
     assert set(project["keywords"]) <= set(citation["keywords"])
+    assert meta["softwareRequirements"] == project["dependencies"]
+    assert meta["runtimePlatform"] == f"Python {project['requires-python']}"
     lists = project["authors"], citation["authors"], deposit["creators"], meta["author"]
     assert [[one["name"] for one in names] for names in lists] == [["The maintainers of vibroimpact"]] * 4
     assert entry["author"] == citation["authors"][0]["name"]
