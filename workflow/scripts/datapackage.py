@@ -20,8 +20,8 @@ def header(path):
 with running(snakemake) as out:
     specs, data = read(ROOT)
     cited = yaml.safe_load(Path(snakemake.input.citation).read_text(encoding="utf-8"))
-    tables = sorted({path for path in snakemake.input if path.endswith(".csv")})
-    headers = {path[path.rindex("results/") :]: header(path) for path in tables}
+    build = snakemake.output.json.removesuffix("results/datapackage.json")  # the prefix of a module
+    headers = {path.removeprefix(build): header(path) for path in snakemake.input if path.endswith(".csv")}
     package = data_package(headers, files(specs, data), data["units"], cited)
     text = json.dumps(package, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     Path(out.json).write_text(text, encoding="utf-8")
