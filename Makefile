@@ -12,7 +12,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up
+.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up matrix dist release
 .DEFAULT_GOAL := help
 
 # A progress bar in a terminal; plain lines elsewhere, and with V=1 all that Snakemake says.
@@ -66,6 +66,17 @@ test: set-up  ## lint, import contracts, the test suite, one run of the real pip
 
 test-all: export THOROUGH := 1
 test-all: test  ## the same and what takes minutes: Slurm under faults, a second build to the byte, all kinds of a fault
+
+matrix: set-up  ## set up, build and test on each Python, with locked, lowest, newest packages (PYTHONS="3.12" PACKAGES="lock")
+	@.venv/bin/python workflow/matrix.py $(if $(PYTHONS),--python $(PYTHONS)) $(if $(PACKAGES),--packages $(PACKAGES))
+
+dist: set-up  ## build wheel and source distribution into dist/, check them as a package index would
+	rm -rf dist
+	.venv/bin/python -m hatchling build -d dist
+	$(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv twine==7.0.0 check --strict dist/*
+
+release: set-up  ## write a version into every file that bears it, and date the changes (VERSION=0.2.0)
+	@.venv/bin/python workflow/release.py "$(VERSION)"
 
 explore: set-up  ## property-based tests with new random examples (SEED=... draws those of another run again)
 	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \

@@ -1,0 +1,64 @@
+"""The data package (Frictionless Table Schema) of a build's tables, from the data dictionary."""
+
+from pathlib import Path
+
+from vibroimpact_pipeline.data_dictionary import File
+
+BLANKS = ["", "NA"]
+TYPES = {
+    "text": {"type": "string"},
+    "true or false": {"type": "boolean", "trueValues": ["True"], "falseValues": ["False"]},
+}
+"""Type of a column by its unit; all others are numbers."""
+
+
+def data_package(headers: dict[str, list[str]], known: list[File], units: dict[str, str], cited: dict) -> dict:
+    """Return the data package of CSV files as JSON data.
+
+    Args:
+        headers: names of the columns by path of the table: below results/, where the package is to lie.
+        known: kinds of files. units: meaning of each unit. cited: content of CITATION.cff.
+
+    Raises:
+        LookupError: a table or column that the dictionary lacks.
+    """
+    return {
+        "profile": "tabular-data-package",
+        "name": "vibroimpact",
+        "title": cited["title"],
+        "description": cited["abstract"],
+        "version": str(cited["version"]),
+        "keywords": cited["keywords"],
+        "licenses": [{"name": cited["license"], "path": f"https://spdx.org/licenses/{cited['license']}"}],
+        "contributors": [{"title": author["name"], "role": "author"} for author in cited["authors"]],
+        "resources": [_resource(path, header, known, units) for path, header in sorted(headers.items())],
+    }
+
+
+def _resource(path, header, known, units):
+    about, columns = next(((file.about, file.columns) for file in known if file.has(path)), ("", {}))
+    if missing := [name for name in header if name not in columns]:
+        raise LookupError(f"{path}: {', '.join(missing)}: not in the data dictionary")
+    below = path.removeprefix("results/")
+    return {
+        "profile": "tabular-data-resource",
+        "name": str(Path(below).with_suffix("")).lower().replace("/", "."),
+        "path": below,
+        "description": about,
+        "format": "csv",
+        "mediatype": "text/csv",
+        "encoding": "utf-8",
+        "schema": {
+            "fields": [_field(name, columns[name], units) for name in header],
+            "missingValues": BLANKS,
+        },
+    }
+
+
+def _field(name, entry, units):
+    field = {"name": name, **TYPES.get(entry["unit"], {"type": "number"}), "description": entry["meaning"]}
+    if entry["unit"] not in TYPES:
+        field |= {"unit": entry["unit"], "unitDescription": units[entry["unit"]]}
+    if entry.get("values"):
+        field["constraints"] = {"enum": entry["values"]}
+    return field

@@ -1,0 +1,76 @@
+"""What a package index shows, as hatchling builds it; its links are read by an independent parser of Markdown."""
+
+import importlib.util
+import subprocess
+import sys
+import tarfile
+import zipfile
+from email.parser import Parser
+
+import pytest
+from markdown_it import MarkdownIt
+
+from pipeline_trees import ROOT, copied
+
+SPEC = importlib.util.spec_from_file_location("hatch_build", ROOT / "hatch_build.py")
+hatch_build = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(hatch_build)
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+REPOSITORY = "https://code.example.org/somebody/vibroimpact"
+
+
+def targets(markdown) -> list[tuple[str, str]]:
+    """Kind and target of every link and picture."""
+    tokens = [inner for token in MarkdownIt().enable("table").parse(markdown) for inner in token.children or ()]
+    attributes = {"link_open": "href", "image": "src"}
+    return [(token.type, token.attrs[attributes[token.type]]) for token in tokens if token.type in attributes]
+
+
+def metadata(root, folder) -> list:
+    """Metadata of source distribution and wheel of a checkout."""
+    build = [sys.executable, "-m", "hatchling", "build", "-d", str(folder)]
+    subprocess.run(build, cwd=root, check=True, capture_output=True)
+    with tarfile.open(next(folder.glob("*.tar.gz"))) as archive:
+        name = next(name for name in archive.getnames() if name.endswith("PKG-INFO"))
+        source = archive.extractfile(name).read().decode()
+    with zipfile.ZipFile(next(folder.glob("*.whl"))) as archive:
+        wheel = archive.read(next(name for name in archive.namelist() if name.endswith("METADATA"))).decode()
+    return [Parser().parsestr(text) for text in (source, wheel)]
+
+
+@pytest.mark.parametrize("repository", [None, REPOSITORY])
+def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_the_citation(tmp_path, repository):
+    tree = copied(ROOT, tmp_path / "tree")
+    (tree / "LICENSE").write_bytes((ROOT / "LICENSE").read_bytes())
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert "\nrepository-code:" not in citation or repository is None, "there is one: say here what follows from it"
+    if repository:
+        (tree / "CITATION.cff").write_text(f'{citation}repository-code: "{repository}"\n', encoding="utf-8")
+    for described in metadata(tree.path, tmp_path / "dist"):
+        assert described["Description-Content-Type"] == "text/markdown"
+        assert described["Author"] == "The maintainers of vibroimpact"
+        text = described.get_payload()
+        assert text.startswith("# vibroimpact\n\nTwo boxes")
+        found = [target for _, target in targets(text)]
+        assert [target for target in found if not target.startswith(("https://", "#"))] == []
+        relative = [target for _, target in targets(README) if "://" not in target]
+        assert len(relative) > 20
+        addresses = described.get_all("Project-URL") or []
+        if repository:
+            assert sum(target.startswith(repository) for target in found) == len(relative)
+            assert f"Repository, {repository}" in addresses
+        else:
+            assert addresses == []
+
+
+def test_absolute_links_lead_to_the_files_of_that_version_pictures_as_files():
+    text = hatch_build.long_description(README, REPOSITORY, "1.2.3")
+    for (kind, before), (_, after) in zip(targets(README), targets(text), strict=True):
+        if "://" not in before:
+            assert after == f"{REPOSITORY}/{'raw' if kind == 'image' else 'blob'}/v1.2.3/{before}"
+            assert (ROOT / before.partition("#")[0]).exists()
+
+
+def test_without_a_repository_the_texts_of_links_stay_and_absolute_links_and_code_too():
+    readme = "[a](docs/a.md) ![b](b.png) [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
+    assert hatch_build.long_description(readme, None, "1") == "a b [c](https://example.org) [d](#e) `[f]` `'.[g]'`"

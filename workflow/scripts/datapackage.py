@@ -1,0 +1,27 @@
+"""Tables of the default build -> the data package beside them, which describes every column."""
+
+import csv
+import json
+from pathlib import Path
+
+import yaml
+
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.data_dictionary import files, read
+from vibroimpact_pipeline.datapackage import data_package
+from vibroimpact_pipeline.jobs import running
+
+
+def header(path):
+    with open(path, encoding="utf-8", newline="") as table:
+        return next(csv.reader(table))
+
+
+with running(snakemake) as out:
+    specs, data = read(ROOT)
+    cited = yaml.safe_load(Path(snakemake.input.citation).read_text(encoding="utf-8"))
+    build = snakemake.output.json.removesuffix("results/datapackage.json")  # the prefix of a module
+    headers = {path.removeprefix(build): header(path) for path in snakemake.input if path.endswith(".csv")}
+    package = data_package(headers, files(specs, data), data["units"], cited)
+    text = json.dumps(package, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    Path(out.json).write_text(text, encoding="utf-8")
