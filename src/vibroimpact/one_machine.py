@@ -46,6 +46,8 @@ WATCHED = 300
 """Forcing periods for which the best few are watched."""
 NEAR, FRAGILE = 0.02, 1.1
 """The neighbourhood: so much more and less clearance; a peak so many times as high in it makes a design fragile."""
+LATER = 1000
+"""Forcing periods after these, for which the largest motion at a frequency is followed: is it a transient?"""
 OFF = (0.8, 1.2)
 """Clearances of the sensitivity, over that of the design."""
 
@@ -71,7 +73,8 @@ class Design:
     response: a row per frequency: frequency_Hz; displacement without ball, with it (the largest of all starts in the
         window), while it settles from rest, and with the absorber [m]; then of the motion with the ball that is the
         largest, in the same window: impacts_per_s, the mean impact_speed_m_s of the ball against the wall, the mean
-        impulse_Ns of an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall.
+        impulse_Ns of an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall; last
+        its displacement in the 1000 periods after the window, later_m, which is less if it was a transient.
     """
 
     machine: PhysicalSystem
@@ -130,6 +133,10 @@ class Design:
             if len(tried) > 1 and value in (tried[0], tried[-1]):
                 end = "least" if value == tried[0] else "greatest"
                 yield f"The {name.removesuffix('_m')} is the {end} of those tried; one beyond it may serve better."
+        worst = max(self.response, key=lambda row: row["with_m"])
+        if self.peak > FRAGILE * worst["later_m"]:
+            later = f"{_mm(worst['later_m'])} in the {LATER} periods after them"
+            yield f"At {worst['frequency_Hz']:.4g} Hz that motion had not settled: it is at most {later}."
         if self.near[1] > FRAGILE * self.peak:
             more = self.near[1] / self.peak - 1
             yield f"Fragile: with clearances within {NEAR:.0%} of it the peak is up to {more:.0%} higher."
@@ -170,7 +177,7 @@ def design(
     clearances = clearances if clearances is None else _choices("clearances", clearances, math.inf)
     masses = [machine.m] if masses is None else _choices("masses", masses, math.inf)
     found = [_designed(_Study(replace(machine, m=m), band), clearances, restitutions, progress) for m in masses]
-    chosen = min(found, key=lambda one: one.near[1])
+    chosen = min(found, key=lambda one: (one.near[1], one.peak))
     return replace(chosen, masses=[_of_mass(one) for one in found]) if len(found) > 1 else chosen
 
 
@@ -204,19 +211,19 @@ def _designed(study, clearances, restitutions, progress) -> Design:
         rows += study.tried([(_rounded(L), kappa) for L, kappa in beside], progress)
     else:
         rows = study.tried([(L, kappa) for kappa in restitutions for L in clearances], progress)
-    finalists = {}
-    for number, row in _counted(list(enumerate(_best(rows))), "measured again", progress):
+    finalists = []
+    for row in _counted(_best(rows), "measured again", progress):
         machine = replace(study.machine, L=row["clearance_m"], kappa=row["restitution"])
-        finalists[number] = [study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR)]
-        peaks = [one.peak for one in finalists[number]]
-        row |= {"again_m": peaks[0], "near_m": max(peaks)}
-    measured, *beside = min(finalists.values(), key=lambda ones: max(one.peak for one in ones))
-    peaks = [measured.peak, *(one.peak for one in beside)]
+        measured, *beside = (study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR))
+        peaks = [measured.peak, *(one.peak for one in beside)]
+        row |= {"again_m": measured.peak, "near_m": max(peaks)}
+        finalists.append((max(peaks), measured.peak, min(peaks), measured))
+    highest, _, lowest, measured = min(finalists, key=lambda one: one[:2])
     absorber = tuned(study.system, best(study.system, study.band))
     return Design(
         machine=replace(measured.machine, F10=study.given.F10),
         peak=measured.peak,
-        near=(min(peaks), max(peaks)),
+        near=(lowest, highest),
         settling=float(measured.settling.max()),
         without=widest,
         fixed=study.linear(fixed_balls),
@@ -248,7 +255,8 @@ def _mm(metres) -> str:
 class _Measured:
     """A machine with its ball at n frequencies, watched from m starts once it has settled.
 
-    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states: (n, m, 8), where it begins.
+    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states, finals: (n, m, 8), where it
+    begins and ends.
     """
 
     machine: PhysicalSystem
@@ -256,6 +264,7 @@ class _Measured:
     largest: np.ndarray
     settling: np.ndarray
     states: np.ndarray
+    finals: np.ndarray
 
     @property
     def peak(self) -> float:
@@ -274,7 +283,7 @@ class _Study:
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F other than 0")
         # With -F all signs change; from the same starts that would be another sample of the same motions.
-        self.given, self.machine = machine, replace(machine, F10=abs(machine.F10))
+        self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
@@ -307,7 +316,7 @@ class _Study:
         before = finished(ensemble(each, _starts(AGAIN, 2), self.wait))
         seen = finished(ensemble(each, before["final"], WATCHED))
         largest, settling = (machine.L * runs["largest"][..., 0] for runs in (seen, before))
-        return _Measured(machine, systems, largest, settling[:, 0], before["final"])
+        return _Measured(machine, systems, largest, settling[:, 0], before["final"], seen["final"])
 
     def response(self, measured, absorber) -> list[dict]:
         """The rows of `Design.response`."""
@@ -315,12 +324,14 @@ class _Study:
             self.machine.L * linear.amplitudes(self.frequencies / self.hertz)[:, 0]
             for linear in (without_balls(self.system), absorber)
         )
-        rows = []
-        for k, start in enumerate(measured.largest.argmax(axis=1)):
+        rows, worst = [], measured.largest.argmax(axis=1)
+        later = finished(ensemble(measured.systems, measured.finals[range(len(worst)), worst], LATER))
+        for k, start in enumerate(worst):
             row = {"frequency_Hz": self.frequencies[k], "without_m": without[k], "with_m": measured.largest[k, start]}
             row |= {"settling_m": measured.settling[k], "absorber_m": with_absorber[k]}
             run = simulate(measured.systems[k], measured.states[k, start], WATCHED)
-            rows.append({name: float(value) for name, value in row.items()} | _impacts(measured.machine, run))
+            row |= _impacts(measured.machine, run) | {"later_m": measured.machine.L * later["largest"][k, 0]}
+            rows.append({name: float(value) for name, value in row.items()})
         return rows
 
     def _systems(self, machine):
