@@ -40,17 +40,15 @@ def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_lar
 
 
 def test_the_standard_error_is_the_scatter_of_fresh_starts():
-    found = [peak(CHAOTIC, starts(8, seed), 250, 150) for seed in range(20, 50)]
+    found = [peak(CHAOTIC, starts(9, seed)[1:], 250, 150) for seed in range(20, 50)]
     scatter = np.std([one.value for one in found])
     assert 0.6 * scatter < np.sqrt(np.mean([one.error**2 for one in found])) < 1.7 * scatter
 
 
-def test_two_starts_have_no_error_to_tell_equal_ones_have_none_and_the_first_is_not_drawn():
+def test_one_start_has_no_error_to_tell_and_equal_ones_have_none():
     one = np.linspace(1.0, 2.0, 20).reshape(2, 1, 10)
-    assert np.isnan(standard_error(np.repeat(one, 2, axis=1)))
-    assert standard_error(np.repeat(one, 3, axis=1)) == 0.0
-    rest = np.concatenate([2 * one, np.random.default_rng(1).uniform(1.0, 1.5, (2, 4, 10))], axis=1)
-    assert standard_error(np.repeat(rest, 10, axis=2)) < 0.01 * standard_error(np.repeat(rest[:, ::-1], 10, axis=2))
+    assert np.isnan(standard_error(one))
+    assert standard_error(np.repeat(one, 3, axis=1)) < 1e-12
 
 
 def test_runs_that_cannot_be_finished_are_counted_and_left_out():

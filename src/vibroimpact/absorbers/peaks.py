@@ -96,15 +96,15 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 def standard_error(largest: ArrayLike) -> float:
     """Standard error of the highest `peak_of` all systems: the jackknife, one start left out at a time.
 
-    It takes the starts as drawn independently, but for the first, which is kept (rest, say); it does not take their
-    cycles so, which are not. nan with fewer than 3 starts.
+    It takes the starts as drawn independently; it does not take their cycles so, which are not. Where a peak is that
+    of a single start it is large. nan with fewer than 2 starts.
     """
     largest = np.asarray(largest)
-    drawn = largest.shape[1] - 1
-    if drawn < 2:
+    count = largest.shape[1]
+    if count < 2:
         return float("nan")
-    left = np.array([peak_of(np.delete(largest, k + 1, axis=1)).max() for k in range(drawn)])
-    return float(np.sqrt((drawn - 1) * left.var()))
+    left = np.array([peak_of(np.delete(largest, k, axis=1)).max() for k in range(count)])
+    return float(np.sqrt((count - 1) * left.var()))
 
 
 def finished(runs: np.ndarray) -> np.ndarray:

@@ -82,7 +82,7 @@ SPEC = {
                     "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
                     "as in the sweep, from rest", "unit": "dimensionless", "compared": {"frequencies won": "free",
                     "others": "extremes"}},
-                "spread": {"meaning": "standard error of `value`: the jackknife, one start but rest left out at a time",
+                "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
                     "unit": "dimensionless", "compared": "free"},
                 "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
                     "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "extremes"},
