@@ -1,8 +1,8 @@
-"""The highest displacement with balls over a band of frequencies, as several starts find it, and its spread.
+"""The peak with balls over a band of frequencies: the displacement that one cycle in a hundred exceeds.
 
-A chaotic response is seen for a limited time, at some frequencies and from some starts: the highest displacement of
-these is too low, never too high. The lowest of many such peaks is lower still, since it is chosen where chance was
-kind. So a lowest peak is measured again, from other starts, once its place is chosen.
+The largest displacement of a chaotic motion depends on how long one looks. The largest of each cycle has a
+distribution, whose quantiles do not. The lowest of many measured peaks is still too low, since it is chosen where
+chance was kind; so it is measured again, from other starts, once its place is chosen.
 """
 
 from collections.abc import Sequence
@@ -14,21 +14,37 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine.ensemble import STATUSES, ensemble
 from vibroimpact.exact.engine.event_loop import FINISHED
 from vibroimpact.system import System
-from vibroimpact.system.arguments import reals
+
+PART = 0.99
+"""Part of the cycles whose largest displacement is at most the peak."""
 
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest |X_i| of both boxes over a band of frequencies.
+    """The peak over a band of frequencies, dimensionless.
 
-    value: the largest of all starts, dimensionless. spread: see `spread_of_largest`. at: number of the system, along
-    the band, where it is met. starts: (n,), the largest over the band of each start.
+    value: see `peak_of`. error: its standard error. largest: the largest |X_i| that was seen; it grows with the number
+    of cycles where the motion is chaotic. at: number of the system, along the band, where the peak is met.
     """
 
     value: float
-    spread: float
+    error: float
+    largest: float
     at: int
-    starts: np.ndarray
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """Runs of m systems from n states, cycle by cycle.
+
+    largest: (m, n, cycles), the larger |X_i| of both boxes in each; nan of runs that could not be finished. final:
+    (m, n, 8). rms: the largest root mean square of both boxes. unfinished: number of such runs.
+    """
+
+    largest: np.ndarray
+    final: np.ndarray
+    rms: float
+    unfinished: int
 
 
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Peak:
@@ -41,34 +57,63 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
         ArithmeticError: a run could not be finished.
         ValueError: as `ensemble`.
     """
-    runs = ensemble(np.array(systems, dtype=object)[:, None], states, cycles, settle=settle)
+    seen = by_cycle(systems, states, cycles, settle)
+    if seen.unfinished:
+        raise ArithmeticError(f"a peak cannot be measured: {seen.unfinished} runs could not be finished")
+    heights = peak_of(seen.largest)
+    at = int(heights.argmax())
+    return Peak(float(heights[at]), standard_error(seen.largest), float(seen.largest.max()), at)
+
+
+def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Cycles:
+    """Observe runs of systems, each from all states (n, 8), cycle by cycle; see `peak`.
+
+    Raises:
+        ValueError: no cycle is observed, or as `ensemble`.
+    """
+    if not cycles > settle:
+        raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
+    each = np.array(systems, dtype=object)[:, None]
+    final = ensemble(each, states, settle, settle=settle)["final"]
+    largest, squares = [], 0.0
+    for _ in range(cycles - settle):
+        runs = ensemble(each, final, 1)  # as if it went on: the forcing has the same phase
+        final, squares = runs["final"], squares + runs["mean_square"]
+        largest.append(runs["largest"].max(axis=-1))
+    largest = np.stack(largest, axis=-1)
+    lost = np.isnan(final).any(axis=-1)
+    largest[lost] = np.nan
+    rms = np.sqrt(np.max(squares[~lost], initial=0.0) / (cycles - settle))
+    return Cycles(largest, final, float(rms), int(np.count_nonzero(lost)))
+
+
+def peak_of(largest: ArrayLike) -> np.ndarray:
+    """What PART of the cycles of all starts do not exceed, at each system, of `Cycles.largest`; nan without any."""
+    largest = np.asarray(largest)
+    return np.array([np.quantile(one[~np.isnan(one)], PART) if not np.isnan(one).all() else np.nan for one in largest])
+
+
+def standard_error(largest: ArrayLike) -> float:
+    """Standard error of the highest `peak_of` all systems: the jackknife, one start left out at a time.
+
+    It takes the starts as drawn independently; it does not take their cycles so, which are not. Where a peak is that
+    of a single start it is large. nan with fewer than 2 starts.
+    """
+    largest = np.asarray(largest)
+    count = largest.shape[1]
+    if count < 2:
+        return float("nan")
+    left = np.array([peak_of(np.delete(largest, k, axis=1)).max() for k in range(count)])
+    return float(np.sqrt((count - 1) * left.var()))
+
+
+def finished(runs: np.ndarray) -> np.ndarray:
+    """The outcomes of `ensemble`, if all runs finished.
+
+    Raises:
+        ArithmeticError: a run could not be finished.
+    """
     failed = runs["status"][runs["status"] != FINISHED]
     if len(failed):
         raise ArithmeticError(f"a peak cannot be measured: {STATUSES[int(failed[0])]}")
-    largest = runs["largest"].max(axis=2)
-    starts = largest.max(axis=0)
-    return Peak(float(starts.max()), spread_of_largest(starts), int(largest.max(axis=1).argmax()), starts)
-
-
-def spread_of_largest(values: ArrayLike) -> float:
-    """Standard deviation of the largest of n values, if n are drawn from them again (bootstrap); nan for fewer than 2.
-
-    Drawn with replacement, the largest is at most the k-th smallest with probability (k / n)^n, so that no drawing is
-    needed. It tells how much the largest depends on single values. It is no bound: values that were never met may be
-    larger than all of these.
-
-    >>> round(spread_of_largest([1.0, 2.0]), 4)  # 1 in one of four drawings, else 2
-    0.433
-
-    Raises:
-        ValueError: a value is not finite.
-    """
-    ordered = np.sort(reals("values", values), axis=None)
-    if not np.isfinite(ordered).all():
-        raise ValueError(f"values: needs finite numbers, got {values}")
-    number = len(ordered)
-    if number < 2:
-        return float("nan")
-    likelihood = np.diff((np.arange(number + 1) / number) ** number)
-    above = ordered - ordered[-1]  # from the largest, so that equal values have no spread
-    return float(np.sqrt(max(likelihood @ above**2 - (likelihood @ above) ** 2, 0.0)))
+    return runs

@@ -8,6 +8,9 @@ from vibroimpact.absorbers.references import Tuning, fixed_balls, tuned, without
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starts of the search for the best tuning, as multiples of the textbook's frequencies."""
+FARTHEST = 100.0
+"""The best tuning is looked for within so many times the textbook's, either way. In a narrow band, or one without a
+resonance, the least peak is that of an absorber with as little damping, or stiffness, as may be."""
 
 
 def den_hartog(system) -> Tuning:
@@ -41,15 +44,17 @@ def best(system, band: tuple[float, float]) -> Tuning:
     if not system.forcing.any():
         raise ValueError("system: no force acts on it, so that there is no response to reduce")
     book = den_hartog(system)
+    textbook = np.log([*book.frequency, *book.damping])
     found = []
     for factors in STARTS:
-        start = np.log([*np.multiply(factors, book.frequency), *book.damping])
+        start = textbook + np.log([*factors, 1.0, 1.0])
         bound = _levels(start, system, frequencies).max()
         result = minimize(
             lambda values: values[-1],
             [*start, bound],
             jac=lambda values: np.eye(5)[-1],
             constraints={"type": "ineq", "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies)},
+            bounds=[(value - np.log(FARTHEST), value + np.log(FARTHEST)) for value in textbook] + [(None, None)],
             method="SLSQP",
             options={"maxiter": 200, "ftol": 1e-9},
         )

@@ -23,12 +23,14 @@ NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
 """Every parameter with its default, or None if the case has it."""
 MACHINE = {
     "M": "mass of the machine with its box, without the ball [kg]",
-    "m": "mass of the ball [kg]",
+    "m": "mass of the ball [kg]; A..B designs for masses from A to B and says what they buy",
     "k": "stiffness of the spring [N/m]",
     "c": "damping [N s/m]",
     "F": "amplitude of the force [N]",
 }
 """Options of a machine: the arguments of PhysicalSystem.single that have no default."""
+MASSES = 4
+"""Steps from the least to the greatest mass of the ball."""
 _MOST_SAMPLES = 10_000_000
 _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
@@ -166,12 +168,13 @@ def _design_options(parser):
     """One machine in SI units, the band, and what to choose from."""
     group = parser.add_argument_group("machine", "all needed, in SI units")
     for name, words in MACHINE.items():
-        group.add_argument(f"--{name}", type=float, required=True, metavar="X", help=words)
+        kind = _range if name == "m" else float
+        group.add_argument(f"--{name}", type=kind, required=True, metavar="X", help=words)
     parser.add_argument("--from", dest="low", type=float, required=True, metavar="HZ", help="first frequency [Hz]")
     parser.add_argument("--to", dest="high", type=float, required=True, metavar="HZ", help="last frequency [Hz]")
     parser.add_argument(
         "--clearance", type=float, nargs="+", metavar="L",
-        help="clearances to choose from, half of the play [m] (default: 16 up to the amplitude without ball)",
+        help="clearances to choose from, half of the play [m] (default: 8 about F / k M / m and some beside the best)",
     )  # fmt: skip
     parser.add_argument(
         "--restitution", type=float, nargs="+", metavar="E", default=one_machine.RESTITUTIONS,
@@ -179,13 +182,23 @@ def _design_options(parser):
     )  # fmt: skip
 
 
+def _range(text) -> tuple[float, ...]:
+    """A number, or the two of A..B."""
+    return tuple(float(word) for word in text.split("..", maxsplit=1))
+
+
 def _design(options):
     """A row per frequency; the answer is the text of a Design."""
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
         raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")
-    machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE})
-    found = one_machine.design(machine, (low, high), options.clearance, options.restitution, sys.stderr.isatty())
+    least, most = options.m[0], options.m[-1]
+    if len(options.m) > 1 and not 0 <= least < most:
+        raise ValueError(f"m: {least:g}..{most:g}; needs 0 <= A < B [kg]")
+    masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASSES + 1) if m > 0]
+    machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
+    choice = options.clearance, options.restitution, sys.stderr.isatty(), masses
+    found = one_machine.design(machine, (low, high), *choice)
     return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found))
 
 

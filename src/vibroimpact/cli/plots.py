@@ -17,7 +17,8 @@ from vibroimpact.system.verdict import STABLE as IS_STABLE
 
 CURVES = {
     "without_m": ("without ball", {"color": GREY, "linewidth": 1.6}),
-    "with_m": ("with the ball", {"color": BLACK, "linewidth": 1.2}),
+    "with_m": ("with the ball, settled", {"color": BLACK, "linewidth": 1.2}),
+    "settling_m": ("while it settles from rest", {"color": BLACK, "linestyle": (0, (1, 1.5)), "linewidth": 0.9}),
     "absorber_m": ("best linear absorber", {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
 }
 
@@ -76,7 +77,8 @@ def curves(table):
 
 @styled
 def resonance(table):
-    """Largest displacement over the frequency, without ball, with it, and with the best linear absorber."""
+    """Largest displacement over the frequency, without ball, with it, and with the best linear absorber; and while the
+    motion with the ball settles."""
     figure = new_figure(SINGLE_COLUMN * 1.35, 80.0)
     axes = figure.add_subplot()
     columns = dict(zip(table.columns, zip(*table.rows, strict=True), strict=True))

@@ -4,6 +4,7 @@ All is per force: X / f over 1 / f, displacement over static deflection, clearan
 """
 
 from collections import Counter
+from itertools import takewhile
 
 import numpy as np
 import pandas as pd
@@ -22,13 +23,13 @@ from vibroimpact.sweeps.grid import LOGARITHMIC, axis
 
 SPEC = {
     "title": "Which balls serve best",
-    "caption": r"The highest :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat "
-        "f_{i0}`, in a band of frequencies. a: over the clearance; triangles: from rest only one ball ever meets a "
-        "wall; lines: linear systems in closed form, the absorbers of the mass of the balls. b: the lowest peak over "
-        "the clearance, for each restitution, measured again from rest and seven other starts at twice as many "
-        "frequencies; upright bars: its spread, if these starts were drawn again. c: the peak over both, lighter is "
-        "better. Stars: where a sweep has its lowest peak, in a and b as high as measured again; level bars: "
-        "clearances whose peak is at most 1.25 times as high.",
+    "caption": r"Peaks of :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat f_{i0}`, "
+        "in a band of frequencies: at its worst frequency, what one cycle in a hundred exceeds. a: over the clearance; "
+        "triangles: from rest only one ball ever meets a wall; lines: linear systems in closed form, the absorbers of "
+        "the mass of the balls. b: the lowest peak over the clearance, for each restitution, measured again from rest "
+        "and seven other starts at twice as many frequencies; upright bars: its standard error to either side. c: the "
+        "peak over both, lighter is better. Stars: where a sweep has its lowest peak, in a and b as high as measured "
+        "again; level bars: clearances whose peak is at most 1.25 times as high.",
     "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
         "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
@@ -49,11 +50,12 @@ SPEC = {
             "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
         "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
             "compared": {"lowest peak": "extremes", "others": "algebra"}},
-        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more, of balls also of "
-            "all starts", "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
-            "one ball": "extremes", "lowest peak": "extremes", "others": "algebra"}},
+        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more; of balls what one "
+            "cycle in a hundred of all starts exceeds", "unit": "dimensionless", "compared": {
+            "best absorbers": "trajectory", "balls": "extremes", "one ball": "extremes", "lowest peak": "extremes",
+            "others": "algebra"}},
         "kappa": {"compared": "algebra"},
-        "low, high": {"meaning": "of a lowest peak: less and more its spread, the `spread` of `absorber.csv`",
+        "low, high": {"meaning": "of a lowest peak: less and more its standard error, the `spread` of `absorber.csv`",
             "unit": "dimensionless", "compared": "extremes"},
     },
     "tables": {
@@ -62,14 +64,16 @@ SPEC = {
             "about": "What the balls are good for, in numbers, at the system of the sweep `clearance` and along its "
                 "band.",
             "columns": {
-                "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls at the "
-                    "clearance (and kappa) where it is lowest in the sweep. lowest peak: the same at each kappa of "
-                    "the sweep `design`. plateau: the largest kappa up to which lowest peaks are at most 1.2 times the "
-                    r"lowest of all. stroke: the largest $\lvert X_i - Y_i\rvert/f$ of linear absorbers in the band, "
-                    "the room that they need to each side, as balls have the clearance. Of balls against who, at one "
+                "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls what one "
+                    "cycle in a hundred exceeds, at the clearance (and kappa) where it is lowest in the sweep. lowest "
+                    "peak: the same at each kappa of the sweep `design`. plateau: the largest kappa up to which lowest "
+                    "peaks are at most 1.2 times the lowest of all; plateau from, plateau to: the least and the "
+                    r"greatest of these. stroke: the largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
+                    "linear absorbers need to each side; of balls the clearance. Of balls against who, at one "
                     "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
                     r"and greatest of the largest $\lvert X_i\rvert$ over that of who", "unit": "text",
-                    "values": ["peak", "lowest peak", "plateau", "stroke", "frequencies won", "least", "greatest"]},
+                    "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to", "stroke",
+                    "frequencies won", "least", "greatest"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
                     "one ball at the kappa of the config while the other meets no wall, or what they are held against",
                     "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
@@ -78,9 +82,10 @@ SPEC = {
                     "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
                     "as in the sweep, from rest", "unit": "dimensionless", "compared": {"frequencies won": "free",
                     "others": "extremes"}},
-                "spread": {"meaning": "standard deviation of `value` if its starts were drawn again (bootstrap, "
-                    "exact). It is no bound: the largest displacement of few starts is below that of many, never above",
+                "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
                     "unit": "dimensionless", "compared": "free"},
+                "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
+                    "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "extremes"},
                 "swept": {"meaning": "the lowest peak as the sweep has it; lower than `value` where chance chose the "
                     "place", "unit": "dimensionless", "compared": "extremes"},
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
@@ -110,11 +115,12 @@ NEARLY = 1.25
 _MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": f"at most {NEARLY} times the lowest"}
 LEVEL = 1.2
 """The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
+FROM, TO = "plateau from", "plateau to"
 FRESH = 8
 """Starts that a lowest peak is measured from again, rest among them."""
 PANELS = {"clearance": "clearance", "kappa": "restitution"}
 """Panels of curves, by what they are over."""
-TOLD = ("value", "spread", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
+TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
 """Columns of the summary."""
 
 
@@ -123,10 +129,9 @@ def compute(
 ) -> dict:
     """Return results of the sweeps with balls, per force, beside linear systems in closed form.
 
-    A lowest peak of a sweep is too low: the largest displacement of a few starts is below that of many, and the lowest
-    of many places is where chance was kind. So it is measured again at its place, from rest and other starts and at the
-    frequencies of the band and those half-way between them (`absorbers.peaks`). Its spread is what drawing these starts
-    again would make of it. Still, no start and no frequency between these may be met that moves the boxes further.
+    A lowest peak of a sweep is too low: the lowest of many places is where chance was kind. So it is measured again at
+    its place, from rest and other starts and at the frequencies of the band and those half-way between them
+    (`absorbers.peaks`), with its standard error. A motion that none of these meets may still move the boxes further.
 
     Args:
         system: whose other parameters the sweeps keep.
@@ -137,7 +142,7 @@ def compute(
         seed: of the starts of the sweeps. cycles, settle: of their runs.
 
     Returns "csv": columns panel ("clearance", "restitution" or "design"), series, clearance, kappa, ratio (X / f), low
-    and high (of a lowest peak, by its spread).
+    and high (of a lowest peak, by its standard error).
     "summary": columns quantity, who, value, ... (see SPEC).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
@@ -165,6 +170,7 @@ def compute(
     ]
     rows += _of_restitution(restitution)
     rows += _strokes(system, linear, band)
+    rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
     rows += _held_against(system, per_force(system, response), band)
     summary = pd.DataFrame(rows)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
@@ -193,12 +199,13 @@ def _lowest(table):
 
 
 def _again(system, place, band, states, cycles, settle):
-    """A place with its peak measured again: value, per force, its spread, and sigma_e_hat where it is met."""
+    """A place with its peak measured again: value, spread, largest, per force, and sigma_e_hat where it is met."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
     found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
-    measured = {"value": found.value * place["clearance"], "spread": found.spread * place["clearance"]}
+    measured = {"value": found.value, "spread": found.error, "largest": found.largest}
+    measured = {name: value * place["clearance"] for name, value in measured.items()}
     return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
 
 
@@ -214,7 +221,7 @@ def _regime(system, place, observation, number, seed):
 
 
 def _lowest_peaks(places):
-    """Rows of the lowest peak at each kappa, with its spread."""
+    """Rows of the lowest peak at each kappa, with its standard error."""
     table = pd.DataFrame(places)
     low, high = (table["value"] + sign * table["spread"] for sign in (-1, 1))
     return curve("restitution", LOWEST, **table[["clearance", "kappa"]], ratio=table["value"], low=low, high=high)
@@ -228,22 +235,22 @@ def _levels(peaks, over, table):
 
 def _of_restitution(places):
     rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
-    return [*rows, {"quantity": PLATEAU, "who": BALLS, "value": plateau(places)}]
+    told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
+    return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in told)]
 
 
 def plateau(places):
-    """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest; nan if the first is not."""
+    """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest, and the least and the greatest
+    of these; nan if the first is not.
+    """
     level = LEVEL * min(place["value"] for place in places)
-    last = float("nan")
-    for place in places:
-        if place["value"] > level:
-            break
-        last = place["kappa"]
-    return last
+    on = list(takewhile(lambda place: place["value"] <= level, places))
+    peaks = [place["value"] for place in on]
+    return (on[-1]["kappa"], min(peaks), max(peaks)) if on else (float("nan"),) * 3
 
 
 def _strokes(system, linear, band):
-    """Return the strokes of the absorbers in their boxes."""
+    """Yield the strokes of the absorbers in their boxes."""
     for name in ("absorbers of the textbook", "best absorbers"):
         stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
         yield {"quantity": STROKE, "who": name, "value": stroke}
@@ -290,7 +297,7 @@ def _draw_clearance(axes, rows, best):
 def _draw_restitution(axes, rows, best):
     draw_lines(axes, rows, "kappa", "ratio")
     mine = select(rows, "restitution", LOWEST)
-    axes.vlines(mine["kappa"], mine["low"], mine["high"], color=BLACK, linewidth=0.9, label="its spread")
+    axes.vlines(mine["kappa"], mine["low"], mine["high"], color=BLACK, linewidth=0.9, label="standard error")
     axes.plot(mine["kappa"], mine["ratio"], label="lowest peaks", **DOTS)
     axes.plot(best["kappa"], best["value"], label=LOWEST, **BEST)
     axes.set(xlabel=SYMBOLS["kappa"], ylabel="lowest peak over the clearance")

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from vibroimpact.absorbers.peaks import by_cycle, peak_of
 from vibroimpact.exact.engine.ensemble import ensemble, finals
 from vibroimpact.exact.engine.event_loop import FINISHED
 from vibroimpact.exact.orbits.search import orbits
@@ -70,28 +71,26 @@ def _envelopes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Along the band, over all starts and both boxes: the largest |X_i|, the largest root mean square, where the
-    largest |X_i| is met, as the value of the first parameter, and the largest |X_i| with one ball (`_one_ball`).
+    """Along the band: the highest peak of all starts (`absorbers.peaks`), the largest root mean square of both boxes,
+    where the peak is met, as the value of the first parameter, and the peak with one ball (`_one_ball`).
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
-    runs = ensemble(systems[:, None], states, spec.cycles, settle=spec.settle)
-    done = runs["status"] == FINISHED
-    if not done.any():
-        return np.nan, np.nan, np.nan, np.nan, done.size
-    largest = np.where(done[..., None], runs["largest"], -np.inf).max(axis=(1, 2))
-    rms = np.sqrt(runs["mean_square"][done].max())
-    at = next(iter(band.place(int(largest.argmax())).values()))
-    return largest.max(), rms, at, _one_ball(runs[:, 0]), np.count_nonzero(~done)
+    seen = by_cycle(systems, states, spec.cycles, spec.settle)
+    if seen.unfinished == len(systems) * len(states):
+        return np.nan, np.nan, np.nan, np.nan, seen.unfinished
+    peaks = peak_of(seen.largest)
+    at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
+    return np.nanmax(peaks), seen.rms, at, _one_ball(seen), seen.unfinished
 
 
-def _one_ball(runs):
-    """The largest |X_i| of runs from rest, if the same one ball is still there in all of them; else nan.
+def _one_ball(seen):
+    """The peak of runs from rest, if the same one ball is still there in all of them; else nan.
 
     A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
     """
-    still = [not runs["final"][:, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
-    return runs["largest"].max() if sum(still) == 1 else np.nan
+    still = [not seen.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
+    return peak_of(seen.largest[:, :1]).max() if sum(still) == 1 else np.nan
 
 
 def _energy(system, states, spec):
