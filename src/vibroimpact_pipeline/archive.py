@@ -1,4 +1,4 @@
-"""The archive of a build, to cite and to run elsewhere: committed sources, results with records, an RO-Crate."""
+"""The archive of a build, to cite and to run elsewhere: committed sources, results, an RO-Crate with their sums."""
 
 import gzip
 import subprocess
@@ -11,25 +11,25 @@ from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import read_record, record_of, recorded_files
+from vibroimpact_pipeline.results import digest_of, records
 
 WORKFLOW = "Snakefile"
 
 
-def results_behind(targets: list[str], results: Path) -> list[Path]:
+def results_behind(targets: list[str]) -> list[Path]:
     """Return all results of the rules that made the targets, and their inputs, as the records say.
 
     What was made on demand and is not behind them stays out: it may be of an older commit.
     """
-    records = {str(path): read_record(path) for path in recorded_files(results)}
+    known = {path: made for path, made in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
     while pending:
         path = pending.pop()
-        if path in records and path not in behind:
+        if path in known and path not in behind:
             behind.add(path)
-            pending += records[path]["inputs"]
-    rules = {records[path]["rule"] for path in behind}
-    return sorted(Path(path) for path, made in records.items() if made["rule"] in rules)
+            pending += known[path].get("inputs", ())
+    rules = {known[path].get("rule") for path in behind}
+    return sorted(Path(path) for path, made in known.items() if made.get("rule") in rules)
 
 
 def write(root: Path, results: list[Path], titles: dict[str, str], output) -> None:
@@ -54,7 +54,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
         staged.mkdir()
         sources = subprocess.run(["git", "archive", commit], cwd=root, stdout=subprocess.PIPE, check=True).stdout
         subprocess.run(["tar", "--extract", "--directory", staged], input=sources, check=True)
-        for path in (name for result in results for name in (result, record_of(result))):
+        for path in results:
             (staged / path).parent.mkdir(parents=True, exist_ok=True)
             (staged / path).hardlink_to(root / path)
         crate(staged, cited, commit, date, titles).metadata.write(staged)
@@ -83,7 +83,8 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
         name = str(path.relative_to(folder))
         if name != WORKFLOW:
             about = titles.get(path.name.split(".")[0], name)
-            made.add_file(None, name, properties={"name": about, "contentSize": str(path.stat().st_size)})
+            told = {"name": about, "contentSize": str(path.stat().st_size), "sha256": digest_of(path)}
+            made.add_file(None, name, properties=told)
     return made
 
 

@@ -1,11 +1,10 @@
-"""Fingerprints of the code, for the `params` of rules; jobs check them again. Standard library only.
+"""Fingerprints of the checkout's files behind a job, for the `params` of rules; the job takes them again when it ends.
 
 Coarse on purpose: any change of the library makes everything computed again, one of `figures/` every figure.
+Standard library only.
 """
 
 import hashlib
-import os
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -22,13 +21,14 @@ PARTS = {
     "figures": FIGURES,
     "pipeline": "src/vibroimpact_pipeline",
     "scripts": "workflow/scripts",
+    "lock": "environment.lock",
 }
-"""The folder of each part; the library's without the figures."""
+"""The file or folder of each part; the library's without the figures."""
 
 
 @cache
 def fingerprint(part: str) -> str:
-    """Return the fingerprint of a part of the code (a name in PARTS), as it was at the first call in this process."""
+    """Return the fingerprint of a part (a name in PARTS, or a path), as it was at the first call in this process."""
     return fingerprint_now(part)
 
 
@@ -36,33 +36,26 @@ def fingerprint_now(part: str) -> str:
     """Return a hash of the names and contents of all files of a part."""
     digest = hashlib.sha256()
     for path in files(part):
-        name = f"{PARTS[part]}/{path.relative_to(folder(part))}"  # the same for a checkout and its wheel
+        name = f"{PARTS.get(part, part)}/{path.relative_to(folder(part))}"  # the same for a checkout and its wheel
         digest.update(f"{name}\n".encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 
 def files(part: str) -> list[Path]:
-    """Return all files of a part, sorted."""
-    left_out = {"library": folder("figures"), "pipeline": SHIPPED}
-    return sorted(_files(folder(part), left_out.get(part)))
+    """Return all files of a part, sorted, without hidden ones and bytecode."""
+    top, left_out = folder(part), {"library": folder("figures"), "pipeline": SHIPPED}.get(part)
+    found = [top] if top.is_file() else top.rglob("*")
+    found = (path for path in found if path.is_file() and not path.name.startswith("."))
+    found = (path for path in found if "__pycache__" not in path.parts)
+    return sorted(path for path in found if left_out is None or not path.is_relative_to(left_out))
 
 
 def folder(part: str) -> Path:
-    """Return the folder of a part; of an installed pipeline, that of the installed package."""
-    top, _, inside = PARTS[part].partition("/")
-    return SOURCES / inside if INSTALLED and top == "src" else ROOT / PARTS[part]
+    """Return the folder (or file) of a part; of an installed pipeline, code is in the installed package."""
+    top, _, inside = PARTS.get(part, part).partition("/")
+    return SOURCES / inside if INSTALLED and top == "src" else ROOT / PARTS.get(part, part)
 
 
-def _files(folder: Path, left_out: Path | None) -> Iterator[Path]:
-    for entry in os.scandir(folder):
-        path = Path(entry.path)
-        if entry.is_dir() and entry.name != "__pycache__" and path != left_out:
-            yield from _files(path, left_out)
-        elif entry.is_file() and not entry.name.startswith("."):
-            yield path
-
-
-def stamps(parts) -> dict[Path, tuple[int, int]]:
-    """Return mtime and ctime (ns) of every file of the parts; restoring an old version changes its ctime."""
-    states = {path: path.stat() for part in parts for path in files(part)}
-    return {path: (state.st_mtime_ns, state.st_ctime_ns) for path, state in states.items()}
+def change_times(parts) -> dict[Path, int]:
+    """Return the ctime (ns) of every file of the parts: putting an old version back changes it, too."""
+    return {path: path.stat().st_ctime_ns for part in parts for path in files(part)}

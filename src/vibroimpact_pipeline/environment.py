@@ -1,6 +1,7 @@
 """The environment variables of every command of the pipeline and of its jobs."""
 
 import getpass
+import importlib.util
 import os
 from pathlib import Path
 
@@ -12,6 +13,14 @@ CACHES = {
     "HEYOKA_CACHE_DIR": "heyoka",
 }
 """Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
+
+NEEDED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
+"""Modules without which jobs fail; Snakemake alone parses, lints and lists the workflow."""
+
+
+def missing_libraries() -> list[str]:
+    """Return the names of required modules that are not installed."""
+    return [name for name in NEEDED if importlib.util.find_spec(name) is None]
 
 
 def set_environment(checkout: Path | None) -> None:

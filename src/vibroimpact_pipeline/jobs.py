@@ -2,9 +2,9 @@
 
 import ctypes
 import os
+import shutil
 import signal
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -12,18 +12,13 @@ from types import SimpleNamespace
 
 from vibroimpact_pipeline import code
 from vibroimpact_pipeline.results import (
-    PARTIAL,
-    NotAsMade,
+    ModifiedResult,
     checked_digests,
-    digest_of_data,
+    partial_path,
     put_in_place,
     write_record,
 )
 
-TOKEN = Path(".cache/build")
-"""Holds a random word for each build: the job of a build that was killed finds another one there."""
-BUILD = "VIBROIMPACT_BUILD"
-"""The environment variable that gives a job the word of its own build; Slurm passes it on."""
 PR_SET_PDEATHSIG = 1
 
 
@@ -36,8 +31,8 @@ def running(job) -> Iterator[SimpleNamespace]:
     """Run the script of a Snakemake job, whose outputs are named; give their temporary paths by name.
 
     What the script prints goes to the job's log. The job fails, with one line there, and replaces nothing, if its code
-    is not the code that the rules saw (`params.code`: fingerprints by part), if an input is not what its job wrote, if
-    either changes meanwhile, or if another build has begun. An error in an argument from the config is one line, too.
+    is not the code that the rules saw (`params.code`: fingerprints by part), if an input is not what its job wrote, or
+    if either changes meanwhile. An error in an argument from the config is one line, too.
     """
     end_with_parent()
     with ExitStack() as stack:
@@ -45,24 +40,23 @@ def running(job) -> Iterator[SimpleNamespace]:
             stack.enter_context(logging_to(job.log[0]))
         try:
             parts = dict(job.params.get("code", {}))
-            before = code.stamps(parts)
-            check_build()
-            if any(code.fingerprint_now(part) != seen for part, seen in parts.items()):
-                raise Refused("the code has changed since the build began. Build again.")
+            before = code.change_times(parts)
+            for part, seen in parts.items():
+                if code.fingerprint_now(part) != seen:
+                    raise Refused(f"{part}: has changed since the build began. Build again.")
             inputs = checked_digests(job.input)
-            outputs = {name: Path(path) for name, path in job.output.items()}
-            partial = {name: _beside(path, stack) for name, path in outputs.items()}
+            partial = {name: partial_path(path) for name, path in job.output.items()}
+            for path in partial.values():
+                stack.callback(shutil.rmtree, path.parent)
             yield SimpleNamespace(**{name: str(path) for name, path in partial.items()})
-            if code.stamps(parts) != before:
+            if code.change_times(parts) != before:
                 raise Refused("the code has changed while this job ran. Build again.")
             if checked_digests(job.input) != inputs:
                 raise Refused("an input has changed while this job ran. Build again.")
-            check_build()
-            made = made_by(job, inputs)
-            for name, path in outputs.items():
-                put_in_place(partial[name], path)
-                write_record(path, made)
-        except (Refused, NotAsMade) as error:
+            for name, path in job.output.items():
+                put_in_place(partial[name], Path(path))
+                write_record(path, {"rule": job.rule, "inputs": inputs})
+        except (Refused, ModifiedResult) as error:
             sys.exit(str(error))
         except ValueError as error:
             if line := with_key(error, job.params.get("config") or {}):
@@ -84,18 +78,6 @@ def with_key(error, decided: dict) -> str | None:
     return f"{holding[0]}.{error}" if holding else None
 
 
-def made_by(job, inputs: dict[str, str]) -> dict:
-    """Return the entries on a job for the records of its outputs."""
-    params = digest_of_data(dict(job.params.items()))
-    return {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": params, "inputs": inputs}
-
-
-def _beside(path, stack) -> Path:
-    """Return a temporary path of the same name in a new folder beside it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=PARTIAL, dir=path.parent)), path.name)
-
-
 @contextmanager
 def logging_to(path) -> Iterator[None]:
     """Redirect the output of this process and its children to a log file; print errors as one line to the terminal."""
@@ -111,12 +93,6 @@ def logging_to(path) -> Iterator[None]:
             said = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
             os.write(terminal, f"{said}\nThe whole log is {path}\n".encode())
             raise
-
-
-def check_build() -> None:
-    """Raise Refused in a job of an earlier build than the one that has begun here last."""
-    if TOKEN.is_file() and TOKEN.read_text(encoding="ascii") != os.environ.get(BUILD):
-        raise Refused("another build has begun meanwhile; this job's outputs are left out.")
 
 
 def end_with_parent() -> None:

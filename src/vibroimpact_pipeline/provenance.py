@@ -1,85 +1,60 @@
-"""Provenance of a figure: a record beside it and in its metadata, and a command that compares it with the checkout.
+"""Provenance of a figure: a record beside it, and a command that compares it with the checkout.
 
 python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
 
 import argparse
 import json
+import os
 import platform
-import re
 import sys
 from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
-from xml.etree import ElementTree
-
-from PIL import Image
 
 from vibroimpact_pipeline import code
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import digest_of, read_record
+from vibroimpact_pipeline.results import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
-LOCK = "environment.lock"
+CONFIG = "config/config.yaml"
 PACKAGES = ("numpy", "scipy", "numba", "matplotlib")
-DUBLIN_CORE = "{http://purl.org/dc/elements/1.1/}description"
 
 
-def record(job) -> dict:
-    """Return the record for the metadata of the pictures, the same in every build of one commit."""
-    return {
+def write(job, out) -> None:
+    """Write the record of a figure: what decides on it, what it was made from, and its files, which must be there.
+
+    Args:
+        job: the Snakemake job.
+        out: temporary paths of its outputs.
+    """
+    folder = Path(job.output.provenance).parent
+    made = {path: getattr(out, name) for name, path in job.output.items() if name not in ("html", "provenance")}
+    changes = git("status", "--porcelain", root=code.ROOT)
+    record = {
         "figure": job.params.figure,
         "config": job.params.config,
         "code": dict(job.params.code),
-        "inputs": {_name(path): digest_of(path) for path in job.input},
-        "lock": digest_of(code.ROOT / LOCK),
+        "inputs": {os.path.relpath(path, folder): digest_of(path) for path in job.input if is_result(path)},
+        "files": {os.path.relpath(path, folder): digest_of(partial) for path, partial in made.items()},
         "versions": {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}},
+        "commit": git("rev-parse", "HEAD", root=code.ROOT),
+        "tree": {None: None, "": "clean"}.get(changes, "modified"),
     }
-
-
-def _name(path):
-    """Return the path of an input, relative to the checkout if it lies there."""
-    return str(Path(path).relative_to(code.ROOT)) if Path(path).is_relative_to(code.ROOT) else str(path)
-
-
-def write(path, made: dict) -> None:
-    """Write the record beside the figure, with the commit of the checkout and whether it is clean."""
-    changes = git("status", "--porcelain", root=code.ROOT)
-    tree = {None: None, "": "clean"}.get(changes, "modified")
-    full = {**made, "commit": git("rev-parse", "HEAD", root=code.ROOT), "tree": tree}
-    Path(path).write_text(json.dumps(full, indent=1) + "\n", encoding="utf-8")
+    Path(out.provenance).write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
 
 def read(path) -> dict:
-    """Return the record of a figure: the file beside it, else the metadata of its PNG, SVG or PDF.
+    """Return the record beside a file of a figure.
 
     Raises:
-        ValueError: the file has none.
+        ValueError: there is none.
     """
     path = Path(path)
-    beside = path.with_name(path.name.split(".")[0] + ".provenance.json")
     try:
-        return json.loads(beside.read_text(encoding="utf-8") if beside.is_file() else METADATA[path.suffix](path))
-    except (KeyError, TypeError, ValueError, ElementTree.ParseError):
+        return json.loads(path.with_name(path.name.split(".")[0] + ".provenance.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
         raise ValueError(f"{path} has no record of where it comes from") from None
-
-
-def _in_png(path):
-    with Image.open(path) as picture:
-        return picture.info["Description"]
-
-
-def _in_svg(path):
-    return ElementTree.parse(path).findtext(f".//{DUBLIN_CORE}")
-
-
-def _in_pdf(path):
-    """Return /Subject, which Matplotlib writes as plain text with backslashes before brackets and backslashes."""
-    found = re.search(rb"/Subject \(((?:[^\\()]|\\.)*)\)", path.read_bytes(), re.DOTALL)
-    return found and re.sub(rb"\\(.)", rb"\1", found[1])
-
-
-METADATA = {".png": _in_png, ".svg": _in_svg, ".pdf": _in_pdf}
 
 
 def differences(path, made: dict, config: dict) -> Iterator[str]:
@@ -95,14 +70,11 @@ def differences(path, made: dict, config: dict) -> Iterator[str]:
             yield f"config, {place}: is {now}, was {value}"
     for part, fingerprint in made["code"].items():
         if code.fingerprint(part) != fingerprint:
-            yield f"code of the {part}: has changed"
-    for name, digest in {**made["inputs"], str(code.ROOT / LOCK): made["lock"]}.items():
-        file = Path(name) if Path(name).is_file() else code.ROOT / name
+            yield f"{part}: has changed"
+    for name, digest in {**made["inputs"], **made["files"]}.items():
+        file = Path(os.path.normpath(Path(path).parent / name))
         if not file.is_file() or digest_of(file) != digest:
-            yield f"{name}: has changed"
-    written = read_record(path)
-    if written and written["sha256"] != digest_of(path):
-        yield "the file itself: is not what its job wrote"
+            yield f"{file}: is not the one of then"
 
 
 def _at(config, place):
@@ -126,7 +98,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
     parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
     file = parser.parse_args().file
-    settings = next(path for path in (Path("config/config.yaml"), code.ROOT / "config/config.yaml") if path.is_file())
+    build = next((folder.parent for folder in file.resolve().parents if folder.name == RESULTS), code.ROOT)
+    settings = next(path for path in (build / CONFIG, code.ROOT / CONFIG) if path.is_file())
     try:
         made, config = read(file), checked(read_config(settings))
     except (OSError, ValueError) as error:

@@ -1,31 +1,29 @@
-"""Results on disk: written whole or not at all, each with a record of its content and origin.
+"""Results on disk: written whole or not at all, each with a record of what its job wrote.
 
-The record of `results/a/b.csv` is `results/a/.made/b.csv.json`: the SHA-256 of the result, the rule, its wildcards,
-a digest of its parameters (a slice of the config and fingerprints of the code), and the SHA-256 of every input.
-A result without a record, or with one that does not fit, counts as not made.
+The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule, and the
+SHA-256 of every input. It lies beside Snakemake's own records, so that nobody copies it in together with results of
+another config.
 """
 
+import base64
 import hashlib
 import json
 import os
 import shutil
-import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
 RESULTS = "results"
-RECORDS = ".made"
+RECORDS = Path(".snakemake/sums")
 PARTIAL = ".partial-"
 """Prefix of the folders that hold outputs until their job has ended well."""
 OF_SNAKEMAKE = ".snakemake_timestamp"
 """A file that Snakemake adds to directories."""
-LEFT_ALONE = (RECORDS, "logs", "benchmarks")
-"""Folders below the results that hold none."""
 
 
-class NotAsMade(RuntimeError):
-    """A file differs from what its job wrote, or has no record."""
+class ModifiedResult(RuntimeError):
+    """A result differs from what its job wrote, or has no record."""
 
 
 def digest_of(path) -> str:
@@ -33,14 +31,10 @@ def digest_of(path) -> str:
     path = Path(path)
     if path.is_dir():
         below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
-        return digest_of_data({str(file.relative_to(path)): digest_of(file) for file in below})
+        listed = {str(file.relative_to(path)): digest_of(file) for file in below}
+        return hashlib.sha256(json.dumps(listed).encode()).hexdigest()
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def digest_of_data(data) -> str:
-    """Return the SHA-256 of JSON data, such as the parameters of a job."""
-    return hashlib.sha256(json.dumps(data, sort_keys=True, default=str).encode()).hexdigest()
 
 
 def to_disk(path) -> None:
@@ -52,14 +46,24 @@ def to_disk(path) -> None:
         os.close(descriptor)
 
 
+def partial_path(path) -> Path:
+    """Return the path of the same name in a new folder beside `path`, without what a killed job has left there."""
+    path = Path(path)
+    folder = path.with_name(PARTIAL + path.name)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder / path.name
+
+
 @contextmanager
 def replacing(path) -> Iterator[Path]:
     """Yield a temporary path of the same name; move it to `path` at the end unless an exception is raised."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=PARTIAL, dir=path.parent) as folder:
-        yield (partial := Path(folder, path.name))
-        put_in_place(partial, path)
+    partial = partial_path(path)
+    try:
+        yield partial
+        put_in_place(partial, Path(path))
+    finally:
+        shutil.rmtree(partial.parent)
 
 
 def put_in_place(partial: Path, path: Path) -> None:
@@ -74,22 +78,30 @@ def put_in_place(partial: Path, path: Path) -> None:
 
 def record_of(path) -> Path:
     """Return the path of the record of a result."""
-    path = Path(path)
-    return path.parent / RECORDS / f"{path.name}.json"
+    return RECORDS / f"{path}.json"
 
 
 def write_record(path, made: Mapping) -> None:
-    """Write the record of a result: its digest and how it was made."""
+    """Write the record of a result: its digest, its size and how it was made."""
     with replacing(record_of(path)) as partial:
-        partial.write_text(json.dumps({"sha256": digest_of(path), **made}, indent=1) + "\n", encoding="utf-8")
+        partial.write_text(
+            json.dumps({"sha256": digest_of(path), "size": os.stat(path).st_size, **made}, indent=1) + "\n",
+            encoding="utf-8",
+        )
 
 
-def read_record(path) -> dict | None:
-    """Return the record of a result, or None if there is none that can be read."""
+def read_record(path) -> dict:
+    """Return the record of a result, empty if there is none that can be read."""
     try:
-        return json.loads(record_of(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
+        return dict(json.loads(record_of(path).read_text(encoding="utf-8")))
+    except (OSError, TypeError, ValueError):
+        return {}
+
+
+def records() -> dict[str, dict]:
+    """Return the records of all results in this directory by their paths."""
+    paths = (str(path.relative_to(RECORDS)).removesuffix(".json") for path in sorted(RECORDS.rglob("*.json")))
+    return {path: read_record(path) for path in paths if os.path.exists(path)}
 
 
 def is_result(path) -> bool:
@@ -98,86 +110,49 @@ def is_result(path) -> bool:
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """Return the SHA-256 of every input of a job, after comparing results with their records.
+    """Return the SHA-256 of those inputs of a job that are results, after comparing them with their records.
 
     Raises:
-        NotAsMade: one has no record, or is not what its job wrote.
+        ModifiedResult: one has no record, or is not what its job wrote.
     """
-    digests = {}
-    for path in map(str, paths):
-        digests[path] = digest_of(path)
-        made = read_record(path) if is_result(path) else {"sha256": digests[path]}
-        if not made or made.get("sha256") != digests[path]:
-            raise NotAsMade(f"{path}: not what its job wrote. Build again: it is removed and made anew.")
+    digests = {path: digest_of(path) for path in map(str, paths) if is_result(path)}
+    for path, digest in digests.items():
+        if read_record(path).get("sha256") != digest:
+            raise ModifiedResult(f"{path}: not what its job wrote. Build again: it is made anew.")
     return digests
 
 
-def distrusted(
-    results: Path, params_of: Callable[[str, dict], dict | None], makes: Callable[[str], bool]
-) -> dict[str, str]:
-    """Return the results that must be made again, with the reason.
+def distrust(outputs: Iterable) -> list[str]:
+    """Mark results that Snakemake has no record of, or that their jobs did not write, as incomplete; return those.
 
-    Args:
-        results: the directory of the results.
-        params_of: of a result and its record the parameters that its job has today; None if they need no look.
-        makes: whether a rule makes a path, so that it is not somebody else's file.
+    Snakemake itself takes a file without a record for up to date. One that is marked it makes anew where it is needed.
     """
-    digests = {str(path): digest_of(path) for path in _results(results)}
-    records = {path: read_record(path) for path in digests}
-    found = {}
-    for path, made in records.items():
-        if made is None and makes(path):
-            found[path] = "without a record of how it was made"
-        elif made and digests[path] != made["sha256"]:
-            found[path] = "not what their job wrote"
-        elif made and (params := params_of(path, made)) is not None and digest_of_data(params) != made["params"]:
-            found[path] = "made with other parameters or other code"
-    return found | _made_from(found, records, digests)
+    # In this order: results of a job that ends meanwhile are still marked by Snakemake itself, or already recorded.
+    present = [path for path in map(str, outputs) if os.path.exists(path)]
+    unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
+    found = [path for path in unmarked if not _as_recorded(path)]
+    for path in found:
+        marker = _of_snakemake("incomplete", path)
+        marker.parent.mkdir(parents=True, exist_ok=True)
+        marker.write_text("{}", encoding="utf-8")
+    return found
 
 
-def _made_from(distrusted, records, digests):
-    """Return results made, directly or through others, from inputs that are distrusted, changed or missing."""
-    found = {}
-
-    def is_input(name, digest):
-        if name in distrusted or name in found:
-            return False
-        return digests.get(name, None if is_result(name) else digest) == digest
-
-    while True:
-        more = {
-            path: "made from these"
-            for path, made in records.items()
-            if made and path not in distrusted and path not in found
-            for name, digest in made["inputs"].items()
-            if not is_input(name, digest)
-        }
-        if not more:
-            return found
-        found |= more
+def _as_recorded(path: str) -> bool:
+    """Return True for a result with both records, as far as date and size tell; only one with others is read."""
+    try:
+        # A job writes its record, then Snakemake touches the result, then it writes its own record.
+        times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
+    except OSError:
+        return False
+    made = read_record(path)
+    if times == sorted(times) and made.get("size") == os.stat(path).st_size:
+        return True
+    return made.get("sha256") == digest_of(path)
 
 
-def recorded_files(folder: Path) -> Iterator[Path]:
-    """Return all files below a folder that have a record, without results that are directories."""
-    return (path for path in sorted(_results(folder)) if path.is_file() and record_of(path).is_file())
-
-
-def _results(folder: Path) -> Iterator[Path]:
-    """Yield files, and directories that are results themselves, below a folder."""
-    for path in folder.iterdir() if folder.is_dir() else ():
-        if path.name in LEFT_ALONE or path.name.startswith(PARTIAL):
-            continue
-        if path.is_file() or record_of(path).is_file():
-            yield path
-        elif path.is_dir():
-            yield from _results(path)
-
-
-def remove(path) -> None:
-    """Delete a result and its record."""
-    path = Path(path)
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path)
-    else:
-        path.unlink(missing_ok=True)
-    record_of(path).unlink(missing_ok=True)
+def _of_snakemake(folder: str, path: str) -> Path:
+    """Return where Snakemake keeps what it knows of a path: by its name in Base64, cut where names get too long."""
+    name = base64.urlsafe_b64encode(path.encode()).decode()
+    *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))
+    return Path(".snakemake", folder, *(f"@{part}" for part in cut), last)

@@ -7,7 +7,6 @@ import pytest
 
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, page, read, stands_for
-from vibroimpact_pipeline.results import RECORDS
 from vibroimpact_pipeline.specs import each
 
 SPECS, DATA = read(ROOT)
@@ -18,9 +17,9 @@ SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 @pytest.fixture(scope="module")
 def made(built):
-    """The data of a build, without records and the report's copies: paths from the checkout."""
+    """The data of a build, without the report's copies: paths from the checkout."""
     data = [path for path in (built / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
-    named = {str(path.relative_to(built.path)): path for path in sorted(data) if path.parent.name != RECORDS}
+    named = {str(path.relative_to(built.path)): path for path in sorted(data)}
     return {name: path for name, path in named.items() if not name.startswith("results/report/")}
 
 

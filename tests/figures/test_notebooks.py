@@ -59,10 +59,9 @@ def test_parameters_are_those_that_the_pipeline_sets(of_a_figure):
         "settings",
         "inputs",
         "outputs",
-        "provenance",
     ]
     values = {statement.targets[0].id: ast.literal_eval(statement.value) for statement in assignments}
-    assert values["inputs"] == values["outputs"] == values["provenance"] == {}  # a reader's run is a reader's own
+    assert values["inputs"] == values["outputs"] == {}  # a reader's run is a reader's own
 
 
 def test_begins_with_the_question_and_its_equations(notebook):

@@ -1,14 +1,20 @@
-"""Results on disk: whole or absent, and trusted only with a record that fits."""
+"""Results on disk: whole or absent, and trusted only if Snakemake knows them and they are what their job wrote."""
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import pytest
+from snakemake.io import IOFile
+from snakemake.persistence import MetadataRecord
+from snakemake.persistence.file import FilePersistence
 
 from vibroimpact_pipeline import results
 
-RESULTS = Path("results")
+FIRST, SECOND = "results/a.csv", "results/b/b.csv"
+LONG = f"results/{'long/' * 50}c.csv"
+"""Snakemake cuts its name of this one in two."""
 
 
 @pytest.fixture(autouse=True)
@@ -16,95 +22,148 @@ def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def made(path, params, inputs=()):
-    """A result as a job leaves it."""
-    path = RESULTS / path
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(f"{path} {params}")
-    known = {str(RESULTS / name): results.digest_of(RESULTS / name) for name in inputs}
-    results.write_record(path, {"rule": "rule", "params": results.digest_of_data(params), "inputs": known})
-    return path
+@pytest.fixture
+def snakemake():
+    """What Snakemake itself keeps of results, by its own code."""
+    return FilePersistence(nolock=True)
+
+
+def as_made(snakemake, path, inputs=()):
+    """A result as its job and then Snakemake leave it."""
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    Path(path).write_text(f"content of {path}")
+    results.write_record(path, {"rule": "rule", "inputs": {one: results.digest_of(one) for one in inputs}})
+    os.utime(path)
+    snakemake._write_record(path, MetadataRecord(rule="rule"))
 
 
 @pytest.fixture
-def chain():
-    """Three results, each made from the one before."""
-    return [made("a.csv", 1), made("b/b.csv", 1, ["a.csv"]), made("c.csv", 1, ["b/b.csv"])]
+def made(snakemake):
+    as_made(snakemake, FIRST)
+    as_made(snakemake, SECOND, [FIRST])
+    as_made(snakemake, LONG)
+    return [FIRST, SECOND, LONG]
 
 
-def distrusted(params=1, makes=lambda path: True):
-    return {str(Path(path).name) for path in results.distrusted(RESULTS, lambda path, record: params, makes)}
+def marked(snakemake, paths):
+    snakemake._clear_cache()
+    return snakemake._filter_incomplete_keys(paths)
 
 
-def test_what_jobs_wrote_is_trusted(chain):
-    assert distrusted() == set()
+def test_what_jobs_wrote_is_trusted(made, snakemake):
+    assert results.distrust([*made, "results/not_there.csv"]) == []
+    assert marked(snakemake, made) == set()
 
 
-def test_a_rule_that_is_gone_takes_nothing_with_it(chain):
-    assert distrusted(params=None) == set()
+def edited(path, _):
+    Path(path).write_text("0")
 
 
-def test_other_parameters_are_seen_without_any_record_of_snakemake(chain):
-    assert distrusted(params=2) == {"a.csv", "b.csv", "c.csv"}
+def edited_under_an_old_date(path, snakemake):
+    edited(path, snakemake)
+    os.utime(path, (1e9, 1e9))
 
 
-@pytest.mark.parametrize("change", [lambda path: path.write_text("0"), os.unlink], ids=["edited", "deleted"])
-def test_what_depends_on_a_changed_or_deleted_result_is_made_again(chain, change):
-    change(chain[1])
-    assert distrusted() - {"b.csv"} == {"c.csv"}
+def of_another_config(path, snakemake):
+    """What is copied in has an older or a newer date, as it was made before or after."""
+    shutil.copy2(FIRST if path != FIRST else SECOND, path)
 
 
-@pytest.mark.parametrize("content", [None, "", "{", '{"sha256": 1}'])
-def test_no_record_or_a_spoilt_one_is_no_trust(chain, content):
-    record = results.record_of(chain[0])
-    record.unlink() if content is None else record.write_text(content)
-    assert distrusted() == {"a.csv", "b.csv", "c.csv"}
+def of_a_job_that_ended_with_it(path, snakemake):
+    date = os.stat(path).st_mtime_ns
+    of_another_config(path, snakemake)
+    os.utime(path, ns=(date, date))
 
 
-def test_two_results_that_changed_places(chain):
-    first, second = made("x.csv", 1), made("y.csv", 1)
-    first.rename("aside"), second.rename(first), Path("aside").rename(second)
-    assert distrusted() == {"x.csv", "y.csv"}
+def unknown_to_snakemake(path, snakemake):
+    assert snakemake.cleanup_metadata(IOFile(path))
 
 
-def test_files_of_somebody_else_are_left_alone(chain):
-    (RESULTS / "notes.txt").write_text("mine")
-    (RESULTS / "logs").mkdir()
-    (RESULTS / "logs/log.txt").write_text("a log")
-    assert distrusted(makes=lambda path: path != "results/notes.txt") == set()
+def without_record(path, _):
+    results.record_of(path).unlink()
 
 
-def test_a_directory_is_one_result():
-    folder = RESULTS / "report"
+def with_a_spoilt_record(path, _):
+    results.record_of(path).write_text("{")
+    os.utime(path, (1e9, 1e9))
+
+
+CHANGES = [
+    edited,
+    edited_under_an_old_date,
+    of_another_config,
+    of_a_job_that_ended_with_it,
+    unknown_to_snakemake,
+    without_record,
+    with_a_spoilt_record,
+]
+
+
+@pytest.mark.parametrize("path", [FIRST, SECOND, LONG], ids=["first", "second", "long"])
+@pytest.mark.parametrize("change", CHANGES)
+def test_another_file_and_one_that_is_not_known_are_marked_for_snakemake(made, snakemake, change, path):
+    change(path, snakemake)
+    assert results.distrust(made) == [path]
+    assert marked(snakemake, made) == {path}
+    assert results.distrust(made) == [], "said once"
+
+
+def test_what_was_only_touched_or_copied_is_trusted(made):
+    for path in made:
+        os.utime(path)
+    assert results.distrust(made) == []
+
+
+def test_of_a_job_that_runs_snakemake_knows_more(made, snakemake):
+    """Its result is there before Snakemake's record is: the mark that Snakemake has set itself is left to it."""
+    snakemake._mark_incomplete(FIRST, None)
+    edited(FIRST, snakemake)
+    assert results.distrust(made) == []
+
+
+def test_a_directory_is_one_result(snakemake):
+    folder = Path("results/report")
     (folder / "pages").mkdir(parents=True)
     (folder / "pages/index.html").write_text("page")
-    results.write_record(folder, {"rule": "report", "params": results.digest_of_data(1), "inputs": {}})
-    assert distrusted() == set()
+    before = results.digest_of(folder)
+    (folder / results.OF_SNAKEMAKE).touch()
+    assert results.digest_of(folder) == before
     (folder / "pages/index.html").write_text("another page")
-    assert distrusted() == {"report"}
-    results.remove(folder)
-    assert not folder.exists()
-    assert not results.record_of(folder).exists()
+    assert results.digest_of(folder) != before
 
 
-def test_inputs_are_checked_before_they_are_read(chain):
-    assert set(results.checked_digests(chain)) == set(map(str, chain))
-    chain[2].write_text("0")
-    with pytest.raises(results.NotAsMade, match=r"results/c\.csv"):
-        results.checked_digests(chain)
+@pytest.mark.parametrize("content", [None, "", "{", "[1]", "3", "{}", '{"sha256": 1}'])
+def test_a_job_reads_no_input_with_a_spoilt_record(made, content):
+    record = results.record_of(FIRST)
+    record.unlink() if content is None else record.write_text(content)
+    with pytest.raises(results.ModifiedResult, match=r"results/a\.csv"):
+        results.checked_digests(made)
+
+
+def test_inputs_are_checked_before_they_are_read(made):
+    assert set(results.checked_digests(made)) == set(made)
+    Path(SECOND).write_text("0")
+    with pytest.raises(results.ModifiedResult, match=r"results/b/b\.csv"):
+        results.checked_digests(made)
 
 
 def test_a_file_of_the_checkout_needs_no_record(tmp_path):
     (tmp_path / "claims.yaml").write_text("claims")
-    assert results.checked_digests([tmp_path / "claims.yaml", "claims.yaml"])
+    assert results.checked_digests([tmp_path / "claims.yaml", "claims.yaml"]) == {}
 
 
-def test_a_file_is_replaced_whole_or_not_at_all():
-    path = made("a.csv", 1)
-    with pytest.raises(ZeroDivisionError), results.replacing(path) as partial:
+def test_a_file_is_replaced_whole_or_not_at_all(made):
+    before = Path(FIRST).read_text()
+    with pytest.raises(ZeroDivisionError), results.replacing(FIRST) as partial:
         partial.write_text("half" * (1 // 0))
-    assert path.read_text() == "results/a.csv 1"
-    assert {each.name for each in RESULTS.iterdir()} == {results.RECORDS, "a.csv"}
+    assert Path(FIRST).read_text() == before
+    assert not list(Path("results").glob(f"{results.PARTIAL}*"))
+
+
+def test_what_a_killed_job_has_left_goes_when_the_next_begins():
+    (left := results.partial_path(FIRST)).write_text("half")
+    assert not results.partial_path(FIRST).exists()
+    assert left.parent.is_dir()
 
 
 def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypatch):
@@ -120,7 +179,9 @@ def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypa
     assert [Path(step).name for step in order] == ["file.txt", "renamed", Path.cwd().name]
 
 
-def test_a_record_is_json(chain):
-    record = json.loads(results.record_of(chain[1]).read_text())
-    assert record["inputs"] == {"results/a.csv": results.digest_of(chain[0])}
-    assert record["sha256"] == results.digest_of(chain[1])
+def test_a_record_is_json(made):
+    record = json.loads(results.record_of(SECOND).read_text())
+    inputs = {FIRST: results.digest_of(FIRST)}
+    size = len(Path(SECOND).read_bytes())
+    assert record == {"sha256": results.digest_of(SECOND), "size": size, "rule": "rule", "inputs": inputs}
+    assert results.records() == {path: results.read_record(path) for path in made}

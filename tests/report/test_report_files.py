@@ -185,7 +185,7 @@ def test_every_figure_tells_where_it_comes_from_and_what_it_cost(site, page, fol
     assert len(shown) == number
     for path in shown:
         record = json.loads(path.read_text(encoding="utf-8"))
-        assert str(record["lock"])[:12] in html
+        assert record["code"]["lock"] in html
     assert html.count("Where it comes from") == number
     assert html.count("MB of memory") >= number
     assert "not recorded" not in html

@@ -89,7 +89,7 @@ def results(folder: Path) -> Path:
     run |= {"problem": HOSTILE, "method": HOSTILE, "setting": HOSTILE}
     claim = {"id": HOSTILE, "verdict": HOSTILE, "place": "(10.1)", "statement": STATEMENT, "parts": {HOSTILE: True}}
     claim |= {"refuted_by": STATEMENT}
-    record = dict.fromkeys(("commit", "tree", "lock"), HOSTILE) | {"config": {HOSTILE: HOSTILE}}
+    record = dict.fromkeys(("commit", "tree"), HOSTILE) | {"config": {HOSTILE: HOSTILE}, "code": {"lock": HOSTILE}}
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
     places |= dict.fromkeys(("work_precision", "hazards", "scene_models"), "accuracy")

@@ -99,8 +99,9 @@ def with_results(source: Path, path: Path) -> Tree:
     tree = copied(source, path)
     if (source / "results").exists():
         shutil.copytree(source / "results", path / "results", symlinks=True)
-    if (source / ".snakemake/metadata").exists():
-        shutil.copytree(source / ".snakemake/metadata", path / ".snakemake/metadata")
+    for known in (".snakemake/metadata", ".snakemake/sums"):
+        if (source / known).exists():
+            shutil.copytree(source / known, path / known)
     return tree
 
 

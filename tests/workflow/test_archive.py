@@ -1,5 +1,7 @@
 """An archive is the same each time, and in an empty place it makes a figure again, byte by byte."""
 
+import hashlib
+import json
 import os
 import re
 import shutil
@@ -50,7 +52,7 @@ def test_results_on_demand_stay_out(tmp_path, monkeypatch):
         Path("results", name).parent.mkdir(exist_ok=True)
         Path("results", name).write_text(name)
         write_record(Path("results", name), {"rule": rule, "inputs": {f"results/{one}": "" for one in inputs}})
-    assert results_behind(["results/figure.png"], Path("results")) == sorted(Path("results", name) for name in made)
+    assert results_behind(["results/figure.png"]) == sorted(Path("results", name) for name in made)
 
 
 @pytest.mark.thorough
@@ -80,24 +82,16 @@ def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
     assert done.stdout.endswith("It is what this checkout makes.\n")
 
 
-def test_elsewhere_nothing_is_left_to_do(elsewhere):
-    assert elsewhere.planned() == set()
+def test_elsewhere_results_are_there_to_read_and_do_not_count_as_made(elsewhere):
+    """Nobody knows there what they were made with."""
+    assert {"fig10_04", "simulation", "work_precision"} <= elsewhere.planned()
 
 
-def test_elsewhere_a_change_of_the_config_is_seen(elsewhere):
-    elsewhere.edit("config/config.yaml", "fixed_point: c, periods: 2", "fixed_point: c, periods: 3")
-    (said,) = [line for line in elsewhere.dry_run("figures").splitlines() if "made with other parameters" in line]
-    assert set(re.findall(r"results/figures/(\w+)\.", said)) == {"fig10_07"}
-
-
-@pytest.mark.thorough
-def test_elsewhere_a_damaged_result_is_made_again(elsewhere):
-    with open(elsewhere / f"{FIGURE}.csv", "a") as table:
-        table.write("\n")
-    said = elsewhere.dry_run()
-    assert f"{FIGURE}.csv" in said.replace(str(elsewhere.path), "")
-    assert "fig10_04" in elsewhere.snakemake(f"{FIGURE}.csv", PYTHONPATH=None)
-    assert not (elsewhere / f"{FIGURE}.csv").read_text().endswith("\n\n")
+def test_the_sums_of_all_files_are_in_the_archive(elsewhere):
+    crate = json.loads((elsewhere / "ro-crate-metadata.json").read_text())["@graph"]
+    sums = {entity["@id"]: entity["sha256"] for entity in crate if "sha256" in entity}
+    assert {f"{FIGURE}.png", f"{FIGURE}.csv", "config/config.yaml"} <= sums.keys()
+    assert sums == {name: hashlib.sha256((elsewhere / name).read_bytes()).hexdigest() for name in sums}
 
 
 def test_elsewhere_there_is_no_archive_without_git(elsewhere):

@@ -19,7 +19,7 @@ from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
-from vibroimpact_pipeline import builds
+from vibroimpact_pipeline import environment
 
 RECORDING = """#!/bin/sh
 # An interpreter that makes an environment of itself, and writes down what pip is asked to install.
@@ -156,7 +156,7 @@ def test_the_conda_environment_has_what_jobs_import():
 def test_the_extra_pipeline_brings_what_a_build_asks_for():
     brought = {Requirement(one).name for one in requirements("pipeline")}
     distributions = {"flint": "python-flint", "yaml": "pyyaml"}
-    assert {distributions.get(name, name) for name in builds.NEEDED} <= brought
+    assert {distributions.get(name, name) for name in environment.NEEDED} <= brought
 
 
 def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):

@@ -29,7 +29,7 @@ rule claims:
         markdown="results/claims.md",
     params:
         config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
-        code=LIBRARY,
+        code=LIBRARY | fingerprints("docs/claims.yaml"),
     log:
         "results/logs/claims.log",
     benchmark:

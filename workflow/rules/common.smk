@@ -8,11 +8,8 @@ import re
 import shlex
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
-from snakemake.logging import logger
-from snakemake.utils import update_config, validate
-from snakemake_interface_logger_plugins.common import LogEvent
+from snakemake.utils import listfiles, update_config, validate
 
 # Snakemake evaluates a module in a namespace of its own, under its name.
 IS_MODULE = __name__ != "snakemake.workflow"
@@ -40,9 +37,10 @@ if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.specs import case_parameters, made, specs
-from vibroimpact_pipeline import builds
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
+from vibroimpact_pipeline.environment import missing_libraries
+from vibroimpact_pipeline.results import PARTIAL, distrust
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"
@@ -90,10 +88,14 @@ if WITH_MODEL:
         refuse(error)
 
 
-# Fingerprints of the code behind a job, which it checks again when it ends.
-LIBRARY = {"library": fingerprint("library"), "scripts": fingerprint("scripts")}
-FIGURES = LIBRARY | {"figures": fingerprint("figures")}
-PIPELINE = FIGURES | {"pipeline": fingerprint("pipeline")}
+def fingerprints(*parts):
+    """Fingerprints of parts of the checkout behind a job, which checks them again when it ends."""
+    return {part: fingerprint(part) for part in parts}
+
+
+LIBRARY = fingerprints("library", "scripts", "lock")
+FIGURES = LIBRARY | fingerprints("figures")
+PIPELINE = FIGURES | fingerprints("pipeline")
 
 
 def system_of(case):
@@ -164,30 +166,17 @@ def files_of_figures(of_notebooks):
     ]
 
 
-# Before a build looks at what is there, results go that are not what a job wrote as it would write them today.
-def params_today(made):
-    """The parameters that the job of a record would have today, None if there is no such job."""
-    wildcards = SimpleNamespace(**made["wildcards"])
-    try:
-        params = next(rule.params for rule in workflow.rules if rule.name == made["rule"])
-        return {name: value(wildcards) if callable(value) else value for name, value in params.items()}
-    except (StopIteration, KeyError):
-        return None
+# Rules before these are those of another workflow, which has these as a module.
+OTHERS = {rule.name for rule in workflow.rules}
 
 
-def makes(path):
-    return any(output.match(path) for rule in workflow.rules for output in rule.output)
+def existing_outputs():
+    """The outputs of all rules, as far as they are there."""
+    patterns = [output for rule in workflow.rules if rule.name not in OTHERS for output in rule.output]
+    found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
+    return [pattern for pattern in patterns if "{" not in pattern] + found
 
 
-def begin_build(record):
-    """Called with each event of Snakemake; `--summary`, `--lint` and the like have none that starts a workflow."""
-    if getattr(record, "event", None) == LogEvent.WORKFLOW_STARTED and workflow.is_main_process:
-        dry_run = workflow.output_settings.dryrun
-        if not dry_run and (missing := builds.missing_libraries()):
-            refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
-        results = Path(rules.fixed_points.output.csv).parents[1]
-        builds.begin(results, params_today, makes, dry_run)
-    return True
-
-
-logger.addFilter(begin_build)
+onstart:
+    if missing := missing_libraries():
+        refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")

@@ -26,7 +26,7 @@ for figure, spec in MADE.items():
             params:
                 **figure_params(figure, spec),
                 scene=CHAPTER[figure] | titled(spec["request"]["case"]),
-                code=FIGURES | {"pipeline": PIPELINE["pipeline"]},
+                code=PIPELINE | fingerprints(f"notebooks/{spec['notebook']}.ipynb"),
             priority: 10
             log:
                 f"results/logs/figures/{figure}.log",

@@ -54,8 +54,6 @@ rule report:
         rules.claims.output,
         rules.force_sweep.output,
         [f"results/animations/{name}.{kind}" for name in MOVING["animations"] for kind in (*PICTURES, "json")],
-        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "report").rglob("*") if path.is_file()),
-        sorted(own(str(path.relative_to(ROOT))) for path in (ROOT / "docs").glob("*.*")),
     output:
         site=directory("results/report"),
     params:
@@ -64,7 +62,7 @@ rule report:
             {table["file"] for spec in MADE.values() for name, table in spec["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
-        code=PIPELINE,
+        code=PIPELINE | fingerprints("docs", "report"),
     log:
         "results/logs/report/report.log",
     benchmark:

@@ -10,7 +10,7 @@ from vibroimpact_pipeline.specs import specs
 with running(snakemake) as out:
     titles = {figure: spec["title"] for figure, spec in specs().items()}
     try:
-        behind = archive.results_behind(snakemake.input, Path("results"))
+        behind = archive.results_behind(snakemake.input)
         archive.write(Path.cwd(), behind, titles, out.archive)
     except ValueError as error:
         sys.exit(str(error))

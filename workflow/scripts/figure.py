@@ -21,6 +21,5 @@ def arguments(params, inputs) -> dict:
 
 with running(snakemake) as out:
     module = import_module(f"vibroimpact.figures.{snakemake.params.figure}")
-    made = provenance.record(snakemake)
-    write_and_draw(module, module.compute(**arguments(snakemake.params, snakemake.input)), vars(out), made)
-    provenance.write(out.provenance, made)
+    write_and_draw(module, module.compute(**arguments(snakemake.params, snakemake.input)), vars(out))
+    provenance.write(snakemake, out)

@@ -12,6 +12,5 @@ from vibroimpact_pipeline.jobs import running
 with running(snakemake) as out:
     chosen = [test for test in stress_tests() if snakemake.params.full or test.quick]
     table = pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
-    made = provenance.record(snakemake)
-    write_and_draw(figure, table, vars(out), made)
-    provenance.write(out.provenance, made)
+    write_and_draw(figure, table, vars(out))
+    provenance.write(snakemake, out)

@@ -16,7 +16,7 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.report.figure_texts import words
 from vibroimpact_pipeline.report.offline import page
 
-PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs", "provenance"}
+PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs"}
 
 
 def execute(notebook, executed, parameters: dict):
@@ -49,9 +49,18 @@ def execute(notebook, executed, parameters: dict):
             raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
 
 
+def the_same_in_each_build(notebook, paths: dict):
+    """Return an executed notebook whose cell of given parameters has a fixed id, and paths for temporary ones."""
+    given = next(cell for cell in notebook.cells if "injected-parameters" in cell.metadata.get("tags", ()))
+    given.id = "injected-parameters"
+    for temporary, path in paths.items():
+        given.source = given.source.replace(temporary, path)
+    return notebook
+
+
 with running(snakemake) as out:
     params, outputs = snakemake.params, vars(out)
-    made, said = provenance.record(snakemake), words(params.figure, params.scene, params.get("system") or {})
+    said = words(params.figure, params.scene, params.get("system") or {})
     systems = {"case": params.case, "system": params.system} if params.case else {}
     parameters = {
         "figure": params.figure,
@@ -59,10 +68,10 @@ with running(snakemake) as out:
         "settings": {**systems, **params.settings},
         "inputs": {name: path for name, path in snakemake.input.items() if name != "notebook"},
         "outputs": {name: path for name, path in outputs.items() if name not in ("html", "provenance")},
-        "provenance": made,
     }
     executed = Path(snakemake.log[0]).with_suffix(".ipynb")
     print(f"{snakemake.input.notebook} as it was executed: {executed}")
-    text = page(execute(snakemake.input.notebook, executed, parameters), said["title"])
-    Path(out.html).write_text(text, encoding="utf-8")
-    provenance.write(out.provenance, made)
+    done = execute(snakemake.input.notebook, executed, parameters)
+    paths = {outputs[name]: path for name, path in snakemake.output.items()}
+    Path(out.html).write_text(page(the_same_in_each_build(done, paths), said["title"]), encoding="utf-8")
+    provenance.write(snakemake, out)

@@ -1,7 +1,6 @@
 """The look shared by all figures, and how a figure becomes files."""
 
 import functools
-import json
 from io import BytesIO
 from pathlib import Path
 
@@ -24,8 +23,6 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 _BACKENDS = {"svg": "module://vibroimpact.figures.kit.searchable_svg"}
-PROVENANCE_KEYS = {"png": "Description", "pdf": "Subject", "svg": "Description"}
-"""The metadata entry of each kind of file that says where the figure comes from; the kinds know no other for it."""
 
 
 def styled(function):
@@ -69,16 +66,11 @@ def png(figure: Figure) -> bytes:
 
 
 @styled
-def save(figure: Figure, outputs: dict, provenance: dict | None = None) -> None:
-    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file.
-
-    Args:
-        provenance: where the figure comes from, JSON data that goes into the metadata of each file.
-    """
+def save(figure: Figure, outputs: dict) -> None:
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file."""
     # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
-        metadata = _METADATA[kind] | ({PROVENANCE_KEYS[kind]: json.dumps(provenance)} if provenance else {})
-        figure.savefig(outputs[kind], format=kind, metadata=metadata, backend=_BACKENDS.get(kind))
+        figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind], backend=_BACKENDS.get(kind))
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
 
 
@@ -90,7 +82,7 @@ def drawn(figure, read: dict) -> Figure:
     return figure.draw(read["csv"]) if "columns" in spec else figure.draw()
 
 
-def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = None) -> None:
+def write_and_draw(figure, computed, outputs: dict) -> None:
     """Write what a figure's `compute` returned, and draw what was written: the picture is that of the files.
 
     Args:
@@ -99,17 +91,17 @@ def write_and_draw(figure, computed, outputs: dict, provenance: dict | None = No
     """
     for name, table in _by_name(computed).items():
         tables.write(table, outputs[name])
-    save(drawn(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs, provenance)
+    save(drawn(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs)
 
 
-def picture(figure, computed, outputs: dict, provenance: dict | None = None) -> str | bytes:
+def picture(figure, computed, outputs: dict) -> str | bytes:
     """Return the PNG of a figure: its path among the files that are written, or its content where none are.
 
     Args: as `write_and_draw`; outputs may be empty.
     """
     if not outputs:
         return png(drawn(figure, _by_name(computed)))
-    write_and_draw(figure, computed, outputs, provenance)
+    write_and_draw(figure, computed, outputs)
     return outputs["png"]
 
 
