@@ -222,7 +222,7 @@ def _settled_levels(system, settings, points, stable, samples):
     drawn_error = error(drawn["X2"], drawn["X2"] - drawn["Y2"])
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     work = partial(simulate, system, settings["initial_state"], cycles)
-    followed = [simulate(system, state, 1, sample_times=phase, exact_floats=False).samples for state in stable]
+    followed = [simulate(system, state, 1, sample_times=phase).samples for state in stable]
     orbit_error = min((error(s[:, 2], s[:, 2] - s[:, 3]) for s in followed), default=np.inf)
     return [
         *_theory(system, theory),
