@@ -33,7 +33,7 @@ def with_cases(config: dict) -> dict:
             del shown[name]
     entries = [_at(config, study) for study in STUDIES]
     entries += [entry for name in COLLECTIONS for entry in _at(config, name).values()]
-    entries += [entry for name, entry in figures.items() if not name.startswith("fig10_")]
+    entries += [entry for name, entry in figures.items() if not str(name).startswith("fig10_")]
     for entry in entries:
         about_a_case = isinstance(entry, dict) and entry and entry.get("notebook", NOTEBOOKS[0]) in NOTEBOOKS
         if about_a_case and entry.get("case") in (None, *missing):

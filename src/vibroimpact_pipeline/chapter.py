@@ -46,7 +46,7 @@ def _digest_at(config, path):
         if key not in config:
             return None
         config = config[key]
-    return digest({key: value for key, value in config.items() if key != "limit_hours"})  # which decides on no number
+    return digest(config)
 
 
 def digest(entry) -> str:
