@@ -66,6 +66,8 @@ def test_a_misspelt_name_is_one_problem_with_a_question():
         "system.kapa": "unknown key, did you mean 'kappa'?"
     }
     assert "a space belongs" in problems(edited("system.kappa:0 = 1"))["system.kappa:0"]
+    assert problems(edited("cases.weak.f2_hat = 1"))["cases.weak.f2_hat"].endswith("did you mean 'f20_hat'?")
+    assert problems(edited("system.f10_hat = 1"))["system.f10_hat"] == "unknown key"
     assert problems(edited("figures.fig10_06.case = equl"))["figures.fig10_06.case"].endswith("did you mean 'equal'?")
 
 

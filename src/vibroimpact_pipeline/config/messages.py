@@ -31,9 +31,9 @@ def described(details: dict) -> str:
     """Return an error of Pydantic in words: "1.2 should be less than 1"."""
     kind, what, given = details["type"], details["msg"].removeprefix("Value error, "), details["input"]
     if kind == "extra_forbidden":
-        key = str(details["loc"][-1])
-        keys = {name for part in Section.__subclasses__() for name in part.model_fields}
-        return f"unknown key{hint(key, keys)}" + ("; a space belongs after a colon" if ":" in key else "")
+        key, keys = str(details["loc"][-1]), _keys(Section)
+        colon = "; a space belongs after a colon" if ":" in key else ""
+        return f"unknown key{hint(key, () if key in keys else keys)}{colon}"
     if kind in ("missing", "union_tag_not_found"):
         return "missing"
     if kind == "condition":
@@ -42,6 +42,11 @@ def described(details: dict) -> str:
         given, what = details["ctx"]["tag"], f"should be {details['ctx']['expected_tags'].replace(', ', ' or ')}"
     known = re.findall(r"'([^']+)'", what) if kind in ("literal_error", "union_tag_invalid", "value_error") else []
     return f"{shown(given)} {re.sub('^[A-Z][a-z]+ (?=should )', '', what)}{hint(given, known)}"
+
+
+def _keys(part) -> set[str]:
+    """Return the keys of a section and of all derived from it."""
+    return {*part.model_fields}.union(*map(_keys, part.__subclasses__()))
 
 
 def hint(name, known: Iterable[str]) -> str:
