@@ -78,8 +78,8 @@ def checked(config: dict, sources=()) -> dict:
 
 def _refusal(error, sources):
     """Return the error with a line for each problem that Pydantic found, the first MOST."""
-    found = sorted((written(place), place, details) for place, details in problems_of(error).items())
-    lines = [f"{_source(place, sources)}: {key}: {described(details)}" for key, place, details in found[:MOST]]
+    found = sorted(problems_of(error).items(), key=lambda problem: written(problem[0]))
+    lines = [f"{_source(place, sources)}: {written(place)}: {described(about)}" for place, about in found[:MOST]]
     return ConfigError("\n".join(lines + ([f"... and {len(found) - MOST} more"] if len(found) > MOST else [])))
 
 
