@@ -33,7 +33,7 @@ def with_cases(config: dict) -> dict:
             del shown[name]
     entries = [_at(config, study) for study in STUDIES]
     entries += [entry for name in COLLECTIONS for entry in _at(config, name).values()]
-    entries += [entry for name, entry in figures.items() if not name.startswith("fig10_")]
+    entries += [entry for name, entry in figures.items() if not str(name).startswith("fig10_")]
     for entry in entries:
         about_a_case = isinstance(entry, dict) and entry and entry.get("notebook", NOTEBOOKS[0]) in NOTEBOOKS
         if about_a_case and entry.get("case") in (None, *missing):
@@ -41,9 +41,15 @@ def with_cases(config: dict) -> dict:
     return config
 
 
+def own_parameters(config: dict, case: str) -> dict:
+    """Return the parameters that a case says itself: its forcing amplitudes, and what differs from `system`."""
+    return {name: value for name, value in config["cases"][case].items() if name not in ("title", "simulation")}
+
+
 def title_of(config: dict, case: str) -> str:
-    """Return what titles and captions call a case: its title, or its name if it has none."""
-    return config["cases"][case].get("title") or case
+    """Return what titles and captions call a case: its title, or else its name with what differs from `system`."""
+    own = [f"{name} = {value}" for name, value in own_parameters(config, case).items() if name in config["system"]]
+    return config["cases"][case].get("title") or case + (f" ({', '.join(own)})" if own else "")
 
 
 def _at(config, path):

@@ -4,6 +4,7 @@ import hashlib
 import json
 
 from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact_pipeline.cases import own_parameters
 
 CASE_OF = {
     "fig10_06": "equal",
@@ -21,7 +22,7 @@ def departures(config: dict) -> list[str]:
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:
-            found += _differences(f"cases.{case}", config["cases"][case], forces)
+            found += _differences(f"cases.{case}", PARAMETERS | own_parameters(config, case), PARAMETERS | forces)
         else:
             found.append(f"there is no case {case}")
     return found
@@ -46,7 +47,7 @@ def _digest_at(config, path):
         if key not in config:
             return None
         config = config[key]
-    return digest({key: value for key, value in config.items() if key != "limit_hours"})  # which decides on no number
+    return digest(config)
 
 
 def digest(entry) -> str:

@@ -22,6 +22,7 @@ import ast
 from functools import cache
 from pathlib import Path
 
+from vibroimpact_pipeline.cases import own_parameters
 from vibroimpact_pipeline.code import folder
 
 LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
@@ -120,8 +121,8 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for one case: those shared by all cases and its forcing amplitudes."""
-    return config["system"] | {name: config["cases"][case][name] for name in ("f10_hat", "f20_hat")}
+    """Return the parameters of System for one case: those of `system`, and over them the case's own."""
+    return config["system"] | own_parameters(config, case)
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:

@@ -7,12 +7,19 @@ from pipeline_trees import ROOT, Tree, copied, run_module
 
 SNAKEMAKES = ("Using workflow specific profile", "Config file ")
 """What Snakemake says before it reads a config, by its beginnings."""
+FILES = [
+    *("system:\n\tkappa: 0.7\n", LAUGHS, "system: &all {kappa: *all}\n", "- 1\n", "", "system: {kappa: !!float abc}\n"),
+    *("system: 2001-99-99\n", "system: {kappa: 0.7}\n".encode("utf-16"), b"system: \xff\n"),
+    "__use_yte__: true\nsystem:\n  kappa: ?open('ran', 'w').write('')\n",
+]
+"""The last would be a program in the YAML of Snakemake."""
 OVERRIDES = {
-    "system={kappa: 1.2}": "system.kappa: 1.2 is not below 1",
+    "system={kappa: 1.2}": "system.kappa: '1.2' should be less than 1",
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",
-    "system={kappa: yes}": "system.kappa: 'yes' is not a number",
-    "report={animations: {7: {case: weak, cycles: 1}}}": "report.animations.7: '7' is not a name",
+    "system={kappa: yes}": "system.kappa: 'yes' should be a valid number",
+    "report={animations: {7: {case: weak, cycles: 1}}}": "report.animations.7: '7' should match pattern",
     "sistem=3": "sistem: unknown key, did you mean 'system'?",
+    "sweeps={self: {case: equal, axes: [{along: [kappa], listed: [0.5, 0.8]}], observe: [orbits]}}": "sweeps.self: ",
 }
 
 
@@ -30,19 +37,20 @@ def said(tree, *arguments):
     return [line for line in output.splitlines() if not line.startswith(SNAKEMAKES)]
 
 
-@pytest.mark.parametrize("text", ["system:\n\tkappa: 0.7\n", LAUGHS, "system: &all {kappa: *all}\n", "- 1\n"])
-def test_the_config_of_a_directory_is_refused_in_lines(tree, text, tmp_path):
+@pytest.mark.parametrize("content", FILES)
+def test_the_config_of_a_directory_is_refused_in_lines(tree, content, tmp_path):
     (tmp_path / "config").mkdir()
-    (tmp_path / "config/config.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "config/config.yaml").write_bytes(content.encode() if isinstance(content, str) else content)
     for line in said(tree, "--directory", str(tmp_path)):
         assert line.startswith("config/config.yaml: ")
         assert len(line) < 250
+    assert not (tmp_path / "ran").exists()
 
 
 def test_a_file_on_the_command_line_is_named(tree, tmp_path):
     (tmp_path / "try.yaml").write_text("system: {kappa: 1.2}\n", encoding="utf-8")
     assert said(tree, "--configfile", str(tmp_path / "try.yaml")) == [
-        f"{tmp_path}/try.yaml: system.kappa: 1.2 is not below 1"
+        f"{tmp_path}/try.yaml: system.kappa: 1.2 should be less than 1"
     ]
 
 

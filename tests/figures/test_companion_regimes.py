@@ -72,7 +72,7 @@ def tables(balls):
             observation=OBSERVATION,
             systems=SYSTEMS,
         ),
-        "regime_map": regime_map.compute(swept(), SYSTEMS, 3),
+        "regime_map": regime_map.compute(swept(), SYSTEMS["equal"], SYSTEMS, 3),
         "absorber": companion_absorber.compute(SYSTEMS["equal"], **balls),
         "response": companion_response.compute(SYSTEMS["equal"], balls["response"], balls["clearance"], balls["band"]),
         "decay": companion_decay.compute(SYSTEMS["equal"], [0.5, 50.0], 9, 0.1, balls["band"]),
@@ -81,7 +81,7 @@ def tables(balls):
         ),
         "basins": basins.compute(SYSTEMS["unequal"], "unequal", points=9, observation=OBSERVATION),
         "asymmetric": companion_asymmetric.compute(
-            EQUAL, verdicts_of(EQUAL)[1], epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
+            EQUAL, verdicts_of(EQUAL)[1], kappa=0.65, epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
         ),
         "ladder": companion_ladder.compute(EQUAL, [1, 3, 5], [0.0, 1.6], [0.0, 1.6], 2, [0.6, 0.89]),
         "epsilon": epsilon_limit.compute(

@@ -77,7 +77,7 @@ def test_a_case_without_motions_has_no_errors():
 
 def test_without_asymmetric_orbits_the_manifold_is_shown():
     orbits = pd.DataFrame(columns=["case", "label", "symmetric", "C1", "C2"])
-    tables = companion_asymmetric.compute({"still": STILL}, orbits, [0.1, 0.01], 3, 0.05, 2.5)
+    tables = companion_asymmetric.compute({"still": STILL}, orbits, STILL.kappa, [0.1, 0.01], 3, 0.05, 2.5)
     assert set(tables["csv"]["panel"]) == {"manifold"}
     assert tables["points"].empty
     companion_asymmetric.draw(tables)

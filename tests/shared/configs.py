@@ -55,6 +55,9 @@ UNUSUAL = [
     "& sweeps.mine.axes[1] = {along: [epsilon], listed: [0.01, 0.02]}",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
     "report.animations = {fast: {case: weak, cycles: 120}}",
+    "cases.weak.epsilon = 0.05 & cases.weak.kappa = '0.5' & cases.weak.sigma_e_hat = null",
+    "figures.case = {notebook: simulation, model: simulation, case: weak}",
+    "figures.conditions = {notebook: simulation, model: simulation} & report.animations.case = {case: weak, cycles: 2}",
 ]
 """Configs as `edited` makes them: refused with the keys that are told, and accepted."""
 

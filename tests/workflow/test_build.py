@@ -52,8 +52,15 @@ def test_a_failed_job_shows_its_log(tree):
     assert "results/logs/figures/companion_10_05.log" in said
 
 
+UNEQUAL_LEAVES = {"fig10_06", "fig10_10", "work_precision", "verdict_grid"}
 EDITS = {
-    "a force": ("f20_hat: 0.89", "f20_hat: 0.88", {"fig10_09", "companion_branches"}, {"fig10_06", "fig10_10"}),
+    "a parameter of a case": (
+        "f20_hat: 0.89",
+        "f20_hat: 0.89\n    kappa: 0.6",
+        {"fig10_09", "companion_branches"},
+        UNEQUAL_LEAVES,
+    ),
+    "a force": ("f20_hat: 0.89", "f20_hat: 0.88", {"fig10_09", "companion_branches"}, UNEQUAL_LEAVES),
     "one figure": (
         "C_range: [0.5, 1.1]",
         "C_range: [0.5, 1.2]",

@@ -17,7 +17,8 @@ rule work_precision:
         },
         seconds=ACCURACY["full_seconds" if FULL else "short_seconds"],
         short=not FULL,
-        config={"accuracy": ACCURACY, "cases": all_systems()},
+        config={f"accuracy.{name}": ACCURACY[name] for name in ("problems", "effort", "short_seconds", "full_seconds")}
+        | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
         code=FIGURES,
     threads: ALL_CORES
     log:

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from snakemake.utils import listfiles, update_config, validate
 
-# Snakemake evaluates a module in a namespace of its own, under its name.
-IS_MODULE = __name__ != "snakemake.workflow"
+# Snakemake evaluates a module in a namespace of its own, under its name; since 9.27 the workflow itself under none.
+IS_MODULE = __name__ not in ("snakemake.workflow", None)
 
 
 def refuse(message):

@@ -81,7 +81,7 @@ rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
     params:
-        system=next(iter(all_systems().values())),
+        system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid has the forces
         settings=config["stability"]["verdict_grid"],
         code=LIBRARY,
     log:

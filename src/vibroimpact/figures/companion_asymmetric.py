@@ -33,7 +33,8 @@ SPEC = {
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
     "systems": True,
-    "settings": {"epsilon": "regimes.asymmetric.epsilon", "values": "regimes.asymmetric.values",
+    "settings": {"kappa": "system.kappa", "epsilon": "regimes.asymmetric.epsilon",
+        "values": "regimes.asymmetric.values",
         "fit_below": "regimes.asymmetric.fit_below", "C_max": "regimes.asymmetric.C_max"},
     "inputs": {"orbits": "results/orbits.csv"},
     "columns": {
@@ -133,11 +134,12 @@ RELAXED = 400, 100
 COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
 
 
-def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below: float, C_max: float) -> dict:
+def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fit_below: float, C_max: float) -> dict:
     """The manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
 
     Args:
-        systems: case -> system, all of one kappa; orbits: `verdict_table.orbit_rows` of all cases.
+        systems: case -> system; orbits: `verdict_table.orbit_rows` of all cases.
+        kappa: of the manifold; cases of another are left out.
         epsilon: ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
         fit_below: the order in which the distance falls is fitted where epsilon is below this.
         C_max: right end of the symmetric branch.
@@ -147,7 +149,7 @@ def compute(systems: dict, orbits: pd.DataFrame, epsilon, values: int, fit_below
     squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); "points", a row per fixed point; and
     "relaxation", what the slow flow makes of balls that it loses, a row per case and module.
     """
-    kappa = next(iter(systems.values())).kappa
+    systems = {case: system for case, system in systems.items() if system.kappa == kappa}
     curves, rows, relaxed = _manifold(kappa, C_max), [], []
     for case, system in systems.items():
         points = fixed_points(system)

@@ -39,6 +39,7 @@ SPEC = {
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
         "stable fixed point; chaos has an island below.",
     "method": "the points of a sweep, with the cases; borders of the theory by bisection",
+    "case": "sweeps.regime_map.case",
     "systems": True,
     "settings": {"starts": "sweeps.regime_map.starts"},
     "inputs": {"table": "results/sweeps/regime_map.csv"},
@@ -85,11 +86,12 @@ TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
 
-def compute(table: pd.DataFrame, systems: dict, starts: int) -> pd.DataFrame:
+def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> pd.DataFrame:
     """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Args:
-        systems: case -> system, whose forcing amplitudes are marked; they differ in nothing else.
+        system: of the sweep. systems: case -> system; those that differ from it in the forcing amplitudes alone are
+            marked.
         starts: of each point, the first of them rest.
 
     Returns columns panel, series ("cell", "case", or what changes on a border), label (regime from rest; name
@@ -98,9 +100,13 @@ def compute(table: pd.DataFrame, systems: dict, starts: int) -> pd.DataFrame:
     """
     cells = table.rename(columns={FROM_REST: "label"}).assign(series="cell")
     cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
-    marks = pd.DataFrame({"label": case, "f10_hat": s.f10_hat, "f20_hat": s.f20_hat} for case, s in systems.items())
-    borders = _borders(next(iter(systems.values())), cells)
-    table = pd.concat([cells, marks.assign(series="case"), *borders], ignore_index=True).assign(panel="map")
+    forces = {case: {"f10_hat": one.f10_hat, "f20_hat": one.f20_hat} for case, one in systems.items()}
+    marks = [
+        {"label": case, "series": "case", **at} for case, at in forces.items() if systems[case] == system.with_(**at)
+    ]
+    marked = [pd.DataFrame(marks)] if marks else []
+    borders = _borders(system, cells)
+    table = pd.concat([cells, *marked, *borders], ignore_index=True).assign(panel="map")
     shown = ["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]
     return table[["panel", "series", *shown]]
 

@@ -3,7 +3,7 @@
 The chapter's figures keep their notebooks, as their captions do; any other name may be given to a figure of one's own.
 """
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
@@ -32,9 +32,9 @@ class ClosedForm(Section):
 class Sawtooth(ClosedForm):
     """Figure 10.3."""
 
-    amplitude: float = Field(ge=1e-3, le=1000, description="C of the saw-tooth")
-    theta: float = Field(ge=-100, le=100, description="Phase of the impacts [rad]")
-    tau0_max: float = Field(ge=3.15, le=100, description="Right end of the axis; there is an impact within pi [rad]")
+    amplitude: kinds.real("C of the saw-tooth", 1e-3, 1000)
+    theta: kinds.real("Phase of the impacts [rad]", -100, 100)
+    tau0_max: kinds.real("Right end of the axis; there is an impact within pi [rad]", 3.15, 100)
 
 
 class Manifold(ClosedForm):
@@ -65,7 +65,7 @@ class Response(Section):
     model: Literal["slow_flow"] = MODEL
     case: kinds.CaseName
     fixed_point: kinds.Label
-    periods: float = Field(ge=0.5, le=100, description="Length of the response [forcing periods]")
+    periods: kinds.real("Length of the response [forcing periods]", 0.5, 100)
     C_max: kinds.Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
 
 
@@ -77,38 +77,35 @@ class SimulatedMotion(Section):
     case: kinds.CaseName
 
 
-Clearance = Annotated[float, Field(ge=1e-6, le=1e3, description="Half of the play [m]")]
-Hertz = Annotated[float, Field(ge=1e-3, le=1e6, description="Frequency of the forces [Hz]")]
-
-
-def quantity(about: str, least: float = 0.0):
-    """Return a field of a plant, from `least` on."""
-    return Field(ge=least, le=1e9, description=about)
+Clearance = kinds.real("Half of the play [m]", 1e-6, 1e3)
+Hertz = kinds.real("Frequency of the forces [Hz]", 1e-3, 1e6)
 
 
 class Plant(Section):
     """Machines on their springs, as in (10.1), in SI units; without dampers they could not be driven at resonance."""
 
-    M: float = quantity("Mass of a box [kg]", 1e-6)
-    m: float = quantity("Mass of a ball [kg], 1e-6 to 10 times that of a box", 1e-6)
-    k1: float = quantity("Stiffness of machine 1 to ground [N/m]", 1e-6)
-    k2: float = quantity("Stiffness of machine 2 to ground [N/m]", 1e-6)
-    k12: float = quantity("Stiffness between them [N/m]")
-    c1: float = quantity("Damping of machine 1 to ground [N s/m]", 1e-6)
-    c2: float = quantity("Damping of machine 2 to ground [N s/m]", 1e-6)
-    c12: float = quantity("Damping between them [N s/m]")
-    F10: float = quantity("Amplitude of the force on machine 1 [N]", 1e-6)
-    F20: float = quantity("Amplitude of the force on machine 2 [N]")
-    kappa: float = Field(ge=0.01, le=0.99, description="Restitution coefficient")
+    M: kinds.real("Mass of a box [kg]", 1e-6, 1e9)
+    m: kinds.real("Mass of a ball [kg], 1e-6 to 10 times that of a box", 1e-6, 1e9)
+    k1: kinds.real("Stiffness of machine 1 to ground [N/m]", 1e-6, 1e9)
+    k2: kinds.real("Stiffness of machine 2 to ground [N/m]", 1e-6, 1e9)
+    k12: kinds.real("Stiffness between them [N/m]", 0, 1e9)
+    c1: kinds.real("Damping of machine 1 to ground [N s/m]", 1e-6, 1e9)
+    c2: kinds.real("Damping of machine 2 to ground [N s/m]", 1e-6, 1e9)
+    c12: kinds.real("Damping between them [N s/m]", 0, 1e9)
+    F10: kinds.real("Amplitude of the force on machine 1 [N]", 1e-6, 1e9)
+    F20: kinds.real("Amplitude of the force on machine 2 [N]", 0, 1e9)
+    kappa: kinds.real("Restitution coefficient", 0.01, 0.99)
 
-    rules: ClassVar = [("m", "1e-6 <= m / M <= 10")]
+    def conditions(self):
+        if not 1e-6 <= self.m / self.M <= 10:
+            yield ("m",), f"{self.m} should be 1e-6 to 10 times M"
 
 
 class Band(Section):
     """Frequencies, evenly spaced."""
 
     range: kinds.span(Hertz, "Its ends [Hz]")
-    values: int = Field(ge=2, le=1000, description="So many, both ends included")
+    values: kinds.count("So many, both ends included", 2, kinds.MOST)
 
 
 class Shown(Section):
@@ -116,7 +113,7 @@ class Shown(Section):
 
     L: Clearance
     frequency: Hertz
-    cycles: int = Field(ge=1, le=1000, description="Its length [forcing periods]")
+    cycles: kinds.count("Its length [forcing periods]", 1, 1000)
 
 
 class PhysicalUnits(Section):
@@ -126,11 +123,13 @@ class PhysicalUnits(Section):
     plant: Plant
     clearances: kinds.items(Clearance, 1, 6, "Clearances, half of the play [m]")
     frequencies: Band
-    cycles: int = Field(ge=1, le=100_000, description="Length of a run [forcing periods]")
-    settle: int = Field(ge=0, le=100_000, description="Cycles of it that are left out [forcing periods]")
+    cycles: kinds.count("Length of a run [forcing periods]", 1, 100_000)
+    settle: kinds.count("Cycles of it that are left out [forcing periods]", 0, 100_000)
     shown: Shown
 
-    rules: ClassVar = [("settle", "settle < cycles")]
+    def conditions(self):
+        if self.settle >= self.cycles:
+            yield ("settle",), f"{self.settle} should be less than cycles"
 
 
 OWN = ("fixed_points", "theoretical_response", "simulation", "physical_units")
@@ -157,5 +156,5 @@ class Figures(Section):
     fig10_11: SimulatedMotion | None = None
 
     def conditions(self):
-        number = sum(scene is not None for _, scene in self)
-        return [] if 1 <= number <= MOST else [((), f"has {number} entries, not 1 to {MOST}")]
+        if not 1 <= (number := sum(scene is not None for _, scene in self)) <= MOST:
+            yield (), f"has {number} entries, not 1 to {MOST}"

@@ -2,9 +2,16 @@
 
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, ValidationInfo
 
-from vibroimpact_pipeline.config.section import Section, condition
+from vibroimpact_pipeline.config.section import Section
+
+NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
+TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
+HIGHEST = 1.69
+"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
+MOST = 1000
+"""Values along an axis."""
 
 
 def needs(fits, what: str) -> AfterValidator:
@@ -12,28 +19,24 @@ def needs(fits, what: str) -> AfterValidator:
 
     def check(value):
         if not fits(value):
-            raise condition(f"{'' if isinstance(value[0], Section) else value} {what}".lstrip())
+            raise ValueError(what)
         return value
 
     return AfterValidator(check)
 
 
-NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
-TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
-HIGHEST = 1.69
-"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
-WORDS = {
-    CASE: "a name of a case: a small letter, then 1 to 39 small letters, digits, - and _",
-    NAME: "a name: a small letter, then 1 to 39 small letters, digits and _",
-    TITLE: "a title: a letter, then up to 39 letters, digits, spaces and , ( ) -",
-    LETTER: "one small letter",
-}
-"""Description of each pattern."""
-ASCENDING = needs(lambda ends: ends[0] < ends[1], "is no range: its first end is not below its second")
-DIFFERENT = needs(lambda values: all(one not in values[:n] for n, one in enumerate(values)), "has a value twice")
+def _known(case: str, info: ValidationInfo):
+    """Return a case that is in the context of the validation, the cases of the config; without one, any."""
+    if case not in (info.context or [case]):
+        raise ValueError(f"should be a case: {', '.join(map(repr, info.context))}")
+    return case
+
+
+ASCENDING = needs(lambda ends: ends[0] < ends[1], "should be a range, its first end below its second")
+DIFFERENT = needs(lambda values: all(one not in values[:n] for n, one in enumerate(values)), "should repeat no value")
 WITHIN_WALLS = needs(
     lambda at: abs(at[0] - at[1]) <= 1 and abs(at[2] - at[3]) <= 1,
-    "starts a ball beyond a wall: X1 - Y1 and X2 - Y2 are between -1 and 1",
+    "should start no ball beyond a wall: X1 - Y1 and X2 - Y2 are between -1 and 1",
 )
 
 
@@ -58,18 +61,30 @@ def named(kind, least: int, most: int, name: str = NAME):
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
 
-Title = Annotated[str, Field(pattern=TITLE)]
-CaseName = Annotated[str, Field(description="Name of a case; absent: default_case")]
+def count(about: str, least: int = 1, most: int = 1_000_000):
+    """Return the type of a number of things, from `least` to `most`."""
+    return Annotated[int, Field(ge=least, le=most, description=about)]
+
+
+def real(about: str, least: float = 0.0, most: float = 10_000.0):
+    """Return the type of a number from `least` to `most`."""
+    return Annotated[float, Field(ge=least, le=most, description=about)]
+
+
+Title = Annotated[str, Field(pattern=TITLE, description="What titles and captions call the case; absent: its name")]
+CaseName = Annotated[str, AfterValidator(_known), Field(description="Name of a case; absent: default_case")]
 Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")]
 Force = Annotated[float, Field(ge=-1000, le=1000)]
 Forces = span(Force, "Lower and upper end of the forces")
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
-Epsilon = Annotated[float, Field(ge=1e-6, le=10, description="Mass of a ball over that of its box")]
+Epsilon = real("Mass of a ball over that of its box", 1e-6, 10)
 Amplitude = Annotated[float, Field(gt=1, le=100)]
-Cycles = Annotated[int, Field(ge=1, le=1_000_000)]
 Planes = items(Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), beyond the fold", None)
 START = "Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls"
 State = items(Force, 8, 8, START, WITHIN_WALLS)
+Starts = count("Starts, spread evenly; the first is rest", 1, 10_000)
+Seed = count("Scrambles the starts", 0, 2**32 - 1)
+Points = count("Cells or starts along each axis of a plane", 2, 200)
 
 
 class ForceGrid(Section):
@@ -77,11 +92,4 @@ class ForceGrid(Section):
 
     f10_range: Forces
     f20_range: Forces
-    points: int = Field(ge=2, le=1000, description="Cells along each axis")
-
-
-class Starts(Section):
-    """Initial states of motions."""
-
-    starts: int = Field(ge=1, le=10_000, description="Starts, spread evenly; the first is rest")
-    seed: int = Field(ge=0, le=2**32 - 1, description="Scrambles the starts")
+    points: Points

@@ -1,57 +1,61 @@
 """Error messages on a config: which key, what was given, what is allowed."""
 
+import difflib
 import re
+from collections.abc import Iterable
 
 from pydantic import ValidationError
 
-from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.figures import OWN
-from vibroimpact_pipeline.config.section import Problem, hint
-
-PHRASES = {
-    "greater_than": "{} is not above {gt:g}",
-    "greater_than_equal": "{} is below {ge:g}",
-    "less_than": "{} is not below {lt:g}",
-    "less_than_equal": "{} is above {le:g}",
-    "multiple_of": "{} is not a multiple of {multiple_of}",
-    "finite_number": "{} is not finite",
-    "missing": "missing",
-    "union_tag_not_found": "missing",
-    "condition": "{what}",
-    "too_long": "has more than {max_length} entries",
-    "too_short": "has fewer than {min_length} entries",
-    "string_pattern_mismatch": "{} is not {words}",
-}
-KINDS = {"float": "a number", "int": "a whole number", "string": "text", "list": "a list", "tuple": "a list"}
+from vibroimpact_pipeline.config.section import Place, Section
 
 
-def problems_of(error: ValidationError) -> list[Problem]:
-    """Return all problems that Pydantic found, each with its place in the config."""
+def problems_of(error: ValidationError) -> dict[Place, dict]:
+    """Return Pydantic's errors by place in the config; a key is not told as missing beside an unknown one."""
+    errors = error.errors(include_url=False)
+    misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
     found = {}
-    for details in error.errors(include_url=False):
-        place, about = details["loc"], details.get("ctx", {})
+    for details in errors:
+        place = details["loc"]
+        if details["type"] == "missing" and place[:-1] in misspelt:
+            continue
         if place[:1] == ("figures",) and {*place[2:3]} & {*OWN}:
             place = place[:2] + place[3:]  # without the name of the variant
         place = place[:-1] if place[-1:] == ("[key]",) else place
-        place += ("notebook",) if "discriminator" in about else ()
-        found.setdefault(place, _described(details["type"], details["input"], about, details["msg"]))
-    return list(found.items())
+        place += ("notebook",) if "discriminator" in details.get("ctx", {}) else ()
+        found.setdefault(place, details)
+    return found
 
 
-def _described(kind, value, about, message):
-    if kind in PHRASES:
-        given = shown(value, plain=kind != "string_pattern_mismatch")  # numbers may be texts
-        return PHRASES[kind].format(given, words=kinds.WORDS.get(about.get("pattern")), **about)
-    if kind in ("literal_error", "union_tag_invalid"):
-        names = re.findall(r"'([^']+)'", about.get("expected") or about["expected_tags"])
-        given = about.get("tag", value)
-        return f"{shown(given)} is not {' or '.join(map(repr, names))}{hint(given, names)}"
-    if kind.endswith(("_type", "_parsing", "_parsing_size", "_from_float")):
-        return f"{shown(value)} is not {KINDS.get(kind.split('_')[0], 'a mapping')}"
-    return message
+def described(details: dict) -> str:
+    """Return an error of Pydantic in words: "1.2 should be less than 1"."""
+    kind, what, given = details["type"], details["msg"].removeprefix("Value error, "), details["input"]
+    if kind == "extra_forbidden":
+        key, keys = str(details["loc"][-1]), _keys(Section)
+        colon = "; a space belongs after a colon" if ":" in key else ""
+        return f"unknown key{hint(key, () if key in keys else keys)}{colon}"
+    if kind in ("missing", "union_tag_not_found"):
+        return "missing"
+    if kind == "condition":
+        return what
+    if kind == "union_tag_invalid":
+        given, what = details["ctx"]["tag"], f"should be {details['ctx']['expected_tags'].replace(', ', ' or ')}"
+    known = re.findall(r"'([^']+)'", what) if kind in ("literal_error", "union_tag_invalid", "value_error") else []
+    return f"{shown(given)} {re.sub('^[A-Z][a-z]+ (?=should )', '', what)}{hint(given, known)}"
 
 
-def written(place) -> str:
+def _keys(part) -> set[str]:
+    """Return the keys of a section and of all derived from it."""
+    return {*part.model_fields}.union(*map(_keys, part.__subclasses__()))
+
+
+def hint(name, known: Iterable[str]) -> str:
+    """Return "did you mean ...?" with the most similar known name, or nothing if none is similar."""
+    meant = difflib.get_close_matches(str(name), list(known), n=1)
+    return f", did you mean {meant[0]!r}?" if meant else ""
+
+
+def written(place: Place) -> str:
     """Return a place in the config as text: system.kappa, regimes.branches.paths[0]."""
     names = (f"[{part}]" if isinstance(part, int) else f".{shown(part, plain=True)}" for part in place)
     return "".join(names).removeprefix(".")

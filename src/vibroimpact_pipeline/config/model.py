@@ -1,48 +1,47 @@
 """The whole config: its smaller sections, and the conditions across sections."""
 
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, create_model
 
 from vibroimpact.system import System
 from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.figures import Figures
-from vibroimpact_pipeline.config.messages import problems_of
+from vibroimpact_pipeline.config.messages import described, problems_of
 from vibroimpact_pipeline.config.regimes import Regimes
-from vibroimpact_pipeline.config.section import Section, hint, sections
+from vibroimpact_pipeline.config.section import Place, Section
 from vibroimpact_pipeline.config.sweeps import Sweep
-from vibroimpact_pipeline.specs import specs
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 RULES = {
-    *("accuracy", "all", "archive", "claims", "coexistence", "companions", "field", "figure_check"),
+    *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check"),
     *("figure_check_strict", "figures", "fixed_points", "force_sweep", "gather", "hazards", "index", "orbits"),
     *("proofs", "report", "scene_models", "simulation", "stability", "sweeps", "verdict_grid", "verdicts"),
     "work_precision",
 }
 """Rules whose names figures and animations, which become rules as well, cannot have."""
-Coefficient = Annotated[float, Field(ge=0, le=10_000)]
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
 class SystemSection(Section):
-    """Dimensionless parameters shared by all cases, hatted as in (10.4) and (10.6)."""
+    """Dimensionless parameters of all cases that say no other, hatted as in (10.4) and (10.6)."""
 
     epsilon: kinds.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
-    alpha12_hat: Coefficient = Field(description="Stiffness of the coupling")
-    gamma1_hat: Coefficient = Field(description="Damping of box 1 to ground")
-    gamma2_hat: Coefficient = Field(description="Damping of box 2 to ground")
-    gamma12_hat: Coefficient = Field(description="Damping of the coupling")
+    alpha12_hat: kinds.real("Stiffness of the coupling")
+    gamma1_hat: kinds.real("Damping of box 1 to ground")
+    gamma2_hat: kinds.real("Damping of box 2 to ground")
+    gamma12_hat: kinds.real("Damping of the coupling")
     sigma20_hat: Detuning = Field(description="Detuning of box 2; 1 + epsilon sigma20_hat, its stiffness, is above 0")
     sigma_e_hat: Detuning = Field(description="Detuning of the forcing; 1 + epsilon sigma_e_hat is at least 0.001")
 
 
 class Parameters(SystemSection):
-    """All parameters of one system: those shared by the cases, and two forcing amplitudes."""
+    """All parameters of one system."""
 
     f10_hat: kinds.Force
     f20_hat: kinds.Force
@@ -72,25 +71,22 @@ def _refuse_resonance(system):
 
 
 class Simulation(Section):
-    """The direct integration of a case: a discarded transient, and a window of at most 200 000 samples."""
+    """The direct integration of a case: a discarded transient, and a window."""
 
     initial_state: kinds.State
-    transient_cycles: int = Field(ge=0, le=1_000_000, description="Cycles before the window [forcing periods]")
-    window_cycles: int = Field(ge=1, le=10_000, description="Cycles that are kept [forcing periods]")
-    samples_per_cycle: int = Field(ge=8, le=10_000, multiple_of=2, description="Samples in a cycle, an even number")
-    digits: int | None = Field(None, ge=20, le=2000, description="Decimal digits of the motion; absent: doubles")
-
-    # A picture shows no more samples, and its files grow with each; so many digits of so many cycles take hours.
-    rules: ClassVar = [
-        ("window_cycles", "window_cycles * samples_per_cycle <= 200_000"),
-        ("digits", "(digits or 0) * (transient_cycles + window_cycles) <= 5_000_000"),
-    ]
+    transient_cycles: kinds.count("Cycles before the window [forcing periods]", 0)
+    window_cycles: kinds.count("Cycles that are kept [forcing periods]", 1, 1000)
+    samples_per_cycle: int = Field(ge=8, le=1000, multiple_of=2, description="Samples in a cycle, an even number")
+    digits: kinds.count("Decimal digits of the motion; absent: doubles", 20, 2000) | None = None
 
 
-class Case(Section):
-    """A pair of forcing amplitudes, and the direct integration with them."""
+OWN = {name: (Annotated[field.annotation, field] | None, None) for name, field in SystemSection.model_fields.items()}
 
-    title: kinds.Title | None = Field(None, description="What titles and captions call the case; absent: its name")
+
+class Case(create_model("OwnParameters", __base__=Section, **OWN)):
+    """A system, by its forcing amplitudes and whatever differs from `system`, and its direct integration."""
+
+    title: kinds.Title | None = None
     f10_hat: kinds.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
     f20_hat: kinds.Force = Field(description="Excitation amplitude of box 2")
     simulation: Simulation
@@ -107,12 +103,6 @@ class VerdictGrid(kinds.ForceGrid):
 
     epsilon: kinds.items(kinds.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
 
-    # Searches for all symmetric orbits, some ten milliseconds each.
-    rules: ClassVar = [("points", "points**2 * len(epsilon) <= 1_000_000")]
-
-    def moves(self):
-        return [{"epsilon": value} for value in self.epsilon]
-
 
 class Stability(Section):
     """The axis of the companion of figure 10.5, and the grid for judging the criteria."""
@@ -126,21 +116,21 @@ class Problem(Section):
 
     case: kinds.CaseName
     initial_state: kinds.State
-    cycles: int = Field(ge=1, le=100, description="Length [forcing periods]")
+    cycles: kinds.count("Length [forcing periods]", 1, 100)
 
 
 class Benchmark(Problem):
     """The motion of `make benchmark`."""
 
-    cycles: int = Field(ge=1, le=1000, description="Length [forcing periods]")
+    cycles: kinds.count("Length [forcing periods]", 1, 1000)
 
 
 class Accuracy(Section):
     """The motions for measuring methods, and the duration of each timing."""
 
     effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
-    short_seconds: float = Field(ge=1e-3, le=1, description="Repeat a timing for so long, in the default build [s]")
-    full_seconds: float = Field(ge=1e-3, le=60, description="The same in the full form [s]")
+    short_seconds: kinds.real("Repeat a timing for so long, in the default build [s]", 1e-3, 1)
+    full_seconds: kinds.real("The same in the full form [s]", 1e-3, 60)
     problems: kinds.named(Problem, 1, 3, kinds.TITLE) = Field(description="Test problems by free titles")
     benchmark: Benchmark
 
@@ -149,7 +139,7 @@ class Animation(Section):
     """The first cycles of a case's simulated window."""
 
     case: kinds.CaseName
-    cycles: int = Field(ge=1, le=1000, description="Cycles shown, no more than the window has [forcing periods]")
+    cycles: kinds.count("Cycles shown, no more than the window has [forcing periods]", 1, 1000)
 
 
 class ForceSweep(Section):
@@ -157,11 +147,12 @@ class ForceSweep(Section):
 
     case: kinds.CaseName
     range: kinds.Forces
-    values: int = Field(ge=2, le=1000, description="Values of f20_hat")
+    values: kinds.count("Values of f20_hat", 2, kinds.MOST)
     C_max: kinds.Amplitude = Field(description="Right end of the planes")
 
-    # They are written with six decimals.
-    rules: ClassVar = [("values", "range[1] - range[0] >= 1e-6 * (values - 1)")]
+    def conditions(self):
+        if self.range[1] - self.range[0] < 1e-6 * (self.values - 1):
+            yield ("values",), f"{self.values} in {self.range} are not all different in six decimals"
 
 
 class Report(Section):
@@ -177,7 +168,7 @@ class Config(Section):
     system: SystemSection
     # At most twelve: companions have a panel for each.
     cases: kinds.named(Case, 1, 12, kinds.CASE) = Field(
-        description="Forcing amplitudes and direct integration by name: a small letter, then 1 to 39 of a-z 0-9 - _"
+        description="Systems and their direct integration by name: a small letter, then 1 to 39 of a-z 0-9 - _"
     )
     default_case: kinds.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
     figures: Figures
@@ -190,60 +181,60 @@ class Config(Section):
 
     def conditions(self):
         yield from self._taken_names()
-        if self.default_case not in (None, *self.cases):
-            yield ("default_case",), f"unknown case {self.default_case!r}{hint(self.default_case, self.cases)}"
-        for place, section, case in sections(self):
-            if hasattr(section, "case") and case not in self.cases:
-                yield (*place, "case"), f"unknown case {case!r}{hint(case, self.cases)}"
-        yield from self._unsound().items()
+        yield from self._unsound()
         for name, sweep in self.sweeps.items():
-            for place, what in [*_not_drawn(name, sweep), *sweep.costs(self.regimes.observation)]:
+            for place, what in sweep.not_drawn(name):
                 yield ("sweeps", name, *place), what
         for name, shown in self.report.animations.items():
-            if shown.case in self.cases and shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
+            if shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
                 what = f"{shown.cycles} is above {kept}, window_cycles of the case {shown.case}"
                 yield ("report", "animations", name, "cycles"), what
 
     def _taken_names(self):
-        """Yield figures and animations whose names are taken already."""
+        """Yield figures, animations and sweeps whose names are taken already."""
         own = [("figures", name) for name in self.figures.model_extra]
         for *section, name in own + [("report", "animations", name) for name in self.report.animations]:
             twice = section[0] == "report" and ("figures", name) in own
             if twice or name in RULES or name.startswith(PREFIXES):
                 what = f"the name is that of a rule or another figure, or begins with {', '.join(PREFIXES)}"
                 yield (*section, name), what
-
-    def _amiss(self, case, **changed):
-        """Return why the parameters of a case, some of them changed, are not valid for a System; None if they are."""
-        forces = {name: getattr(self.cases[case], name) for name in ("f10_hat", "f20_hat")}
-        try:
-            Parameters.model_validate({**dict(self.system), **forces, **changed})
-        except ValidationError as error:
-            return problems_of(error)
-        return []
+        if "self" in self.sweeps:
+            yield ("sweeps", "self"), "a sweep cannot have this name, which Snakemake gives to an argument"
 
     def _unsound(self):
-        """Return problems of the systems of the cases, or else of those reached by moving parameters."""
-        found, shared = {}, SystemSection.model_fields.keys()
-        for case in self.cases:
-            for name, what in self._amiss(case):
-                found[("system", *name) if shared & {*name} else ("cases", case, *name)] = what
-        moves = [(place, case, move) for place, section, case in sections(self) for move in section.moves()]
-        for place, case, move in () if found else moves:
-            for one in {case} & self.cases.keys() if case else self.cases:
-                at = ", ".join(f"{name} = {value:g}" for name, value in move.items())
-                for name, what in self._amiss(one, **move):
-                    found.setdefault(place, f"at {at}: {': '.join([*name, what])}")
-        return found
+        """Yield what no System can be: the cases, or else what they become where parameters move."""
+        systems, found = {}, False
+        for name, case in self.cases.items():
+            own = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
+            systems[name] = dict(self.system) | own
+            for place, what in _amiss(systems[name]):
+                found = True
+                yield ("system", *place) if {*place} - own.keys() else ("cases", name, *place), what
+        for place, case, moved in () if found else self._moves():
+            at = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
+            for one in [case] if case else systems:
+                for key, what in _amiss(systems[one] | moved):
+                    yield place, f"at {at}: {': '.join([*key, what])}"
+
+    def _moves(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
+        """Yield changed parameters: the place of the change, its case (None: all), and the parameters by name."""
+        branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
+        for number, path in enumerate(branches.paths):
+            for end in path.range:
+                yield ("regimes", "branches", "paths", number), branches.case, dict.fromkeys(path.along, end)
+        lists = {("stability", "verdict_grid"): grid.epsilon, ("regimes", "epsilon"): regimes.epsilon.epsilon}
+        for place, values in (lists | {("regimes", "asymmetric"): regimes.asymmetric.epsilon}).items():
+            for value in values:
+                yield place, None, {"epsilon": value}
+        for name, sweep in self.sweeps.items():
+            for moved in sweep.corners():
+                yield ("sweeps", name), sweep.case, moved
 
 
-def _not_drawn(name, sweep):
-    """Yield what a sweep lacks for the companion figures that draw it ("sweeps" in their SPEC)."""
-    for figure, spec in specs().items():
-        if drawn := spec.get("sweeps", {}).get(name):
-            uneven = drawn.get("evenly") and not all(axis.range and axis.scale != "logarithmic" for axis in sweep.axes)
-            if uneven or [axis.along for axis in sweep.axes] != drawn["along"]:
-                how = ", evenly" if uneven else ""
-                yield ("axes",), f"are not {drawn['along']}{how}, as {figure} draws it; take another name"
-            if missing := [wanted for wanted in drawn["observe"] if wanted not in sweep.observe]:
-                yield ("observe",), f"{' and '.join(missing)} missing, which {figure} draws; take another name"
+def _amiss(parameters):
+    """Return why parameters are not valid for a System, each problem with its place; none if they are."""
+    try:
+        Parameters.model_validate(parameters)
+    except ValidationError as error:
+        return [(place, described(details)) for place, details in problems_of(error).items()]
+    return []

@@ -6,10 +6,11 @@ import yaml
 from pydantic import ValidationError
 
 from vibroimpact_pipeline.cases import with_cases
-from vibroimpact_pipeline.config.messages import problems_of, shown, written
+from vibroimpact_pipeline.config.messages import described, problems_of, shown, written
+from vibroimpact_pipeline.config.section import refuse
 
-LARGEST, DEEPEST, ALL = 100_000, 20, 50_000
-"""Bytes of a file, levels of nesting, values in all (aliases make many of few)."""
+LARGEST, ALL = 100_000, 50_000
+"""Bytes of a file, and its values (aliases make many of few)."""
 MOST = 30
 """Lines that are shown at once."""
 
@@ -44,9 +45,10 @@ def read(path) -> dict:
         config = yaml.load(content.decode("utf-8"), _Loader)
         if not isinstance(config, dict):
             raise ValueError(f"{shown(config)} is not a mapping of system, cases and figures")
-        for place, problem in cleared(config)[1]:
-            raise ValueError(f"{written(place)}: {problem}")
+        without_nulls(config)
         return config
+    except ValidationError as error:
+        raise _refusal(error, [(path, config)]) from None
     except (OSError, ValueError, ArithmeticError, LookupError, RecursionError, yaml.YAMLError) as error:
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
@@ -66,43 +68,23 @@ def checked(config: dict, sources=()) -> dict:
     """
     from vibroimpact_pipeline.config.model import Config
 
-    values, found = cleared(config)
     try:
-        if not found:
-            return Config.model_validate(with_cases(values)).model_dump(mode="json", exclude_none=True)
+        values = with_cases(without_nulls(config))
+        cases = values["cases"] if isinstance(values.get("cases"), dict) else ()
+        return Config.model_validate(values, context=[*cases]).model_dump(mode="json", exclude_none=True)
     except ValidationError as error:
-        found = problems_of(error)
-    more = [f"... and {len(found) - MOST} more"] if len(found) > MOST else []
-    told = sorted((written(place), _source(place, sources), what) for place, what in found)[:MOST]
-    raise ConfigError("\n".join([f"{source}: {key}: {what}" for key, source, what in told] + more))
+        raise _refusal(error, sources) from None
 
 
-def cleared(config) -> tuple[dict, list]:
-    """Return a config without entries of null, which remove others, and the problems of unsupported values.
-
-    Inside a mapping given by `--config`, Snakemake hands null over as text.
-    """
-    found, values = {}, count()
-
-    def clear(value, place):
-        if next(values) > ALL or len(place) > DEEPEST:
-            found[place[:3]] = f"has more than {DEEPEST} levels or, with all before, {ALL} values"
-        elif isinstance(value, dict):
-            return {key: clear(item, (*place, key)) for key, item in value.items() if item not in (None, "null")}
-        elif isinstance(value, list):
-            return [clear(item, (*place, number)) for number, item in enumerate(value)]
-        elif isinstance(value, bool) or not isinstance(value, str | int | float | None):
-            found[place] = f"{shown(value)} is not a number, text, list or mapping"
-        return value
-
-    return clear(config, ()), list(found.items())
+def _refusal(error, sources):
+    """Return the error with a line for each problem that Pydantic found, the first MOST."""
+    found = sorted(problems_of(error).items(), key=lambda problem: written(problem[0]))
+    lines = [f"{_source(place, sources)}: {written(place)}: {described(about)}" for place, about in found[:MOST]]
+    return ConfigError("\n".join(lines + ([f"... and {len(found) - MOST} more"] if len(found) > MOST else [])))
 
 
 def _source(place, sources):
-    """Return the last source that has a place in the config; if none has, the last file with the longest part of it.
-
-    What is in no file is the last source: a missing key is told of it only where no file comes as near.
-    """
+    """Return the last source that has a place in the config, or else the first with the longest part of it."""
 
     def depth(source):
         value = source[1]
@@ -113,6 +95,31 @@ def _source(place, sources):
                 return known
         return len(place)
 
-    having = [source for source in sources if depth(source) == len(place)]
-    files_first = [*reversed(sources[:-1]), *sources[-1:]]
-    return having[-1][0] if having else max(files_first, key=depth, default=["--config"])[0]
+    having = [name for name, content in sources if depth((name, content)) == len(place)]
+    return having[-1] if having else max(sources, key=depth, default=["--config"])[0]
+
+
+def without_nulls(config):
+    """Return a config without entries of null, which remove others; keys as texts.
+
+    Inside a mapping given by `--config`, Snakemake hands null over as text.
+
+    Raises:
+        ValidationError: it has values that no config has, or too many.
+    """
+    found, values = [], count()
+
+    def clear(value, place):
+        if next(values) > ALL:
+            refuse([(place[:3], f"has, with all before, more than {ALL} values")])
+        if isinstance(value, dict):
+            return {str(key): clear(item, (*place, key)) for key, item in value.items() if item not in (None, "null")}
+        if isinstance(value, list):
+            return [clear(item, (*place, number)) for number, item in enumerate(value)]
+        if isinstance(value, bool) or not isinstance(value, str | int | float | None):
+            found.append((place, f"{shown(value)} is not a number, text, list or mapping"))
+        return value
+
+    cleared = clear(config, ())
+    refuse(found)
+    return cleared

@@ -1,7 +1,7 @@
 """Section `regimes`: regimes of the exact system other than 1:1 responses, and the resolution of their search."""
 
 from dataclasses import fields
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -9,101 +9,77 @@ from vibroimpact.system import System
 from vibroimpact_pipeline.config import kinds
 from vibroimpact_pipeline.config.section import Section
 
-CYCLES, HELD = 20_000_000_000, 4_000_000
-"""Forcing cycles of one job, half a million in a second: a night in all; and those whose events are held in memory."""
 NEAR = "How near to repeating before Newton's method takes over; half a cavity is 1"
-
-WatchedCycles = Annotated[int, Field(ge=1, le=100_000)]
-Values = Annotated[int, Field(ge=2, le=1000)]
 NAMES = tuple(field.name for field in fields(System))
 Along = kinds.items(Literal[NAMES], 1, len(NAMES), "The parameters that move together")
-ODD = kinds.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "are not odd and ascending")
+ODD = kinds.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "should be odd and ascending")
+APART = kinds.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
 Harmonic = Annotated[int, Field(ge=1, le=999)]
 Velocity = Annotated[float, Field(gt=0, le=1e4)]
-DEAR = f"with `observation` takes more than {CYCLES:.0e} forcing cycles in a job, or {HELD:.0e} in memory"
-
-
-def affordable(observation, starts: int, times: int = 1, more: int = 0) -> bool:
-    """Return True if the cycles of all starts and values are within the limit of one job."""
-    longest = observation.longest() + more
-    return starts * observation.cycles <= HELD and times * starts * longest <= CYCLES
+Window = Annotated[int, Field(ge=1, le=100_000)]
 
 
 class Exponent(Section):
     """Length of the measurement of a Lyapunov exponent."""
 
-    blocks: int = Field(ge=2, le=10_000, description="Blocks of a Lyapunov exponent; their spread is its error")
-    block: int = Field(ge=1, le=10_000, description="Cycles of a block [forcing periods]")
+    blocks: kinds.count("Blocks of a Lyapunov exponent; their spread is its error", 2, 10_000)
+    block: kinds.count("Cycles of a block [forcing periods]", 1, 10_000)
 
 
 class Observation(Exponent):
     """Length of the observation of one start."""
 
-    cycles: kinds.Cycles = Field(
-        description="A start is simulated for so long before it is looked at [forcing periods]"
-    )
-    rounds: int = Field(ge=1, le=1000, description="At most so many times, until it repeats")
-    window: int = Field(ge=4, le=10_000, description="Cycles that it is looked at [forcing periods]")
-    nearness: float = Field(ge=1e-6, le=0.5, description=NEAR)
-    retest: kinds.Cycles = Field(
-        description="The name of a motion without repetition is tried so long [forcing periods]"
-    )
-
-    def longest(self) -> int:
-        """Return the largest number of cycles for one start."""
-        exponent = self.blocks * self.block
-        return self.cycles * self.rounds + self.window + 2 * (self.retest + self.window + exponent)
+    cycles: kinds.count("A start is simulated for so long before it is looked at [forcing periods]")
+    rounds: kinds.count("At most so many times, until it repeats", 1, 1000)
+    window: kinds.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
+    nearness: kinds.real(NEAR, 1e-6, 0.5)
+    retest: kinds.count("The name of a motion without repetition is tried so long [forcing periods]")
 
 
-class Line(Section):
-    """Parameters that move together."""
+class BranchPath(Section):
+    """A line through the parameters, along which they move together."""
 
     along: Along
-
-    def moves(self):
-        return [dict.fromkeys(self.along, value) for value in getattr(self, "range", None) or self.values]
-
-
-class BranchPath(Line):
-    """A line through the parameters."""
-
     range: kinds.span(kinds.Number)
 
 
-class Attractors(kinds.Starts):
+class Attractors(Section):
     """Attractors found from random starts along the paths of the branches."""
 
-    values: Values = Field(description="Values along each path")
+    values: kinds.count("Values along each path", 2, kinds.MOST)
+    starts: kinds.Starts
+    seed: kinds.Seed
 
 
 class Branches(Section):
     """Branches of 1:1 responses along paths through the parameters."""
 
     case: kinds.CaseName
-    paths: kinds.items(BranchPath, 1, 4, "Lines through the parameters")
-    longest_step: float = Field(gt=0, le=1000, description="Longest step of a branch, 200 of every path at most")
-    seeds: int = Field(ge=1, le=100, description="Values of a path at which branches are looked for")
+    paths: kinds.items(BranchPath, 1, 4, "Lines through the parameters", APART)
+    longest_step: kinds.real("Longest step of a branch, 200 of every path at most", 1e-6, 1000)
+    seeds: kinds.count("Values of a path at which branches are looked for", 1, 100)
     attractors: Attractors
 
-    # A continuation gives up after 2000 points, and a branch is longer than its range.
-    rules: ClassVar = [
-        ("longest_step", "longest_step >= max(path.range[1] - path.range[0] for path in paths) / 200"),
-        ("paths", "len({tuple(path.along) for path in paths}) == len(paths)"),
-    ]
+    def conditions(self):
+        # A continuation gives up after 2000 points, and a branch is longer than its range.
+        if self.longest_step < (least := max(path.range[1] - path.range[0] for path in self.paths) / 200):
+            yield ("longest_step",), f"{self.longest_step} should be at least {least:g}, 1/200 of the longest path"
 
 
-class Modulation(Exponent, kinds.Starts):
+class Modulation(Exponent):
     """Modulated responses in numbers."""
 
-    cycles: WatchedCycles = Field(description="Window of the measures [forcing periods]")
-    windows: kinds.items(WatchedCycles, 1, 20, "Windows that measures are compared over [forcing periods]")
+    starts: kinds.Starts
+    seed: kinds.Seed
+    cycles: kinds.count("Window of the measures [forcing periods]", 1, 100_000)
+    windows: kinds.items(Window, 1, 20, "Windows that measures are compared over [forcing periods]")
 
 
 class Basins(Section):
     """Basins of attraction on a plane of starts."""
 
     case: kinds.CaseName
-    points: int = Field(ge=2, le=1000, description="Starts along each axis")
+    points: kinds.Points
 
 
 class Mixed(Section):
@@ -117,20 +93,19 @@ class EpsilonRange(Section):
     """Values of epsilon at which theory and exact responses are compared."""
 
     epsilon: kinds.items(kinds.Epsilon, 2, 2, "First and last value")
-    values: int = Field(ge=3, le=1000, description="Values, evenly on a logarithmic scale")
+    values: kinds.count("Values, evenly on a logarithmic scale", 3, kinds.MOST)
     fit_below: float = Field(gt=0, le=10, description="Fit orders to the values below this, two at least")
 
-    # The second lowest value.
-    rules: ClassVar = [("fit_below", "min(epsilon) * (max(epsilon) / min(epsilon)) ** (1 / (values - 1)) < fit_below")]
-
-    def moves(self):
-        return [{"epsilon": value} for value in self.epsilon]
+    def conditions(self):
+        low, high = sorted(self.epsilon)
+        if self.fit_below <= (second := low * (high / low) ** (1 / (self.values - 1))):
+            yield ("fit_below",), f"{self.fit_below} should be above the second lowest value, {second:g}"
 
 
 class Asymmetric(EpsilonRange):
     """Asymmetric pairs towards small epsilon, over the manifold."""
 
-    C_max: float = Field(ge=kinds.HIGHEST, le=100, description="Right end of the manifold, beyond the derived limits")
+    C_max: kinds.real("Right end of the manifold, beyond the derived limits", kinds.HIGHEST, 100)
 
 
 class EpsilonLimit(EpsilonRange):
@@ -151,7 +126,7 @@ class Decay(Section):
 
     case: kinds.CaseName
     impulses: kinds.span(Velocity, "First and last velocity that a box is given [L omega_10]")
-    values: Values = Field(description="Values, evenly on a logarithmic scale")
+    values: kinds.count("Values, evenly on a logarithmic scale", 2, kinds.MOST)
     fraction: float = Field(ge=1e-6, lt=1, description="The part of the energy that is left then")
 
 
@@ -166,12 +141,3 @@ class Regimes(Section):
     asymmetric: Asymmetric
     ladder: Ladder
     decay: Decay
-
-    def conditions(self):
-        watched, paths, tried, seen = self.observation, self.branches.paths, self.branches.attractors, self.modulation
-        if not affordable(watched, tried.starts, times=len(paths) * tried.values):
-            yield ("branches", "attractors"), DEAR
-        if not affordable(watched, seen.starts + 1, more=2 * seen.cycles + seen.blocks * seen.block):
-            yield ("modulation", "starts"), f"{seen.starts} {DEAR}"
-        if not affordable(watched, self.basins.points**2):
-            yield ("basins", "points"), f"{self.basins.points}^2 {DEAR}"

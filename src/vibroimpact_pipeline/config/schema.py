@@ -14,9 +14,10 @@ NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^
 
 
 def schema() -> str:
-    """Return the text of the schema."""
+    """Return the text of the schema, a line for each section of the config."""
     made = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(Config.model_json_schema())
-    return json.dumps(made, indent=1, ensure_ascii=False) + "\n"
+    sections = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in made.pop("$defs").items())
+    return f'{{"$defs": {{\n{sections}\n}},\n{json.dumps(made)[1:]}\n'
 
 
 def _plain(node):

@@ -7,9 +7,8 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
-from vibroimpact_pipeline.specs import spec_of, specs
+from vibroimpact_pipeline.specs import case_parameters, spec_of, specs
 
-FORCES = ("f10_hat", "f20_hat")
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
 """Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""
 
@@ -21,9 +20,9 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
     scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
     for figure, scene in scenes.items():
         case = scene.get("case")
-        forces = config["cases"].get(case, {})
-        named = scene | ({"case": title_of(config, case)} if forces else {})
-        texts[figure] = words(figure, named, config["system"] | {name: forces[name] for name in FORCES if forces})
+        known_case = case in config["cases"]
+        named = scene | ({"case": title_of(config, case)} if known_case else {})
+        texts[figure] = words(figure, named, case_parameters(config, case) if known_case else config["system"])
     return texts | data["captions"]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import fast_and_slow
+from vibroimpact_pipeline.specs import case_parameters
 
 MAP = "companion_regime_map"
 
@@ -14,12 +15,16 @@ def live_data(results, config: dict, figures) -> str:
     """Return the data of the page Play as JSON.
 
     Args:
-        results: a `results.Results`. config: of the pipeline.
+        results: a `results.Results`. config: of the pipeline; cases that differ from the first in more than forces
+            are left out.
         figures: names of the companion figures; without the map of regimes, the page has none.
     """
-    cases = {name: [case["f10_hat"], case["f20_hat"]] for name, case in config["cases"].items()}
+    first = next(iter(config["cases"]))
+    systems = {name: case_parameters(config, name) for name in config["cases"]}
+    forces = {name: [system.pop("f10_hat"), system.pop("f20_hat")] for name, system in systems.items()}
+    cases = {name: forces[name] for name, system in systems.items() if system == systems[first]}
     regimes = regime_map(results.table(f"figures/{MAP}.csv")) if MAP in figures else None
-    return json.dumps({"system": config["system"], "cases": cases, "first": next(iter(cases)), "map": regimes})
+    return json.dumps({"system": systems[first], "cases": cases, "first": first, "map": regimes})
 
 
 def regime_map(table) -> dict:
