@@ -232,6 +232,17 @@ def some(_, mask):
 
 
 @intrinsic
+def count(_, mask):
+    """Return in how many lanes a mask is true."""
+
+    def generate(context, builder, signed, args):
+        bits = builder.bitcast(args[0], ir.IntType(WIDTH))
+        return builder.zext(builder.ctpop(bits), ir.IntType(64))
+
+    return types.intp(mask), generate
+
+
+@intrinsic
 def entries(_, table, j, k):
     """Return table[j, k] in each lane, at its own j."""
 
