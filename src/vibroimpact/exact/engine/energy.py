@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.flow import CONTACT_STATES, along, flow_of, jet_at, slope, turned, value
+from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned, value
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
@@ -46,13 +46,16 @@ LARGEST = 1e3
 
 
 class Squares(NamedTuple):
-    """Tables of a system per contact state and module: potentials S (4, 2, 6, 6) and drifts c (4, 2), with empty forms;
-    or zeros and forms (`integrals_of`) where the potentials would lose their digits.
+    """Tables of a system per contact state: potentials S (4, k, 6, 6) and drifts c (4, k) of k integrals, with empty
+    forms; or zeros and the forms (`integrals_of`) of X_1^2 and X_2^2, where the potentials would lose their digits.
     """
 
     potentials: np.ndarray
     drifts: np.ndarray
     forms: np.ndarray
+
+
+NO_FORMS = np.empty((4, 0, 2, TRIANGLE))
 
 
 def _lyapunov():
@@ -67,24 +70,33 @@ def _lyapunov():
 OPERATORS, FORCED = _lyapunov()
 
 
+def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the potentials (n, 4, k, 6, 6) and drifts (n, 4, k) of the integrals of z G z, kernels (k, 6, 6), for rate
+    matrices (n, 4, 6, 6), and True (n,) for systems where their differences keep their digits.
+    """
+    equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
+    equations[..., :-1, :-1] = np.tensordot(rates.reshape(*rates.shape[:2], -1), OPERATORS, 1)
+    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # S and S + sin^2 + cos^2 do alike
+    sides = np.zeros((TRIANGLE + 1, len(kernels)))
+    sides[:-1] = kernels[:, ROWS, COLUMNS].T
+    sides = np.broadcast_to(sides, (*rates.shape[:2], *sides.shape))
+    try:
+        solved = np.linalg.solve(equations, sides)
+    except np.linalg.LinAlgError:
+        if len(rates) > 1:
+            parts = [potentials_of(rates[n : n + 1], kernels) for n in range(len(rates))]
+            return tuple(np.concatenate(part) for part in zip(*parts, strict=True))
+        solved = np.full(sides.shape, np.inf)
+    potentials = np.empty((*rates.shape[:2], len(kernels), SIZE, SIZE))
+    potentials[..., ROWS, COLUMNS] = potentials[..., COLUMNS, ROWS] = np.swapaxes(solved[..., :-1, :], -1, -2)
+    sound = abs(solved).max(axis=(1, 2, 3), initial=0.0) * abs(rates).max(axis=(1, 2, 3)) < LARGEST
+    return potentials, solved[..., -1, :].copy(), sound
+
+
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the tables of a system for integrals of X_1^2 and X_2^2."""
-    rates = np.array([rate_matrix(system, stuck) for stuck in CONTACT_STATES])
-    equations = np.zeros((4, TRIANGLE + 1, TRIANGLE + 1))
-    equations[:, :-1, :-1] = np.tensordot(rates.reshape(4, -1), OPERATORS, 1)
-    equations[:, :-1, -1] = equations[:, -1, :-1] = FORCED  # S and S + sin^2 + cos^2 do alike
-    squares = np.zeros((TRIANGLE + 1, 2))
-    squares[0, 0] = squares[SIZE, 1] = 1.0
-    try:
-        solved = np.linalg.solve(equations, np.broadcast_to(squares, (4, TRIANGLE + 1, 2)))
-    except np.linalg.LinAlgError:
-        solved = np.full((4, TRIANGLE + 1, 2), np.inf)
-    potentials = np.empty((4, 2, SIZE, SIZE))
-    potentials[..., ROWS, COLUMNS] = potentials[..., COLUMNS, ROWS] = solved[:, :-1].transpose(0, 2, 1)
-    if np.abs(solved).max() * np.abs(rates).max() < LARGEST:
-        return Squares(potentials, solved[:, -1].copy(), np.empty((4, 0, 2, TRIANGLE)))
-    return Squares(np.zeros_like(potentials), np.zeros((4, 2)), integrals_of(system, POSITIONS))
+    """Return the tables of a system with forms in place of potentials."""
+    return Squares(np.zeros((4, 2, SIZE, SIZE)), np.zeros((4, 2)), integrals_of(system, POSITIONS))
 
 
 def integrals_of(system, kernels) -> np.ndarray:
@@ -136,42 +148,40 @@ def _over_one(rate, spacing, kernels):
 
 
 @inlined
-def potential(squares, mode, boxes, sine, cosine):
-    """Return the potentials of X_1^2 and X_2^2 at a point of a flight."""
+def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
+    """Add sign times the potentials at a point of a flight to sums (k,)."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
-    one, two = 0.0, 0.0
-    for a in range(SIZE):
-        first, second = 0.0, 0.0
-        for b in range(SIZE):
-            first += squares.potentials[mode, 0, a, b] * z[b]
-            second += squares.potentials[mode, 1, a, b] * z[b]
-        one += z[a] * first
-        two += z[a] * second
-    return one, two
+    for k in range(squares.drifts.shape[1]):
+        total = 0.0
+        for a in range(SIZE):
+            part = 0.0
+            for b in range(SIZE):
+                part += squares.potentials[mode, k, a, b] * z[b]
+            total += z[a] * part
+        sums[k] += sign * total
 
 
 @inlined
-def fall(squares, before, after, forcing):
-    """Return the decrease of the potentials in an instant; before, after: contact state and boxes, in the same places.
+def add_falls(squares, before, after, forcing, sums):
+    """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes, in the same
+    places.
 
     Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
-        one, two = potential(squares, mode, boxes, sine, cosine)
-        there, here = potential(squares, later, others, sine, cosine)
-        return one - there, two - here
-    one, two, fast, slow = 0.0, 0.0, boxes[2] + others[2], boxes[3] + others[3]
-    z = (2.0 * others[0], 2.0 * others[1], fast, slow, 2.0 * sine, 2.0 * cosine)
+        add_potentials(squares, mode, boxes, sine, cosine, 1.0, sums)
+        add_potentials(squares, later, others, sine, cosine, -1.0, sums)
+        return
+    z = (2.0 * others[0], 2.0 * others[1], boxes[2] + others[2], boxes[3] + others[3], 2.0 * sine, 2.0 * cosine)
     for a in range(2, 4):
         change = boxes[a] - others[a]
         if change != 0.0:
-            first, second = 0.0, 0.0
-            for b in range(SIZE):
-                first += squares.potentials[mode, 0, a, b] * z[b]
-                second += squares.potentials[mode, 1, a, b] * z[b]
-            one, two = one + change * first, two + change * second
-    return one, two
+            for k in range(squares.drifts.shape[1]):
+                total = 0.0
+                for b in range(SIZE):
+                    total += squares.potentials[mode, k, a, b] * z[b]
+                sums[k] += change * total
 
 
 @inlined
@@ -216,6 +226,8 @@ def _kernels():
 
 
 KERNELS = _kernels()
+OBSERVED = np.concatenate([POSITIONS, KERNELS])
+"""Quadratic forms whose integrals an ensemble takes: of X_1^2 and X_2^2, and those of the energy balance."""
 lost, held = inlined(energy_lost), inlined(stored)
 
 

@@ -2,57 +2,45 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.compiled import compiled, unfolded
-from vibroimpact.exact.engine.energy import ENERGY, ENTRIES, Squares, account, energies, powers_of, squares_of
+from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.energy import ENERGY, NO_FORMS, OBSERVED, Squares, energies, potentials_of
 from vibroimpact.exact.engine.event_loop import (
-    EARLIER,
     FAILURES,
     FINISHED,
+    MOST_AT_ONCE,
     PAUSED,
-    PLACES,
-    SPELL,
+    Progress,
     go_on,
-    keep_progress,
-    kept_progress,
-    memory,
 )
-from vibroimpact.exact.engine.event_loop import MOST_AT_ONCE as MOST_EVENTS_AT_ONCE
-from vibroimpact.exact.engine.flow import tables_of, unpacked
-from vibroimpact.exact.engine.lane_step import APPROACH as SPEED
-from vibroimpact.exact.engine.lane_step import AT, DONE, DUE, MID, NOTES, ROWS, STATE, TAIL, step_lanes
-from vibroimpact.exact.engine.lane_step import COSINE as COSINE_AT
-from vibroimpact.exact.engine.lane_step import PHASE as PHASE_AT
-from vibroimpact.exact.engine.lane_step import RESIDUAL as MISSED
-from vibroimpact.exact.engine.lane_step import SINE as SINE_AT
-from vibroimpact.exact.engine.lane_step import TIME as WHEN
-from vibroimpact.exact.engine.lane_step import WALL as HIT
+from vibroimpact.exact.engine.flow import SPACING, numbers_of, unpacked
+from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
-from vibroimpact.exact.engine.motion import (
-    APPROACH,
-    COSINE,
-    EVALUATIONS,
-    EVENTS,
-    FLIGHTS,
-    PHASE,
-    RESIDUAL,
-    ROW,
-    SINE,
-    Log,
-    pack,
+from vibroimpact.exact.engine.march import meet
+from vibroimpact.exact.engine.motion import ENTRIES, EVENTS, ROW, Log, Motion, mode_of
+from vibroimpact.exact.engine.observation import (
+    IMPACTS,
+    INTEGRALS,
+    LARGEST,
+    LOST,
+    PATH,
+    SEEN,
+    STICKS,
+    STORED,
+    observe,
+    open_or_close,
 )
-from vibroimpact.exact.engine.motion import ENTRIES as COUNTERS
-from vibroimpact.exact.engine.observation import IMPACTS, LARGEST, PATH, SEEN, SQUARE, STICKS, observe
-from vibroimpact.exact.engine.phase import Instant, phase_at
-from vibroimpact.exact.engine.replay import departures
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
+from vibroimpact.exact.engine.replay import Departure
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, checked_window, within_walls
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals, whole
-from vibroimpact.system.state import IMPACT
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -74,13 +62,12 @@ impacts and of sticks, the largest |X_i|, the means over time of X_i^2 and of |Y
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """The same with the energy balance."""
 
-FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "mean_square": SQUARE, "ball_speed": PATH}
-NO_POWERS = np.empty((0, 0, 0, 0))
-NOTHING = Squares(NO_POWERS, np.empty((0, 0)), NO_POWERS)
-FEWEST = 3
-"""Least number of runs for a step of all lanes."""
-MOST_AT_ONCE, SHARES = 1024, 4
-"""Runs in a piece of work; pieces per core if there are fewer runs."""
+FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
+MOST_RUNS, SHARES = 1024, 4
+"""Runs in a piece of work; pieces per core where there are many runs."""
+TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
+NEAR = 1e-6  # from a wall, no ball rests on it
+SPELL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
 
 
 def ensemble(
@@ -94,9 +81,8 @@ def ensemble(
 ) -> np.ndarray:
     """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
 
-    Final states are those of `simulate`, bit by bit; for events, samples or a certificate use `simulate`. Each core
-    holds the events of eight runs, about a kilobyte per cycle and run. The tables of a system take one or two
-    milliseconds, several more with the energy.
+    The events are those of `simulate`, and final states differ by no more than `certificate.error` of the single run, as
+    long as that is decided; for events, samples or a certificate use `simulate`.
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).
@@ -122,16 +108,13 @@ def ensemble(
     begins = [checked_window(system, cycles, tau0)[0] for system in known]
     outcomes = np.empty(numbers.shape, WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
-    order = np.argsort(numbers, axis=None, kind="stable")
-    ends = np.cumsum([0, *np.bincount(numbers.ravel(), minlength=len(known))])
-    pieces, most = [], min(MOST_AT_ONCE, -(-numbers.size // (SHARES * cores())))
-    for system, begin, first, end in zip(known, begins, ends[:-1], ends[1:], strict=True):
-        if end - first > most:
-            tables_of(system), squares_of(system), energy and powers_of(system)  # once, before the threads share them
-        pieces += [
-            (system, starts, cycles, begin, settle, filled, order[place : min(place + most, end)])
-            for place in range(first, end, max(most, 1))
-        ]
+    order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share what is known of it
+    share = max(-(-numbers.size // cores()), 1)
+    size = min(MOST_RUNS, share if share <= SHARES * WIDTH else -(-share // SHARES))
+    pieces = [
+        (known, begins, numbers.ravel(), starts, (settle, cycles), filled, order[first : first + size])
+        for first in range(0, len(order), size)
+    ]
     on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
     return outcomes
 
@@ -167,152 +150,296 @@ def _combined(systems, states):
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
 
 
-def _run(system, starts, cycles, begin, settle, outcomes, places):
+def _run(known, begins, numbers, starts, stages, outcomes, places):
     """Run the initial states at these places and fill in their outcomes."""
-    starts = np.ascontiguousarray(starts[places])
-    table, seen = np.empty(len(places), outcomes.dtype), np.zeros((len(places), SEEN))
-    spent = np.zeros((len(places) if "energy" in table.dtype.names else 0, 1, ENTRIES))
-    observed = cycles - settle
-    status, final = np.where(within_walls(starts), FINISHED, INADMISSIBLE), np.full((len(places), 8), np.nan)
-    squares = squares_of(system) if observed else NOTHING
-    powers = powers_of(system) if observed and len(spent) else NO_POWERS
-    phase = phase_at(begin, system.Omega)
-    tables = tables_of(system)
-    given = *tables, squares, powers, starts, *phase, cycles, system.period, settle, status, final, seen, spent
-    members, runs, counts = np.full(WIDTH, -1), np.zeros((ROWS, WIDTH)), np.zeros((WIDTH, COUNTERS))
-    rows, begun = np.empty((WIDTH, len(memory(cycles)[0]), ROW)), np.zeros(1, dtype=int)
-    while not _loop(*given, members, begun, runs, counts, rows):
-        if (counts[:, EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]).any():
-            rows = np.concatenate((rows, np.empty_like(rows)), axis=1)
+    (first, *_), (settle, cycles) = numbers[places], stages
+    owners, starts = numbers[places] - first, np.ascontiguousarray(starts[places])
+    systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
+    scalars, rates = numbers_of(systems, TABLE)
+    table, seen, final = (
+        np.empty(len(places), outcomes.dtype),
+        np.zeros((len(places), SEEN)),
+        np.full((len(places), 8), np.nan),
+    )
+    kernels = OBSERVED[: 0 if settle == cycles else len(OBSERVED) if "energy" in table.dtype.names else 2]
+    potentials, drifts, sound = potentials_of(rates[:, 0], kernels)
+    status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
+    phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
+    given = scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen
+    memory = _memory()
+    while not _loop(*given, memory):
         stop_if_given_up()
-    seen[:, SQUARE:] /= observed * system.period or np.nan
+    seen[status != FINISHED] = 0.0
+    seen[:, LARGEST:] /= np.where(status == FINISHED, 1.0, np.nan)[:, None]
     table["status"], table["final"] = status, final
+    observed = (cycles - settle) * np.array([system.period for system in systems])[owners, None]
     for name, place in FIELDS.items():
-        table[name] = seen[:, place : place + 2]
-    if len(spent):
-        spent[np.isnan(seen[:, LARGEST])] = np.nan
-        table["energy"] = energies(system, spent[:, 0])
+        over = observed if place >= PATH else 1.0
+        table[name] = seen[:, place : place + 2] / np.where(over, over, np.nan)
+    if "energy" in table.dtype.names:
+        rows = np.concatenate([seen[:, INTEGRALS + 2 :], seen[:, LOST : LOST + 2], seen[:, STORED, None]], axis=1)
+        for owner, system in enumerate(systems):
+            table["energy"][owners == owner] = energies(system, rows[owners == owner])
     outcomes[places] = table
 
 
-@compiled
-def _loop(
-    numbers, series, rotations, squares, powers, starts, phase, tail, cycles, period, settle, status, final, seen,
-    spent, members, begun, runs, counts, rows
-):  # fmt: skip
-    """Run the initial states (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in
-    their outcomes.
+class Memory(NamedTuple):
+    """Runs in the lanes and what is known of them, between two calls of the loop.
 
-    members: the start in each lane, or -1; begun: how many starts were looked at; runs, counts, rows: of each lane.
-    Returns False where rows are full, or after a while (`integrate`): then call again.
+    runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts were
+    looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact states;
+    series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen: room for the event loop.
     """
-    opening, flow, steps = np.array([settle * period]), unpacked(numbers, series, rotations), 0
-    no_times, no_samples, notes, where = np.empty(0), np.empty((0, 8)), np.empty((NOTES, WIDTH)), np.empty(PLACES)
+
+    runs: np.ndarray
+    constants: np.ndarray
+    work: np.ndarray
+    members: np.ndarray
+    begun: np.ndarray
+    slots: np.ndarray
+    owners: np.ndarray
+    made: np.ndarray
+    series: np.ndarray
+    rotations: np.ndarray
+    kept: np.ndarray
+    rows: np.ndarray
+    counters: np.ndarray
+    seen: np.ndarray
+
+
+def _memory():
+    return Memory(
+        np.zeros((march.STATES, WIDTH)),
+        np.zeros((march.CONSTANTS, WIDTH)),
+        np.empty((2 * march.ORDER + 2, WIDTH)),
+        np.full(WIDTH, -1),
+        np.zeros(1, dtype=int),
+        np.zeros(WIDTH, dtype=int),
+        np.full(WIDTH, -1),
+        np.zeros((WIDTH, 4), dtype=bool),
+        np.empty((WIDTH, 4, TABLE, 6, 2 * ORDERS)),
+        np.empty((WIDTH, TABLE, 2)),
+        np.zeros((WIDTH, march.CONSTANTS)),
+        np.empty((2 * MOST_AT_ONCE, ROW)),
+        np.zeros((WIDTH, ENTRIES)),
+        np.zeros(SEEN),
+    )
+
+
+@compiled
+def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen, memory):
+    """Run the initial states (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in
+    their status, final states and statistics. Returns False after a while: then call again.
+
+    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; stages: the cycles
+    before the observation, and all.
+    """
+    m, integrals, steps = memory, drifts.shape[2] if stages[0] < stages[1] else 0, 0
+    squares = Squares(potentials[0], drifts[0], NO_FORMS)
     while True:
-        alive = _fill(starts, status, seen, phase, tail, members, begun, runs, counts)
+        alive = 0
+        for lane in range(WIDTH):
+            while m.members[lane] < 0 and m.begun[0] < len(starts):
+                n = m.begun[0]
+                m.begun[0] += 1
+                if status[n] == FINISHED:
+                    _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, m)
+            alive += m.members[lane] >= 0
+            if m.members[lane] < 0:
+                m.runs[march.ALIVE, lane] = 0.0
         if alive == 0:
             return True
-        together = alive >= FEWEST
-        if together:
-            step_lanes(flow, runs, (phase, tail), float(cycles), notes)
-        full, steps = False, steps + WIDTH
-        for lane in range(WIDTH):
-            n, counters = members[lane], counts[lane]
-            if n < 0:
-                continue
-            if together and notes[DONE, lane] == 2.0:
-                counters[EVALUATIONS] += 1.0
-            elif together and notes[DONE, lane] == 1.0:
-                _note(notes, lane, settle < cycles, rows[lane], counters, runs)
-            else:
-                _read(runs, lane, where)
-                progress, outcome = go_on(
-                    flow, kept_progress(where), (phase, tail), cycles, 0.0, no_times, no_samples,
-                    Log(rows[lane], counters), where[EARLIER], 0 if together else SPELL
-                )  # fmt: skip
-                keep_progress(progress, where)
-                _write(where, lane, runs)
-                runs[MID, lane] = 0.0
-                if outcome != PAUSED:
-                    status[n], members[lane] = outcome, -1
-                    if outcome == FINISHED:
-                        pack(progress.motion.boxes, progress.motion.balls, final[n])
-                    if outcome != FINISHED or settle == cycles:
-                        seen[n, LARGEST:] = np.nan
-                    else:
-                        s, events, end = starts[n], rows[lane, : int(counters[EVENTS])], progress.motion.boxes
-                        observe(flow, squares, s, events, end, phase, (settle * period, cycles * period), seen[n])
-                        if len(powers) > 0:
-                            flights = departures(flow.coefficients, s, events, phase, cycles * period)
-                            account(flow, powers, flights, events, opening, spent[n])
-                    continue
-                steps += 0 if together else SPELL
-            if counters[EVENTS] + MOST_EVENTS_AT_ONCE > rows.shape[1]:
-                if settle < cycles:
-                    full = True
-                else:  # nobody looks at the events
-                    runs[EARLIER, lane] += counters[EVENTS]
-                    counters[EVENTS] = 0.0
-        if full or steps > SPELL:
+        if steps > SPELL:
             return False
-
-
-@unfolded
-def _fill(starts, status, seen, phase, tail, members, begun, runs, counts):
-    """Begin the next runs in free lanes; return the number of lanes in use."""
-    alive = 0
-    for lane in range(WIDTH):
-        while members[lane] < 0 and begun[0] < len(starts):
-            n = begun[0]
-            begun[0] += 1
-            if status[n] == INADMISSIBLE:
-                seen[n, LARGEST:] = np.nan
+        steps += march.march(m.runs, m.constants, max(3 * alive // 4, 1)) + 16
+        if meet(m.runs, m.constants, m.work, integrals) == 0:
+            continue
+        for lane in range(WIDTH):
+            outcome, n = m.runs[march.OUTCOME, lane], m.members[lane]
+            if n < 0 or outcome == march.NOTHING:
                 continue
-            members[lane] = n
-            for k in range(ROWS):
-                runs[k, lane] = 0.0
-            for i in range(4):
-                runs[i, lane], runs[4 + i, lane] = starts[n, 2 * i], starts[n, 2 * i + 1]
-            runs[DUE, lane], runs[PHASE_AT, lane], runs[TAIL, lane] = -1.0, phase, tail
-            for k in range(COUNTERS):
-                counts[lane, k] = 0.0
-        if members[lane] >= 0:
-            alive += 1
-        else:
-            runs[DUE, lane], runs[MID, lane] = -1.0, 0.0
-    return alive
+            steps += 64
+            owner, slot = owners[n], m.slots[lane]
+            flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
+            if integrals > 0:
+                squares = Squares(potentials[owner], drifts[owner], NO_FORMS)
+            if outcome == march.STOPPED:
+                ended, motion = FINISHED, _motion_of(m.runs, lane)
+                if m.runs[march.STOP, lane] < stages[1]:
+                    _open(flow, squares, motion, stages, lane, m)
+                    m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
+                    m.runs[march.TURNS, lane] = stages[0]
+                    m.runs[march.TRIAL, lane] = m.runs[march.REACH, lane] = 0.0
+                    continue
+            else:
+                ended, motion = _by_events(flow, rates[owner], squares, stages, lane, m)
+            if ended != PAUSED:
+                status[n], m.members[lane] = ended, -1
+                if ended == FINISHED:
+                    for i in range(4):
+                        final[n, 2 * i], final[n, 2 * i + 1] = motion.boxes[i], motion.balls[i]
+                    if integrals > 0:
+                        _read(m, lane)
+                        open_or_close(flow, squares, motion, 1.0, m.seen)
+                        seen[n] = m.seen
 
 
 @unfolded
-def _note(notes, lane, observed, rows, counters, runs):
-    """Record an impact and a flight of a lane."""
-    counters[FLIGHTS] += 1.0
-    counters[EVALUATIONS] += 1.0
-    counters[RESIDUAL] = max(counters[RESIDUAL], notes[MISSED, lane])
-    if not observed:
-        runs[EARLIER, lane] += 1.0
-        return
-    row, wall = rows[int(counters[EVENTS])], notes[HIT, lane]
-    module = abs(wall)
-    row[0], row[1], row[2], row[3] = notes[WHEN, lane], module, wall / module, IMPACT
-    for k in range(8):
-        row[4 + k] = notes[STATE + k, lane]
-    row[PHASE], row[APPROACH], row[SINE], row[COSINE] = (
-        notes[AT, lane],
-        notes[SPEED, lane],
-        notes[SINE_AT, lane],
-        notes[COSINE_AT, lane],
+def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, m):
+    """Put a start into a lane."""
+    owner, slot = owners[n], -1
+    for k in range(WIDTH):
+        if m.owners[k] == owner:
+            slot = k
+    if slot < 0:
+        for k in range(WIDTH):
+            free = True
+            for other in range(WIDTH):
+                free = free and not (m.members[other] >= 0 and m.slots[other] == k)
+            if free:
+                slot = k
+        m.owners[slot], m.made[slot, 0] = owner, True
+        m.made[slot, 1:] = False
+        fill_table(rates[owner], 0, numbers[owner, SPACING], m.series[slot], m.rotations[slot])
+        flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
+        _fill_constants(flow, phases[owner], potentials, drifts, owner, m.kept[slot])
+    m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
+    m.constants[:, lane], m.runs[:, lane] = m.kept[slot], 0.0
+    for i in range(4):
+        m.runs[march.X1 + i, lane], m.runs[march.Y1 + i, lane] = starts[n, 2 * i], starts[n, 2 * i + 1]
+    m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
+    m.runs[march.ALIVE, lane], m.runs[march.DUE, lane], m.runs[march.STOP, lane] = 1.0, -1.0, stages[0]
+    m.runs[march.SINE, lane], m.runs[march.COSINE, lane] = np.sin(phases[owner, 0]), np.cos(phases[owner, 0])
+    if stages[0] == 0 and stages[1] > 0:
+        flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
+        squares = Squares(potentials[owner], drifts[owner], NO_FORMS)
+        _open(flow, squares, _motion_of(m.runs, lane), stages, lane, m)
+
+
+@inlined
+def _motion_of(runs, lane):
+    r, k = runs[:, lane], march.Y1
+    return Motion(
+        (r[0], r[1], r[2], r[3]), (r[k], r[k + 1], r[k + 2], r[k + 3]), (0, 0), (0, 0), r[march.SINE], r[march.COSINE]
     )
-    counters[EVENTS] += 1.0
+
+
+@inlined
+def _open(flow, squares, motion, stages, lane, m):
+    """Begin the observation of a lane."""
+    m.runs[march.STOP, lane], m.runs[march.WATCHED, lane] = stages[1], 1.0
+    m.seen[:] = 0.0
+    open_or_close(flow, squares, motion, -1.0, m.seen)
+    _write(m, lane)
+
+
+@inlined
+def _read(m, lane):
+    for k in range(SEEN):
+        m.seen[k] = m.runs[march.SEEN_AT + k, lane]
+
+
+@inlined
+def _write(m, lane):
+    for k in range(SEEN):
+        m.runs[march.SEEN_AT + k, lane] = m.seen[k]
 
 
 @unfolded
-def _read(runs, lane, where):
-    for k in range(PLACES):
-        where[k] = runs[k, lane]
+def _fill_constants(flow, phase, potentials, drifts, owner, c):
+    """Fill in the constants (CONSTANTS,) of a system."""
+    q = flow.coefficients
+    middle, half = 0.5 * (q.k11 + q.k22), 0.5 * (q.k11 - q.k22)
+    stiff = np.sqrt(middle + np.sqrt(half * half + q.k12 * q.k12))
+    middle, half = 0.5 * (q.c11 + q.c22), 0.5 * (q.c11 - q.c22)
+    rate = stiff + middle + np.sqrt(half * half + q.c12 * q.c12)
+    j = int(march.LONGEST_STEP / max(rate, q.omega) * flow.density)
+    for row in range(4):
+        for k in range(6):
+            c[6 * row + k] = flow.series[0, j, k, ORDERS * (row & 1) + (row >> 1)]
+    c[march.CA], c[march.SA], c[march.STEP] = flow.rotations[j, 0], flow.rotations[j, 1], j * flow.spacing
+    c[march.K11], c[march.K12], c[march.K22], c[march.C11], c[march.C12], c[march.C22] = (
+        q.k11, q.k12, q.k22, q.c11, q.c12, q.c22
+    )  # fmt: skip
+    c[march.F1], c[march.F2], c[march.OMEGA], c[march.EPSILON], c[march.KAPPA] = q.f1, q.f2, q.omega, q.epsilon, q.kappa
+    c[march.IMPULSE], c[march.REST], c[march.GROUND], c[march.DRIVE] = q.impulse, q.impulse_rest, q.ground, q.drive
+    far, w = max(1.0, 1.0 / np.sqrt(q.ground)), q.omega
+    c[march.BEND] = far * rate**4 / 72
+    c[march.BEND_FORCE] = far * q.drive * (rate**3 + rate * rate * w + rate * w * w + w**3) / 72
+    c[march.ROUNDING], c[march.LEAST_ROUNDING] = march.ROUNDED * 6.0 * far, march.ROUNDED * (2.0 + q.shift)
+    c[march.UNIT], c[march.FIRST], c[march.FIRST_TAIL] = flow.unit, phase[0], phase[1]
+    c[march.LOSS] = 0.5 * q.epsilon * q.inverse_mass * (1.0 - q.kappa) * (1.0 + q.kappa)
+    for k in range(drifts.shape[2]):
+        c[march.DRIFTS + k] = drifts[owner, 0, k]
+        for i in range(2):
+            for z in range(6):
+                c[march.FALLS + 12 * k + 6 * i + z] = potentials[owner, 0, k, 2 + i, z]
 
 
 @unfolded
-def _write(where, lane, runs):
-    for k in range(PLACES):
-        runs[k, lane] = where[k]
+def _by_events(flow, rates, squares, stages, lane, m):
+    """Carry the run of a lane on by the event loop until both balls fly and one is on a wall or far from them; return
+    (PAUSED, or the status of the finished run; its motion).
+    """
+    runs, counters, no_times, no_samples = m.runs, m.counters[lane], np.empty(0), np.empty((0, 8))
+    first = m.constants[march.FIRST, lane], m.constants[march.FIRST_TAIL, lane]
+    phase, tail, turns = runs[march.PHASE, lane], runs[march.TAIL, lane], int(runs[march.TURNS, lane])
+    elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / flow.coefficients.omega
+    stalled, due = int(runs[march.STALLED, lane]), int(runs[march.DUE, lane])
+    progress = Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
+    while True:
+        _make_tables(flow, rates, progress, m.made[m.slots[lane]])
+        stop = int(runs[march.STOP, lane])
+        counters[EVENTS] = 0.0
+        leaving = Departure(
+            progress.motion.boxes, progress.motion.balls, progress.motion.walls, progress.elapsed, progress.phase
+        )
+        progress, ended = go_on(
+            flow,
+            progress,
+            first,
+            stop,
+            0.0,
+            no_times,
+            no_samples,
+            Log(m.rows, counters),
+            runs[march.EVENTS, lane],
+            np.int64(0),
+        )
+        noted, motion = int(counters[EVENTS]), progress.motion
+        runs[march.EVENTS, lane] += noted
+        if runs[march.WATCHED, lane] > 0.0:
+            _read(m, lane)
+            observe(flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.seen)
+            _write(m, lane)
+        motion = Motion(
+            motion.boxes, motion.balls, motion.walls, (0, 0), np.sin(progress.phase), np.cos(progress.phase)
+        )
+        if ended == FINISHED and stop < stages[1]:
+            _open(flow, squares, motion, stages, lane, m)
+        elif ended != PAUSED or mode_of(motion.walls) == 0:
+            break
+    for i in range(4):
+        runs[march.X1 + i, lane], runs[march.Y1 + i, lane] = motion.boxes[i], motion.balls[i]
+    runs[march.PHASE, lane], runs[march.TAIL, lane], runs[march.TURNS, lane] = (
+        progress.phase, progress.tail, progress.revolutions
+    )  # fmt: skip
+    runs[march.SINE, lane], runs[march.COSINE, lane] = motion.sine, motion.cosine
+    runs[march.DUE, lane], runs[march.STALLED, lane] = progress.due, progress.stalled
+    runs[march.TRIAL, lane] = runs[march.REACH, lane] = runs[march.PASSED, lane] = 0.0
+    runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = 0.0
+    return ended, motion
+
+
+@unfolded
+def _make_tables(flow, rates, progress, made):
+    """Make the tables of the contact states that the next events can lead to."""
+    motion = progress.motion
+    modes = mode_of(motion.walls)
+    for i in range(2):
+        near = abs(motion.boxes[i] - motion.balls[i]) > 1.0 - NEAR
+        modes |= (1 << i) if near or progress.due == i else 0
+    for mode in range(4):
+        if mode | modes == modes and not made[mode]:
+            fill_table(rates, mode, flow.spacing, flow.series, flow.rotations)
+            made[mode] = True

@@ -192,7 +192,9 @@ def integrate(
     else:
         progress = kept_progress(where)
     log = Log(rows, counters)
-    progress, status = go_on(flow, progress, (phase, tail), cycles, start, times, samples, log, where[EARLIER], SPELL)
+    progress, status = go_on(
+        flow, progress, (phase, tail), cycles, start, times, samples, log, where[EARLIER], np.int64(SPELL)
+    )
     if status == FINISHED:
         pack(progress.motion.boxes, progress.motion.balls, final)
     keep_progress(progress, where)

@@ -6,7 +6,6 @@ enough to be exact to rounding. No eigenvalues are used, so repeated, defective,
 resonant spectra are no exception.
 """
 
-from decimal import Decimal, localcontext
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -14,9 +13,8 @@ import numpy as np
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from vibroimpact.exact.engine.compiled import inlined, unfolded
-from vibroimpact.exact.engine.flow_tables import ORDERS, tables
+from vibroimpact.exact.engine.flow_tables import ORDERS, exact_rates, tables
 from vibroimpact.exact.engine.lanes import weighted_sum
-from vibroimpact.system.matrices import damping_matrix, stiffness_matrix
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
 """Sticking of both balls, in the order of the tables: index = stuck_1 + 2 stuck_2."""
@@ -73,69 +71,51 @@ class Flow(NamedTuple):
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
 """Numbers packed by `tables_of`: the coefficients, and the fields of Flow behind its arrays."""
+SHIFT, SPACING, LONGEST = Coefficients._fields.index("shift"), SCALARS, SCALARS + 2
+PARAMETERS = (
+    *("epsilon", "kappa", "alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"),
+    *("sigma20_hat", "Omega", "f10_hat", "f20_hat"),
+)
+
+
+def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the numbers of flows with tables of so many times, (n, NUMBERS), and their `exact_rates`.
+
+    The shift is a bound: the force adds no more than its time integral to the square root of twice the boxes' energy.
+    """
+    parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
+    rates, impulses = exact_rates(parameters)
+    e = parameters[:, 0]
+    k12, c1, c2, c12, f1, f2 = e * parameters[:, [2, 3, 4, 5, 8, 9]].T
+    ground, omega = 1.0 + e * parameters[:, 6], parameters[:, 7]
+    stiffness = np.array([[1.0 + k12, -k12], [-k12, ground + k12]])
+    damping = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
+    stiff, damped = (np.linalg.norm(matrix, 2, axis=(0, 1)) for matrix in (stiffness, damping))
+    fastest = np.maximum(np.maximum(1.0, omega), np.maximum(np.sqrt(stiff), damped))
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    drive, longest = np.hypot(f1, f2), spacing * (count - 1)
+    numbers = [
+        *(stiffness[0, 0], stiffness[0, 1], stiffness[1, 1], ground, damping[0, 0], damping[0, 1], damping[1, 1]),
+        *(f1, f2, omega, e, parameters[:, 1], drive, drive * omega**6, drive * longest * farthest(ground)),
+        *(1.0 + e, 1.0 / (1.0 + e), *impulses.T, spacing, 1.0 / spacing, longest, 1.0 / fastest),
+    ]
+    return np.array(numbers).T.copy(), rates
+
+
+def farthest(ground):
+    """Return the largest displacement of a box per square root of twice the energy of both."""
+    return np.maximum(1.0, 1.0 / np.sqrt(ground))
 
 
 @lru_cache(maxsize=64)
 def flow_of(system) -> Flow:
     """Return the flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
-    stiffness, damping, force = stiffness_matrix(system), damping_matrix(system), system.forcing
-    fastest = max(1.0, system.Omega, np.sqrt(np.linalg.norm(stiffness, 2)), np.linalg.norm(damping, 2))
-    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
-    count = min(LONGEST_TABLE, int(np.ceil(system.period / spacing)) + 1)
-    series, rotations = tables(_rates(system), spacing, count)
-    coefficients = Coefficients(
-        *(float(v) for v in (stiffness[0, 0], stiffness[0, 1], stiffness[1, 1])),
-        system.stiffness2,
-        *(float(v) for v in (damping[0, 0], damping[0, 1], damping[1, 1])),
-        float(force[0]),
-        float(force[1]),
-        system.Omega,
-        system.epsilon,
-        system.kappa,
-        float(np.hypot(*force)),
-        float(np.hypot(*force)) * system.Omega**6,
-        float(np.abs(series[:, :, 4:, ::ORDERS]).max()),
-        1.0 + system.epsilon,
-        1.0 / (1.0 + system.epsilon),
-        *_impulse(system),
-    )
-    return Flow(
-        coefficients,
-        series,
-        rotations,
-        spacing,
-        1.0 / spacing,
-        spacing * (count - 1),
-        1.0 / fastest,
-    )
-
-
-def _rates(system):
-    """Return rate matrices of the contact states in pairs (2, 4, 6, 6): floats next to the exact entries, and the rest.
-
-    Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
-    """
-    names = "epsilon", "alpha12_hat", "sigma20_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "f10_hat", "f20_hat"
-    rates = np.zeros((2, len(CONTACT_STATES), 6, 6))
-    rates[0, :, [0, 1], [2, 3]], rates[0, :, 4, 5], rates[0, :, 5, 4] = 1.0, system.Omega, -system.Omega
-    with localcontext(prec=50):
-        e, *hatted = (Decimal(getattr(system, name)) for name in names)
-        a, detuning, d1, d2, d, f1, f2 = (e * value for value in hatted)
-        for i, row in enumerate([[-1 - a, a, -d1 - d, d, f1], [a, -1 - detuning - a, d, -d2 - d, f2]]):
-            for stuck, mass in enumerate((Decimal(1), 1 + e)):
-                exact = [force / mass for force in row]
-                nearest = [float(x) for x in exact]
-                rest = [float(x - Decimal(near)) for x, near in zip(exact, nearest, strict=True)]
-                for mode in (mode for mode, sticking in enumerate(CONTACT_STATES) if sticking[i] == stuck):
-                    rates[:, mode, 2 + i, :5] = nearest, rest
-    return rates
-
-
-def _impulse(system):
-    """Return the change of a ball's velocity at an impact per unit of relative velocity: a float and the rest."""
-    with localcontext(prec=50):
-        exact = (1 + Decimal(system.kappa)) / (1 + Decimal(system.epsilon))
-        return float(exact), float(exact - Decimal(float(exact)))
+    (numbers,), (rates,) = numbers_of([system], 2)
+    count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
+    series, rotations = tables(rates, numbers[SPACING], count)
+    numbers[LONGEST] = numbers[SPACING] * (count - 1)
+    numbers[SHIFT] = np.abs(series[:, :, 4:, ::ORDERS]).max()
+    return Flow(Coefficients(*numbers[:SCALARS].tolist()), series, rotations, *numbers[SCALARS:].tolist())
 
 
 @lru_cache(maxsize=64)

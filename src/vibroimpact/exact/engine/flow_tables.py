@@ -15,6 +15,56 @@ ORDERS = 8  # of the Taylor polynomials
 
 
 @compiled
+def exact_rates(parameters):
+    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat, the rate matrices of its contact states in pairs, (n, 2, 4, 6, 6):
+    floats next to the exact entries, and the rest; and the change of a ball's velocity at an impact per unit of relative
+    velocity, (n, 2).
+
+    Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
+    """
+    n = len(parameters)
+    rates, impulses = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2))
+    for k in range(n):
+        e, kappa, coupling, d1, d2, d, detuning, omega, f1, f2 = parameters[k]
+        mass, mass_low = _sum(1.0, 0.0, e, 0.0)
+        one, one_low = _sum(1.0, 0.0, kappa, 0.0)
+        impulses[k, 0], impulses[k, 1] = _ratio(one, one_low, mass, mass_low)
+        rows = np.empty((2, 2, 5))
+        for i in range(2):
+            other = 1 - i
+            _put(rows, i, i, -1.0, e, -coupling, -detuning if i == 1 else 0.0)
+            _put(rows, i, other, 0.0, e, coupling, 0.0)
+            _put(rows, i, 2 + i, 0.0, e, -d, -d2 if i == 1 else -d1)
+            _put(rows, i, 2 + other, 0.0, e, d, 0.0)
+            _put(rows, i, 4, 0.0, e, f2 if i == 1 else f1, 0.0)
+        for mode in range(4):
+            rates[k, 0, mode, 0, 2] = rates[k, 0, mode, 1, 3] = 1.0
+            rates[k, 0, mode, 4, 5], rates[k, 0, mode, 5, 4] = omega, -omega
+            for i in range(2):
+                for j in range(5):
+                    high, low = rows[0, i, j], rows[1, i, j]
+                    if mode >> i & 1:
+                        high, low = _ratio(high, low, mass, mass_low)
+                    rates[k, 0, mode, 2 + i, j], rates[k, 1, mode, 2 + i, j] = high, low
+    return rates, impulses
+
+
+@unfolded
+def _put(rows, i, j, base, e, first, second):
+    """Set an entry to base + e (first + second), in pairs."""
+    high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
+    high, low = _plus_product(high, low, e, 0.0, second, 0.0)
+    rows[0, i, j], rows[1, i, j] = _normal(high, low)
+
+
+@inlined
+def _ratio(high, low, other, other_low):
+    """Return the quotient of two pairs."""
+    quotient = high / other
+    rest = (fused(-quotient, other, high) + (low - quotient * other_low)) / other
+    return _normal(quotient, rest)
+
+
 def tables(rates, spacing, count):
     """Return tables at the times j h, j < count, for rate matrices A in pairs (2, k, 6, 6), z' = A z.
 
@@ -25,20 +75,27 @@ def tables(rates, spacing, count):
     phase, (count, 2).
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
+    for mode in range(rates.shape[1]):
+        fill_table(rates, mode, spacing, series, rotations)
+    return series, rotations
+
+
+@compiled
+def fill_table(rates, mode, spacing, series, rotations):
+    """Fill in series[mode] and the rotations of `tables`."""
+    count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
-    for k in range(rates.shape[1]):
-        _fill_unit(power, 0)
-        _fill_exponential(rates, k, spacing, power, one, other)
-        last = np.intp(1)  # not the literal, for which `_entries` would be compiled once more
-        while last < count - 1:
-            _multiply(power, last, min(last, count - 1 - last))
-            last *= 2
-        _fill_coefficients(rates, k, coefficients, one, other)
-        _expand(coefficients, power, series, k)
+    _fill_unit(power, 0)
+    _fill_exponential(rates, mode, spacing, power, one, other)
+    last = np.intp(1)  # not the literal, for which `_entries` would be compiled once more
+    while last < count - 1:
+        _multiply(power, last, min(last, count - 1 - last))
+        last *= 2
+    _fill_coefficients(rates, mode, coefficients, one, other)
+    _expand(coefficients, power, series, mode)
     for j in range(count):
         rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
-    return series, rotations
 
 
 @unfolded

@@ -221,17 +221,6 @@ def _pointer(context, builder, signed, args):
 
 
 @intrinsic
-def some(_, mask):
-    """Return True if any lane of a mask is true."""
-
-    def generate(context, builder, signed, args):
-        bits = builder.bitcast(args[0], ir.IntType(WIDTH))
-        return builder.icmp_unsigned("!=", bits, ir.IntType(WIDTH)(0))
-
-    return types.boolean(mask), generate
-
-
-@intrinsic
 def count(_, mask):
     """Return in how many lanes a mask is true."""
 
@@ -240,56 +229,3 @@ def count(_, mask):
         return builder.zext(builder.ctpop(bits), ir.IntType(64))
 
     return types.intp(mask), generate
-
-
-@intrinsic
-def entries(_, table, j, k):
-    """Return table[j, k] in each lane, at its own j."""
-
-    def generate(context, builder, signed, args):
-        array = context.make_array(signed.args[0])(context, builder, args[0])
-        places, values = builder.fptosi(args[1], ir.VectorType(ir.IntType(64), WIDTH)), NOTHING
-        for lane in range(WIDTH):
-            place = builder.extract_element(places, ir.IntType(32)(lane))
-            pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [place, args[2]])
-            values = builder.insert_element(values, builder.load(pointer), ir.IntType(32)(lane))
-        return values
-
-    return LANES(table, j, types.intp), generate
-
-
-@intrinsic
-def weighted_sums(_, table, mode, j, weights):
-    """Return `weighted_sum` in each lane, at its own j, as two tuples of eight."""
-    eight = types.UniTuple(LANES, WIDTH)
-
-    def generate(context, builder, signed, args):
-        array = context.make_array(signed.args[0])(context, builder, args[0])
-        zero, count = context.get_constant(types.intp, 0), signed.args[3].count
-        weights = [builder.extract_value(args[3], m) for m in range(count)]
-        places = builder.fptosi(args[2], ir.VectorType(ir.IntType(64), WIDTH))
-        sums = [[], []]
-        for lane in range(WIDTH):
-            place = builder.extract_element(places, ir.IntType(32)(lane))
-            start = cgutils.get_item_pointer(context, builder, signed.args[0], array, [args[1], place, zero, zero])
-            spread = [builder.shuffle_vector(w, NOTHING, INDICES([lane] * WIDTH)) for w in weights]
-            for half in range(2):
-                rows = [row_at(context, builder, start, 2 * m + half) for m in range(count)]
-                sums[half].append(weighted(builder, rows, spread))
-        halves = [context.make_tuple(builder, eight, _transposed(builder, rows)) for rows in sums]
-        return context.make_tuple(builder, signed.return_type, halves)
-
-    return types.UniTuple(eight, 2)(table, types.intp, j, weights), generate
-
-
-def _transposed(builder, rows):
-    """Return the transpose of eight vectors: blocks are swapped, of four, two and one."""
-    rows = list(rows)
-    for step in (4, 2, 1):
-        for i in (i for i in range(WIDTH) if not i & step):
-            a, b = rows[i], rows[i + step]
-            first = [k if not k & step else k - step + WIDTH for k in range(WIDTH)]
-            other = [k + step if not k & step else k + WIDTH for k in range(WIDTH)]
-            rows[i] = builder.shuffle_vector(a, b, INDICES(first))
-            rows[i + step] = builder.shuffle_vector(a, b, INDICES(other))
-    return rows

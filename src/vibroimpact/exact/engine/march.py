@@ -1,86 +1,134 @@
-"""Prototype."""
+"""Free flights of eight runs of any systems side by side, and their plain impacts.
+
+Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`). A step is proved free of an impact by
+the hull of a cubic polynomial. The position w of a ball relative to its box and the rate r at both ends, w, r and w', r',
+make Hermite's polynomial; it lies within its Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on
+the fourth derivative it is wrong by at most B h^4 s^2 (1 - s)^2 / 24 at s h, no more than lowering the two coefficients
+in the middle by B h^4 / 72 takes away. B follows from the energy of the boxes, which grows no faster than by the force.
+
+Lanes whose step is not proved wait until there are enough of them for a pass (`meet`): the Taylor polynomials of both
+boxes give the time of an impact, and the same hull proves the flight until then; or they give where a box turns. A
+proof that fails is tried again over half the time. What is not plain (chatter low enough to be completed, balls at rest,
+two events at once, any doubt) is left to the event loop.
+"""
 
 import math
 
-import numpy as np
+from vibroimpact.exact.engine.compiled import in_place, inlined
+from vibroimpact.exact.engine.contact import LOW
+from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD
+from vibroimpact.exact.engine.lanes import count, load, store, where
+from vibroimpact.exact.engine.observation import IMPACTS, INTEGRALS, LARGEST, LOST, PATH, SEEN
+from vibroimpact.exact.engine.phase import (
+    QUARTER,
+    QUARTER_TAIL,
+    TWO_PI,
+    TWO_PI_TAIL,
+    ahead,
+    fused,
+    reduced,
+    sine_and_cosine_near,
+)
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded, in_place
-from vibroimpact.exact.engine.lanes import count, load, store, where, WIDTH, some
-from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, QUARTER, QUARTER_TAIL, ahead, fused, reduced, sine_and_cosine_near
+X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
+PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
+PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, SEEN_AT = range(18, 28)
+STATES = SEEN_AT + SEEN
+"""Rows of the runs, (STATES, 8): boxes, balls, sine and cosine of the forcing phase after a number of steps; the time
+passed since the flight began, and its end; the length of the next step (0: begin a flight, -1: leave it to the event
+loop); a bound on the boxes' energy, the bound for Bernstein's coefficients; the walls that the balls leave; the module
+that is on a wall, or -1; the phase at the beginning of the flight, revolutions, and those at the end of the run; whether
+there is a run, whether it is observed; its events, its flights without progress; what a pass did; its statistics."""
 
-(X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE, LIMIT, PASSED, REACH, TOUCH1, TOUCH2, TRIAL, DUE, PHASE, TAIL, TURNS,
- SIZE, ALIVE, STOP, OUTCOME, EVENTS, LARGEST1, LARGEST2, WATCHED, HITS1, HITS2, PATH1, PATH2, SQUARE1, SQUARE2, STATES) = range(35)
-P = 0
-(CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE, BEND, BEND0,
- ROUND, ROUND0, FIRST, FIRST_TAIL, UNIT, INVERSE, DRIFT1, DRIFT2) = range(24, 52)
-POTENTIAL = 52  # 2 x 2 x 6
-CONSTANTS = POTENTIAL + 24
-ORDER = 14
-NONE, DONE, STOPPED, DOUBT = 0.0, 1.0, 2.0, 3.0
-EPS = 4.0 * 2.0**-52
-LOW = 1e-12
-LONGEST = 6.0
-CONV = 1e-8
+CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
+BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
+CONSTANTS = FALLS + 12 * (SEEN - INTEGRALS)
+"""Rows of the constants, (CONSTANTS, 8), of the system of each run: exp(A h), four rows of six; cosine and sine of Omega
+h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
+impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
+
+NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
+"""What a pass did in a lane: DOUBTFUL asks for the event loop."""
+
+ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
+LONGEST_STEP = 0.45  # over the largest rate of boxes and forcing
+SHORTEST = 1 / 32  # of a step, over which a proof is tried
+LONGEST = 6.0  # after which the sine and cosine of the phase are computed anew
+ROUNDED = 8.0 * 2.0**-52
+SAME_TIME = 2.0**-48
 
 
 @inlined
-def least(a, b):
+def _least(a, b):
     return where(a < b, a, b)
 
 
 @inlined
-def most(a, b):
+def _most(a, b):
     return where(a > b, a, b)
 
 
 @inlined
-def row(c, k, x1, x2, v1, v2, s, k_):
-    t = fused(load(c, k + 5), k_, load(c, k + 4) * s)
-    u = fused(load(c, k + 3), v2, load(c, k + 2) * v1)
-    w = fused(load(c, k + 1), x2, load(c, k) * x1)
-    return w + (u + t)
+def _product(c, k, x1, x2, v1, v2, s, cosine):
+    """Return a row of six constants times [X1, X2, X1', X2', sin, cos]."""
+    boxes = fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
+    return boxes + fused(load(c, k + 5), cosine, load(c, k + 4) * s)
 
 
 @inlined
-def inside(limit, w, rate, w1, rate1, third):
-    """Return True where the relative position stays within the walls by the hull."""
-    return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate1, w1)) <= limit)
+def _inside(limit, w, rate, later, rate_later, third):
+    """Return True where the Bernstein coefficients in the middle are within a limit; third: of the time."""
+    return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
+
+
+@inlined
+def _may_turn_beyond(most, x, v, later, v_later, third):
+    """Return True where a box turns in a step and may be farther from rest than most."""
+    return (v * v_later < 0.0) & (_most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > most)
 
 
 @in_place
 def march(runs, c, enough):
-    """Carry all lanes on until so many are pending."""
+    """Carry runs (STATES, 8) with constants (CONSTANTS, 8) on until so many have a step that is not proved; return the
+    number of steps.
+    """
     x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
     y1, y2, u1, u2 = load(runs, Y1), load(runs, Y2), load(runs, U1), load(runs, U2)
-    s, k = load(runs, SINE), load(runs, COSINE)
-    limit, passed, reach = load(runs, LIMIT), load(runs, PASSED), load(runs, REACH)
-    large1, large2 = load(runs, LARGEST1), load(runs, LARGEST2)
-    alive = load(runs, ALIVE) > 0.0
-    ready = (load(runs, TRIAL) == load(c, STEP)) & (load(runs, DUE) < 0.0)
-    step, third = load(c, STEP), load(c, STEP) * (1 / 3)
-    less = (load(c, BEND) * ((step * step) * (step * step)) + load(c, ROUND)) * load(c, DRIVE) * step
+    s, k, limit, passed = load(runs, SINE), load(runs, COSINE), load(runs, LIMIT), load(runs, PASSED)
+    step, third, reach = load(c, STEP), load(c, STEP) * (1 / 3), load(runs, REACH)
+    alive, watched = load(runs, ALIVE) > 0.0, load(runs, WATCHED) > 0.0
+    ready = (load(runs, TRIAL) == step) & (load(runs, DUE) < 0.0)
+    most1 = where(watched, load(runs, SEEN_AT + LARGEST), math.inf)
+    most2 = where(watched, load(runs, SEEN_AT + LARGEST + 1), math.inf)
+    square = step * step
+    less = fused(load(c, BEND), square * square, load(c, ROUNDING)) * (load(c, DRIVE) * step)
+    ca, sa = load(c, CA), load(c, SA)
     w1, w2, r1, r2 = x1 - y1, x2 - y2, v1 - u1, v2 - u2
     steps = 0
     while True:
-        a1, a2 = row(c, 0, x1, x2, v1, v2, s, k), row(c, 6, x1, x2, v1, v2, s, k)
-        b1, b2 = row(c, 12, x1, x2, v1, v2, s, k), row(c, 18, x1, x2, v1, v2, s, k)
+        a1, a2 = _product(c, 0, x1, x2, v1, v2, s, k), _product(c, 6, x1, x2, v1, v2, s, k)
+        b1, b2 = _product(c, 12, x1, x2, v1, v2, s, k), _product(c, 18, x1, x2, v1, v2, s, k)
         z1, z2 = fused(step, u1, y1), fused(step, u2, y2)
-        q1, q2, o1, o2 = a1 - z1, a2 - z2, b1 - u1, b2 - u2
-        later = passed + step
-        ok = ready & (later <= reach) & (abs(q1) <= 1.0 - 1e-13) & (abs(q2) <= 1.0 - 1e-13)
-        ok = ok & inside(limit, w1, r1, q1, o1, third) & inside(limit, w2, r2, q2, o2, third)
-        turns1 = (v1 * b1 <= 0.0) & (most(abs(fused(third, v1, x1)), abs(fused(-third, b1, a1))) >= large1)
-        turns2 = (v2 * b2 <= 0.0) & (most(abs(fused(third, v2, x2)), abs(fused(-third, b2, a2))) >= large2)
-        ok = ok & ~(turns1 | turns2)
+        q1, q2, o1, o2, later = a1 - z1, a2 - z2, b1 - u1, b2 - u2, passed + step
+        ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
+        ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
+        turns = _may_turn_beyond(most1, x1, v1, a1, b1, third) | _may_turn_beyond(most2, x2, v2, a2, b2, third)
+        ok = ok & ~turns
         if count(alive & ~ok) >= enough:
             break
-        ca, sa = load(c, CA), load(c, SA)
         s, k = where(ok, fused(k, sa, s * ca), s), where(ok, fused(k, ca, -s * sa), k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
-        y1, y2 = where(ok, z1, y1), where(ok, z2, y2)
+        y1, y2, passed, limit = (
+            where(ok, z1, y1),
+            where(ok, z2, y2),
+            where(ok, later, passed),
+            where(ok, limit - less, limit),
+        )
         w1, w2, r1, r2 = where(ok, q1, w1), where(ok, q2, w2), where(ok, o1, r1), where(ok, o2, r2)
-        passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
         steps += 1
+    moved = passed > load(runs, PASSED)
+    store(runs, TOUCH1, where(moved, 0.0, load(runs, TOUCH1)))
+    store(runs, TOUCH2, where(moved, 0.0, load(runs, TOUCH2)))
     store(runs, X1, x1)
     store(runs, X2, x2)
     store(runs, V1, v1)
@@ -89,45 +137,179 @@ def march(runs, c, enough):
     store(runs, Y2, y2)
     store(runs, SINE, s)
     store(runs, COSINE, k)
-    moved = passed > load(runs, PASSED)
     store(runs, LIMIT, limit)
     store(runs, PASSED, passed)
-    store(runs, TOUCH1, where(moved, 0.0, load(runs, TOUCH1)))
-    store(runs, TOUCH2, where(moved, 0.0, load(runs, TOUCH2)))
-    store(runs, OUTCOME, where(alive & ~ok, 1.0, 0.0))
+    store(runs, OUTCOME, where(alive & ~ok, DONE, NOTHING))
     return steps
 
 
+@in_place
+def meet(runs, c, work, integrals):
+    """Carry pending runs over a step, to an impact or to the end of their flight; return how many must leave the lanes.
+
+    work (2 ORDER + 2, 8): room for polynomials; integrals: how many are observed.
+    """
+    pending, n = load(runs, OUTCOME) == DONE, ORDER + 1
+    x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
+    y1, y2, u1, u2 = load(runs, Y1), load(runs, Y2), load(runs, U1), load(runs, U2)
+    passed, reach, trial, due = load(runs, PASSED), load(runs, REACH), load(runs, TRIAL), load(runs, DUE)
+    step, drive, kappa = load(c, STEP), load(c, DRIVE), load(c, KAPPA)
+    leaves = trial < 0.0
+    on_wall = (due >= 0.0) & ~leaves
+    _expand(c, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE), work)
+
+    # when the first ball meets a wall, if it does
+    until = _least(_most(trial, 0.0), reach - passed)
+    a1 = _product(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE)) - fused(step, u1, y1)
+    a2 = _product(c, 6, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE)) - fused(step, u2, y2)
+    wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
+    t1 = where(abs(a1) >= 1.0, _about(work, 0, load(runs, TOUCH1) == wall1, wall1, y1, u1, step), math.inf)
+    t2 = where(abs(a2) >= 1.0, _about(work, n, load(runs, TOUCH2) == wall2, wall2, y2, u2, step), math.inf)
+    one = where(on_wall, due, where(t1 <= t2, 0.0, 1.0)) == 0.0
+    wall, soonest = where(one, wall1, wall2), _least(t1, t2)
+    ball, rate = where(one, y1, y2), where(one, u1, u2)
+    near = where(where(one, load(runs, TOUCH1), load(runs, TOUCH2)) == wall, 0.0, where(one, x1, x2) - ball - wall)
+    t, found = _sharp(work, one, near, where(one, v1, v2) - rate, soonest)
+    found = found & (soonest <= step) & (t > 0.0) & (t <= until)
+    missed = (soonest <= until) & ~found
+    t = where(on_wall, 0.0, where(found, t, until))
+
+    # the flight until then, and its proof
+    b1, d1 = _at(work, 0, t)
+    b2, d2 = _at(work, n, t)
+    z1, z2, time = fused(t, u1, y1), fused(t, u2, y2), passed + t
+    size, square, third = fused(time, drive, load(runs, SIZE)), t * t, t * (1 / 3)
+    rounding = _rounding(c, size, u1, u2)
+    limit = 1.0 - fused(fused(load(c, BEND), size, load(c, BEND_FORCE)), square * square, rounding)
+    meets = found | on_wall
+    meets1, meets2 = meets & one, meets & ~one
+    ok = _inside(limit, x1 - y1, v1 - u1, where(meets1, wall1, b1 - z1), d1 - u1, third)
+    ok = ok & _inside(limit, x2 - y2, v2 - u2, where(meets2, wall2, b2 - z2), d2 - u2, third)
+    ok = (ok & ~missed) | (t == 0.0)
+    ok = ok & (meets1 | (abs(b1 - z1) <= 1.0 - rounding)) & (meets2 | (abs(b2 - z2) <= 1.0 - rounding))
+
+    # the impact
+    wall = where(on_wall, where(where(one, b1 - z1, b2 - z2) > 0.0, 1.0, -1.0), wall)
+    before, rate = where(one, d1, d2), where(one, u1, u2)
+    approach = before - rate
+    gained = fused(load(c, IMPULSE), approach, load(c, REST) * approach)
+    heavy, lower = load(c, EPSILON) > 1.0, fused(-load(c, EPSILON), gained, before)
+    ball = where(heavy, rate + gained, fused(kappa, approach, lower))
+    box = where(heavy, fused(-kappa, approach, ball), lower)
+    plain = wall * approach > ROUNDED * (abs(before) + abs(rate))
+    plain = plain & (kappa * abs(approach) > ROUNDED * (abs(approach) + abs(box) + abs(ball)))
+    e1, e2 = where(meets1, box, d1), where(meets2, box, d2)
+    o1, o2 = where(meets1, ball, u1), where(meets2, ball, u2)
+
+    # the next flight
+    phase, tail = ahead(load(runs, PHASE), load(runs, TAIL), load(c, OMEGA), time)
+    full, (less, rest) = phase >= TWO_PI, reduced(phase, tail)
+    phase, tail, turns = where(full, less, phase), where(full, rest, tail), load(runs, TURNS)
+    turns = where(full, turns + 1.0, turns)
+    s, k = _sine_and_cosine(phase, tail)
+    whole, since = load(runs, STOP) - turns, (phase - load(c, FIRST)) + (tail - load(c, FIRST_TAIL))
+    left = (whole * TWO_PI - since + whole * TWO_PI_TAIL) / load(c, OMEGA)
+    force1 = load(c, F1) * s - load(c, K11) * b1 - load(c, K12) * b2 - load(c, C11) * e1 - load(c, C12) * e2
+    force2 = load(c, F2) * s - load(c, K12) * b1 - load(c, K22) * b2 - load(c, C12) * e1 - load(c, C22) * e2
+    push, inward = wall * where(one, force1, force2), -wall * (box - ball)
+    soon = 4.0 * inward <= push * (1.0 - kappa) * _least(left, LOOKAHEAD * load(c, UNIT))
+    plain = plain & ~(soon & (inward * inward <= 2.0 * push * (LOW + 4.0 * rounding)))
+
+    there = pending & (ok | leaves)
+    impact, doubt = there & meets & plain & ~leaves, there & meets & ~plain & ~leaves
+    again = pending & ~there & (t > SHORTEST * step)
+    stops = there & ~meets & ~leaves & (time >= reach) & (left <= SAME_TIME)
+    if integrals > 0:
+        _observe(
+            runs,
+            c,
+            work,
+            integrals,
+            there,
+            impact & one,
+            impact & ~one,
+            t,
+            time,
+            (v1, v2),
+            (b1, b2),
+            (d1, d2),
+            (e1, e2),
+            (u1, u2),
+            (s, k),
+        )
+    e1, e2, o1, o2 = where(doubt, d1, e1), where(doubt, d2, e2), where(doubt, u1, o1), where(doubt, u2, o2)
+    put = where(one, b1, b2) - wall
+    z1, z2 = where(impact & one, put, z1), where(impact & ~one, put, z2)
+    across, energy = b1 - b2, fused(b1, b1, load(c, GROUND) * (b2 * b2))
+    size = math.sqrt(fused(e1, e1, e2 * e2) + fused(-load(c, K12), across * across, energy))
+    ahead_of_it, square = fused(drive, step, size), step * step
+    bend = fused(load(c, BEND), ahead_of_it, load(c, BEND_FORCE))
+    limit = 1.0 - fused(bend, square * square, _rounding(c, ahead_of_it, o1, o2))
+    _replace(runs, there, X1, b1)
+    _replace(runs, there, X2, b2)
+    _replace(runs, there, V1, e1)
+    _replace(runs, there, V2, e2)
+    _replace(runs, there, Y1, z1)
+    _replace(runs, there, Y2, z2)
+    _replace(runs, there, U1, o1)
+    _replace(runs, there, U2, o2)
+    _replace(runs, there, SINE, s)
+    _replace(runs, there, COSINE, k)
+    _replace(runs, there, PASSED, 0.0)
+    _replace(runs, there, REACH, _least(left, LONGEST))
+    _replace(runs, pending, TRIAL, where(there, step, where(again, 0.5 * t, -1.0)))
+    _replace(runs, there, SIZE, size)
+    _replace(runs, there, LIMIT, limit)
+    _replace(runs, there & (t > 0.0), TOUCH1, 0.0)
+    _replace(runs, there & (t > 0.0), TOUCH2, 0.0)
+    _replace(runs, impact & one, TOUCH1, wall)
+    _replace(runs, impact & ~one, TOUCH2, wall)
+    _replace(runs, there, DUE, where(doubt, where(one, 0.0, 1.0), where(leaves, due, -1.0)))
+    _replace(runs, there, PHASE, phase)
+    _replace(runs, there, TAIL, tail)
+    _replace(runs, there, TURNS, turns)
+    _replace(runs, impact, EVENTS, load(runs, EVENTS) + 1.0)
+    _replace(runs, there & (time > 0.0), STALLED, 0.0)
+    out = doubt | (there & leaves)
+    store(runs, OUTCOME, where(out, DOUBTFUL, where(stops, STOPPED, NOTHING)))
+    return count(out | stops)
+
+
 @inlined
-def expand(c, x1, x2, v1, v2, s, k, work):
-    """Write the Taylor coefficients of both boxes, orders 0 to ORDER, in work (2 ORDER + 2, 8)."""
-    n = ORDER + 1
-    k11, k12, k22, c11, c12, c22 = load(c, K11), load(c, K12), load(c, K22), load(c, C11), load(c, C12), load(c, C22)
+def _replace(runs, mask, row, value):
+    store(runs, row, where(mask, value, load(runs, row)))
+
+
+@inlined
+def _rounding(c, size, u1, u2):
+    """Return a bound on the rounding of the gaps of a flight."""
+    return fused(load(c, ROUNDING), size, load(c, LEAST_ROUNDING)) + ROUNDED * (abs(u1) + abs(u2))
+
+
+@inlined
+def _expand(c, x1, x2, v1, v2, s, k, work):
+    """Write the Taylor coefficients of both boxes, orders 0 to ORDER each."""
+    n, omega = ORDER + 1, load(c, OMEGA)
     store(work, 0, x1)
     store(work, 1, v1)
     store(work, n, x2)
     store(work, n + 1, v2)
-    f1, f2, omega = load(c, F1), load(c, F2), load(c, OMEGA)
-    f1s, f2s, fall = f1 * s, f2 * s, -(omega * omega)
-    g1s, g2s = f1 * (omega * k), f2 * (omega * k)
+    f1, f2, g1, g2 = load(c, F1) * s, load(c, F2) * s, load(c, F1) * (omega * k), load(c, F2) * (omega * k)
+    k11, k12, k22, fall = -load(c, K11), -load(c, K12), -load(c, K22), -(omega * omega)
+    c11, c12, c22 = load(c, C11), load(c, C12), load(c, C22)
     for m in range(2, n):
-        over = 1.0 / (m * (m - 1))
-        e1 = fused(-k11, x1, fused(-k12, x2, f1s)) - fused(c11, v1, c12 * v2) * (m - 1)
-        e2 = fused(-k12, x1, fused(-k22, x2, f2s)) - fused(c12, v1, c22 * v2) * (m - 1)
-        x1, x2, v1, v2 = v1, v2, e1 * over, e2 * over
-        f1s, f2s, g1s, g2s = g1s, g2s, f1s * (fall * over), f2s * (fall * over)
+        over = 1.0 / (m * (m - 1.0))
+        a1 = fused(1.0 - m, fused(c11, v1, c12 * v2), fused(k11, x1, fused(k12, x2, f1)))
+        a2 = fused(1.0 - m, fused(c12, v1, c22 * v2), fused(k12, x1, fused(k22, x2, f2)))
+        x1, x2, v1, v2 = v1, v2, a1 * over, a2 * over
+        f1, f2, g1, g2 = g1, g2, f1 * (fall * over), f2 * (fall * over)
         store(work, m, v1)
         store(work, n + m, v2)
 
 
 @inlined
-def expand_scaled_check():
-    pass
-
-
-@inlined
-def polynomial(work, first, t):
-    """Return value and slope at t of the polynomial (ORDER + 1) at a place."""
+def _at(work, first, t):
+    """Return a polynomial and its derivative at t."""
     value, slope = load(work, first + ORDER), 0.0 * t
     for m in range(ORDER - 1, -1, -1):
         slope = fused(slope, t, value)
@@ -136,14 +318,14 @@ def polynomial(work, first, t):
 
 
 @inlined
-def guess(work, first, touch, w, y, u, until):
-    """Return about when a gap closes: start by a quadratic, two steps of Newton's method."""
-    c0 = where(touch == w, 0.0, 1.0 - w * (load(work, first) - y))
-    c1, c2 = -w * (load(work, first + 1) - u), -w * load(work, first + 2)
-    root = c1 * c1 - 4.0 * c0 * c2
-    t = where(touch == w, -c1 / c2, 2.0 * c0 / (math.sqrt(where(root > 0.0, root, 0.0)) - c1))
-    t = where((t > 0.0) & (t <= until), t, until)
-    c3, c4, c5 = -w * load(work, first + 3), -w * load(work, first + 4), -w * load(work, first + 5)
+def _about(work, first, leaves, wall, y, u, step):
+    """Return roughly when a ball meets a wall: by a quadratic, and two steps of Newton's method; leaves: it is there."""
+    c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
+    c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
+    root = fused(c1, c1, -4.0 * c0 * c2)
+    t = where(leaves, -c1 / c2, 2.0 * c0 / (math.sqrt(where(root > 0.0, root, 0.0)) - c1))
+    t = where((t > 0.0) & (t <= step), t, step)
+    c3, c4, c5 = -wall * load(work, first + 3), -wall * load(work, first + 4), -wall * load(work, first + 5)
     for _ in range(2):
         value = fused(t, fused(t, fused(t, fused(t, fused(t, c5, c4), c3), c2), c1), c0)
         slope = fused(t, fused(t, fused(t, fused(t, 5.0 * c5, 4.0 * c4), 3.0 * c3), 2.0 * c2), c1)
@@ -152,7 +334,28 @@ def guess(work, first, touch, w, y, u, until):
 
 
 @inlined
+def _sharp(work, one, near, speed, t):
+    """Return (the zero of a relative position by two steps of Newton's method from t, True if they converge); one: of
+    module 1; near, speed: its first two coefficients.
+    """
+    n, change = ORDER + 1, t
+    for _ in range(2):
+        value, slope = where(one, load(work, ORDER), load(work, n + ORDER)), 0.0 * t
+        for m in range(ORDER - 1, 1, -1):
+            slope = fused(slope, t, value)
+            value = fused(value, t, where(one, load(work, m), load(work, n + m)))
+        slope = fused(slope, t, value)
+        value = fused(value, t, speed)
+        slope = fused(slope, t, value)
+        value = fused(value, t, near)
+        change = value / slope
+        t = t - change
+    return t, abs(change) <= CONVERGING * t
+
+
+@inlined
 def _sine_and_cosine(phase, tail):
+    """Return `phase.sine_and_cosine` in each lane."""
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
     sine, cosine = sine_and_cosine_near(x, y)
@@ -162,128 +365,50 @@ def _sine_and_cosine(phase, tail):
     return where(half, -sine, sine), where(half, -cosine, cosine)
 
 
-@in_place
-def meet(runs, c, work):
-    """One pass over pending lanes."""
-    pending = load(runs, OUTCOME) == 1.0
-    x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
-    y1, y2, u1, u2 = load(runs, Y1), load(runs, Y2), load(runs, U1), load(runs, U2)
-    s, k, passed, reach = load(runs, SINE), load(runs, COSINE), load(runs, PASSED), load(runs, REACH)
-    touch1, touch2, due, step = load(runs, TOUCH1), load(runs, TOUCH2), load(runs, DUE), load(c, STEP)
-    n = ORDER + 1
-    expand(c, x1, x2, v1, v2, s, k, work)
-    until = least(load(runs, TRIAL), reach - passed)
-    # where the balls are at the end of a whole step tells which walls they meet
-    a1, a2 = row(c, 0, x1, x2, v1, v2, s, k), row(c, 6, x1, x2, v1, v2, s, k)
-    q1, q2 = a1 - fused(step, u1, y1), a2 - fused(step, u2, y2)
-    side1, side2 = where(q1 > 0.0, 1.0, -1.0), where(q2 > 0.0, 1.0, -1.0)
-    t1 = guess(work, 0, touch1, side1, y1, u1, step)
-    t2 = guess(work, n, touch2, side2, y2, u2, step)
-    t1, t2 = where(abs(q1) >= 1.0, t1, math.inf), where(abs(q2) >= 1.0, t2, math.inf)
-    one = where(due >= 0.0, due, where(t1 <= t2, 0.0, 1.0)) == 0.0
-    t = least(t1, t2)
-    found = (t <= until * 1.001) & (t > 0.0)
-    t = where(found, t, until)
-    side = where(one, side1, side2)
-    same = where(one, touch1, touch2) == side
-    y, u = where(one, y1, y2), where(one, u1, u2)
-    change = t
-    for _ in range(2):
-        value, slope = load(work, ORDER), 0.0 * t
-        value = where(one, value, load(work, n + ORDER))
-        for m in range(ORDER - 1, 1, -1):
+@inlined
+def _observe(runs, c, work, integrals, there, hit1, hit2, t, time, early, boxes, late, after, balls, forcing):
+    """Add the statistics of a flight and its impact.
+
+    time: since the last pass, of which t is the last step; early: velocities of the boxes before it; boxes: positions
+    after it; late, after: velocities before and after the impact.
+    """
+    watched = (load(runs, WATCHED) > 0.0) & there
+    for i in range(2):
+        hit = hit1 if i == 0 else hit2
+        _add(runs, watched & hit, IMPACTS + i, 1.0)
+        approach = late[i] - balls[i]
+        _add(runs, watched & hit, LOST + i, load(c, LOSS) * (approach * approach))
+        _add(runs, watched, PATH + i, abs(balls[i]) * time)
+        most, turns = abs(boxes[i]), watched & (early[i] * late[i] < 0.0)
+        if count(turns) > 0:
+            turned = abs(_turn(work, i * (ORDER + 1), t, t * early[i] / (early[i] - late[i])))
+            most = where(turns & (turned > most), turned, most)
+        row = SEEN_AT + LARGEST + i
+        _replace(runs, watched & (most > load(runs, row)), row, most)
+    z = 2.0 * boxes[0], 2.0 * boxes[1], late[0] + after[0], late[1] + after[1], 2.0 * forcing[0], 2.0 * forcing[1]
+    change = where(hit1, late[0] - after[0], where(hit2, late[1] - after[1], 0.0))
+    for k in range(integrals):
+        place, fall = FALLS + 12 * k, 0.0 * t
+        for m in range(6):
+            fall = fused(where(hit1, load(c, place + m), load(c, place + 6 + m)), z[m], fall)
+        _add(runs, watched, INTEGRALS + k, fused(change, fall, load(c, DRIFTS + k) * time))
+
+
+@inlined
+def _add(runs, mask, place, value):
+    row = SEEN_AT + place
+    store(runs, row, load(runs, row) + where(mask, value, 0.0))
+
+
+@inlined
+def _turn(work, first, end, t):
+    """Return where a box turns between 0 and the end, by Newton's method from t."""
+    for _ in range(3):
+        value, slope, bend = load(work, first + ORDER), 0.0 * t, 0.0 * t
+        for m in range(ORDER - 1, -1, -1):
+            bend = fused(bend, t, slope)
             slope = fused(slope, t, value)
-            value = fused(value, t, where(one, load(work, m), load(work, n + m)))
-        slope = fused(slope, t, value)
-        value = fused(value, t, where(one, v1, v2) - u)
-        slope = fused(slope, t, value)
-        value = fused(value, t, where(same, 0.0, where(one, x1, x2) - y - side))
-        change = value / slope
-        t = where(found, t - change, t)
-    found = found & (t <= until) & (t > 0.0) & (abs(change) <= CONV * t)
-    failed = (least(t1, t2) <= until) & ~found
-    t = where(due >= 0.0, 0.0, where(found, t, until))
-    b1, d1 = polynomial(work, 0, t)
-    b2, d2 = polynomial(work, n, t)
-    z1, z2 = fused(t, u1, y1), fused(t, u2, y2)
-    size = load(runs, SIZE) + (passed + t) * load(c, DRIVE)
-    square = t * t
-    small = load(c, ROUND0) + load(c, ROUND) * size + EPS * (abs(u1) + abs(u2))
-    limit = 1.0 - (load(c, BEND) * size + load(c, BEND0)) * (square * square) - small
-    third = t * (1 / 3)
-    hit = found | (due >= 0.0)
-    hit1, hit2 = hit & one, hit & ~one
-    ok = inside(limit, x1 - y1, v1 - u1, where(hit1, side1, b1 - z1), d1 - u1, third)
-    ok = ok & inside(limit, x2 - y2, v2 - u2, where(hit2, side2, b2 - z2), d2 - u2, third)
-    ok = ok | (due >= 0.0)
-    ok = ok & (hit1 | (abs(b1 - z1) <= 1.0 - small)) & (hit2 | (abs(b2 - z2) <= 1.0 - small)) & ~failed
-
-    # the impact
-    side = where(due >= 0.0, where(where(one, b1 - z1, b2 - z2) > 0.0, 1.0, -1.0), side)
-    box, ball = where(one, d1, d2), where(one, u1, u2)
-    velocity = box - ball
-    gained = fused(load(c, IMPULSE), velocity, load(c, REST) * velocity)
-    heavy = load(c, EPSILON) > 1.0
-    kappa = load(c, KAPPA)
-    after = where(heavy, ball + gained - kappa * velocity, box - load(c, EPSILON) * gained)
-    back = where(heavy, ball + gained, after + kappa * velocity)
-    plain = (side * velocity > EPS * (abs(box) + abs(ball)))
-    plain = plain & (kappa * abs(velocity) > EPS * (abs(velocity) + abs(after) + abs(back)))
-    e1, e2 = where(hit1, after, d1), where(hit2, after, d2)
-    w1, w2 = where(hit1, back, u1), where(hit2, back, u2)
-    put = where(one, b1, b2) - side
-    z1, z2 = where(hit1, put, z1), where(hit2, put, z2)
-    phase, tail, turns = load(runs, PHASE), load(runs, TAIL), load(runs, TURNS)
-    phase, tail = ahead(phase, tail, load(c, OMEGA), passed + t)
-    full = phase >= TWO_PI
-    lower, rest = reduced(phase, tail)
-    phase, tail, turns = where(full, lower, phase), where(full, rest, tail), where(full, turns + 1.0, turns)
-    s, k = _sine_and_cosine(phase, tail)
-    whole = load(runs, STOP) - turns
-    left = (whole * TWO_PI - ((phase - load(c, FIRST)) + (tail - load(c, FIRST_TAIL))) + whole * TWO_PI_TAIL) / load(c, OMEGA)
-    f1, f2 = load(c, F1), load(c, F2)
-    acceleration1 = f1 * s - load(c, K11) * b1 - load(c, K12) * b2 - load(c, C11) * e1 - load(c, C12) * e2
-    acceleration2 = f2 * s - load(c, K12) * b1 - load(c, K22) * b2 - load(c, C12) * e1 - load(c, C22) * e2
-    push, inward = side * where(one, acceleration1, acceleration2), -side * (after - back)
-    soon = 4.0 * inward <= push * (1.0 - kappa) * least(left, 2.5 * load(c, UNIT))
-    low = inward * inward <= 2.0 * push * (LOW + 4.0 * small)
-    plain = plain & ~(soon & low)
-
-    impact = pending & ok & hit & plain
-    doubtful = pending & ok & hit & ~plain
-    glides = pending & ok & ~hit
-    stops = glides & (passed + t >= reach) & (left < 1e-9 )
-    halves = pending & ~ok & (t > step * (1 / 30))
-    given_up = pending & ~ok & ~halves
-    moved = impact | glides
-    there = moved | doubtful
-
-    store(runs, X1, where(there, b1, x1))
-    store(runs, X2, where(there, b2, x2))
-    store(runs, V1, where(moved, e1, where(doubtful, d1, v1)))
-    store(runs, V2, where(moved, e2, where(doubtful, d2, v2)))
-    store(runs, Y1, where(moved, z1, where(doubtful, fused(t, u1, y1), y1)))
-    store(runs, Y2, where(moved, z2, where(doubtful, fused(t, u2, y2), y2)))
-    store(runs, U1, where(moved, w1, u1))
-    store(runs, U2, where(moved, w2, u2))
-    store(runs, SINE, where(there, s, load(runs, SINE)))
-    store(runs, COSINE, where(there, k, load(runs, COSINE)))
-    store(runs, PHASE, where(there, phase, load(runs, PHASE)))
-    store(runs, TAIL, where(there, tail, load(runs, TAIL)))
-    store(runs, TURNS, where(there, turns, load(runs, TURNS)))
-    store(runs, PASSED, where(there, 0.0, passed))
-    store(runs, REACH, where(there, least(left, LONGEST), reach))
-    store(runs, TRIAL, where(there, step, where(halves, 0.5 * t, load(runs, TRIAL))))
-    store(runs, DUE, where(moved, -1.0, where(doubtful, where(one, 0.0, 1.0), due)))
-    store(runs, TOUCH1, where(impact, where(one, side, 0.0), where(glides, 0.0, touch1)))
-    store(runs, TOUCH2, where(impact, where(one, 0.0, side), where(glides, 0.0, touch2)))
-    a, b = b1 - b2, b1 * b1 + load(c, GROUND) * (b2 * b2)
-    size = where(there, math.sqrt(e1 * e1 + e2 * e2 + b - load(c, K12) * (a * a)), load(runs, SIZE))
-    store(runs, SIZE, size)
-    size = size + load(c, DRIVE) * step
-    small = load(c, ROUND0) + load(c, ROUND) * size + EPS * (abs(w1) + abs(w2))
-    quartic = (step * step) * (step * step)
-    store(runs, LIMIT, where(there, 1.0 - (load(c, BEND) * size + load(c, BEND0)) * quartic - small, load(runs, LIMIT)))
-    store(runs, EVENTS, load(runs, EVENTS) + where(impact, 1.0, 0.0))
-    store(runs, OUTCOME, where(given_up | doubtful, DOUBT, where(stops, STOPPED, where(pending, DONE, NONE))))
-    return count(given_up | doubtful | stops)
+            value = fused(value, t, load(work, first + m))
+        later = t - slope / (2.0 * bend)
+        t = where((later >= 0.0) & (later <= end), later, t)
+    return _at(work, first, t)[0]

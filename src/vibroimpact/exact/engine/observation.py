@@ -4,15 +4,15 @@ import math
 
 from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
 from vibroimpact.exact.engine.contact import box_accelerations
-from vibroimpact.exact.engine.energy import fall, potential, squares_along, squares_before
+from vibroimpact.exact.engine.energy import add_falls, add_potentials, held, lost, squares_along, squares_before
 from vibroimpact.exact.engine.flow import advance, jet_at, node, slope, value
 from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, glide, mode_of, pair, with_velocity
-from vibroimpact.exact.engine.replay import first_departure, next_departure
+from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
-IMPACTS, STICKS, LARGEST, SQUARE, PATH, SEEN = 0, 2, 4, 6, 8, 10
-"""Places of what is seen of each of the two modules: its impacts and sticks, the largest |X_i|, the integral of X_i^2,
-the length of the ball's path; and their number."""
+IMPACTS, STICKS, LARGEST, PATH, LOST, STORED, INTEGRALS, SEEN = 0, 2, 4, 6, 8, 10, 11, 18
+"""Places of the statistics of a run. For each of the two modules: impacts and sticks, the largest |X_i|, the length of
+the ball's path, the energy lost in impacts; the change of the stored energy; integrals (`energy.OBSERVED`); number."""
 
 PIECE = 1.0  # in units of the flow: over so long the velocity of a box is nearly a cubic polynomial,
 MARGIN = 1 / 384  # but for so much of it (the error of Hermite's interpolation where each rate is at most 1 / unit)
@@ -23,49 +23,49 @@ TRIES, STEPS = 8, 3
 
 
 @in_place
-def observe(flow, squares, start, events, final, phase, ends, seen):
-    """Add the statistics of a run to zeros (SEEN,).
+def observe(flow, squares, departure, events, count, arrival, seen):
+    """Add the statistics of a piece of a run to seen (SEEN,), without the potentials at its ends.
 
-    start (8,), events, final: where it starts, its rows, and its boxes at the end; phase: of the forcing at both ends;
-    ends: from when on it is seen, and its duration.
+    departure: its start (`replay.Departure`); events: its rows, and how many; arrival: boxes, time and phase of its end.
     """
-    opening, duration = ends
-    leaving, opened = first_departure(start, phase), False
-    early = first = math.sin(phase), math.cos(phase)
-    for n in range(len(events) + 1):
-        following = next_departure(flow.coefficients, events, n, leaving, (duration, phase))
-        left, end, late = following.time - leaving.time, final, first
-        if n < len(events):
-            _count(events[n], opening, seen)
+    leaving, (final, time, phase) = departure, arrival
+    early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
+    for n in range(count + 1):
+        following = next_departure(flow.coefficients, events[:count], n, leaving, (time, phase))
+        left, end, late = following.time - leaving.time, final, last
+        if n < count:
+            _count(flow.coefficients, events[n], seen)
             end = _before(flow.coefficients, following.boxes, events[n]) if left > 0.0 else leaving.boxes
             late = events[n, SINE], events[n, COSINE]
-        motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
-        if not opened and left > 0.0 and following.time > opening:
-            opened, unseen = True, max(opening - leaving.time, 0.0)
-            left -= unseen
-            while unseen > 0.0:
-                t = min(unseen, flow.longest)
-                motion, unseen = glide(flow, motion, t), unseen - t
-            one, two = potential(squares, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine)
-            seen[SQUARE], seen[SQUARE + 1] = -one, -two
-        if opened and left > 0.0:
-            _watch(flow, squares, motion, end, late, left, seen)
-        if opened:
-            mode = mode_of(motion.walls)
-            if n == len(events):
-                one, two = potential(squares, mode, end, late[0], late[1])
-            else:
-                one, two = fall(squares, (mode, end), (mode_of(following.walls), following.boxes), late)
-            seen[SQUARE], seen[SQUARE + 1] = seen[SQUARE] + one, seen[SQUARE + 1] + two
+        if left > 0.0:
+            _watch(
+                flow, squares, Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1]),
+                end, late, left, seen,
+            )  # fmt: skip
+        if n < count:
+            before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
+            add_falls(squares, before, after, late, seen[INTEGRALS:])
         leaving, early = following, late
 
 
 @inlined
-def _count(event, opening, seen):
-    if event[0] >= opening and event[3] == IMPACT:
-        seen[IMPACTS + int(event[1]) - 1] += 1
-    elif event[0] >= opening and event[3] == STICK:
-        seen[STICKS + int(event[1]) - 1] += 1
+def open_or_close(flow, squares, motion, sign, seen):
+    """Begin (sign -1) or end (+1) an observation: add what depends on its ends alone."""
+    boxes, q = motion.boxes, flow.coefficients
+    add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, seen[INTEGRALS:])
+    seen[STORED] += sign * held(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
+    for i in range(2):
+        seen[LARGEST + i] = max(seen[LARGEST + i], abs(boxes[i]))
+
+
+@inlined
+def _count(q, event, seen):
+    module = int(event[1]) - 1
+    if event[3] == IMPACT:
+        seen[IMPACTS + module] += 1
+    elif event[3] == STICK:
+        seen[STICKS + module] += 1
+    seen[LOST + module] += lost(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[APPROACH])
 
 
 @inlined
@@ -79,12 +79,13 @@ def _before(q, boxes, event):
 
 @inlined
 def _watch(flow, squares, motion, end, late, length, seen):
-    """Add the statistics of a flight without potentials at its ends; late: sine and cosine of the forcing there."""
+    """Add the statistics of a flight but for potentials at its ends; late: sine and cosine of the forcing there."""
     mode = mode_of(motion.walls)
     for i in range(2):
         seen[LARGEST + i] = max(seen[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
-        seen[SQUARE + i] += squares.drifts[mode, i] * length
         seen[PATH + i] += abs(motion.balls[2 + i]) * length if motion.walls[i] == 0 else 0.0
+    for k in range(squares.drifts.shape[1]):
+        seen[INTEGRALS + k] += squares.drifts[mode, k] * length
     plain = mode == 0 and squares.forms.shape[1] == 0
     for i in range(2):
         plain = plain and _within(flow, i, motion.boxes, end, length, seen[LARGEST + i])
@@ -122,8 +123,8 @@ def _search(flow, forms, motion, end, late, left, seen):
             jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
             rest = t - j * flow.spacing
             one, two = squares_before(forms, mode, j, motion.boxes, motion.sine, motion.cosine)
-            seen[SQUARE] += one + squares_along(jets[0], rest)
-            seen[SQUARE + 1] += two + squares_along(jets[1], rest)
+            seen[INTEGRALS] += one + squares_along(jets[0], rest)
+            seen[INTEGRALS + 1] += two + squares_along(jets[1], rest)
         swung = _swing(flow, motion, t, now, seen)
         for i in range(2):
             seen[PATH + i] += swung[i] if motion.walls[i] != 0 else 0.0
