@@ -63,6 +63,10 @@ WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """The same with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
+MEANS = [PATH, PATH + 1, INTEGRALS, INTEGRALS + 1]
+ENERGIES = [*range(INTEGRALS + 2, SEEN), LOST, LOST + 1, STORED]
+UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
+"""Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""
 MOST_RUNS, SHARES = 1024, 4
 """Runs in a piece of work; pieces per core where there are many runs."""
 TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
@@ -109,8 +113,8 @@ def ensemble(
     outcomes = np.empty(numbers.shape, WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
     order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share what is known of it
-    share = max(-(-numbers.size // cores()), 1)
-    size = min(MOST_RUNS, share if share <= SHARES * WIDTH else -(-share // SHARES))
+    share = -(-numbers.size // cores())
+    size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
     pieces = [
         (known, begins, numbers.ravel(), starts, (settle, cycles), filled, order[first : first + size])
         for first in range(0, len(order), size)
@@ -152,35 +156,30 @@ def _combined(systems, states):
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
     """Run the initial states at these places and fill in their outcomes."""
-    (first, *_), (settle, cycles) = numbers[places], stages
-    owners, starts = numbers[places] - first, np.ascontiguousarray(starts[places])
+    (settle, cycles), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
+    owners, energy = numbers[places] - first, "energy" in outcomes.dtype.names
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
-    table, seen, final = (
-        np.empty(len(places), outcomes.dtype),
-        np.zeros((len(places), SEEN)),
-        np.full((len(places), 8), np.nan),
-    )
-    kernels = OBSERVED[: 0 if settle == cycles else len(OBSERVED) if "energy" in table.dtype.names else 2]
-    potentials, drifts, sound = potentials_of(rates[:, 0], kernels)
+    seen, final = np.zeros((len(places), SEEN)), np.full((len(places), 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
+    potentials, drifts = UNSEEN
+    if settle < cycles:
+        potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED if energy else OBSERVED[:2])
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
-    given = scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen
-    memory = _memory()
-    while not _loop(*given, memory):
+    given = scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen, _memory()
+    while not _loop(*given):
         stop_if_given_up()
-    seen[status != FINISHED] = 0.0
-    seen[:, LARGEST:] /= np.where(status == FINISHED, 1.0, np.nan)[:, None]
-    table["status"], table["final"] = status, final
-    observed = (cycles - settle) * np.array([system.period for system in systems])[owners, None]
+    outcomes["status"][places], outcomes["final"][places] = status, final
+    seen[status != FINISHED, :LARGEST], seen[status != FINISHED, LARGEST:] = 0.0, np.nan
+    if settle == cycles:
+        seen[:, LARGEST:] = np.nan
+    else:
+        seen[:, MEANS] /= (cycles - settle) * np.array([system.period for system in systems])[owners, None]
     for name, place in FIELDS.items():
-        over = observed if place >= PATH else 1.0
-        table[name] = seen[:, place : place + 2] / np.where(over, over, np.nan)
-    if "energy" in table.dtype.names:
-        rows = np.concatenate([seen[:, INTEGRALS + 2 :], seen[:, LOST : LOST + 2], seen[:, STORED, None]], axis=1)
+        outcomes[name][places] = seen[:, place : place + 2]
+    if energy:
         for owner, system in enumerate(systems):
-            table["energy"][owners == owner] = energies(system, rows[owners == owner])
-    outcomes[places] = table
+            outcomes["energy"][places[owners == owner]] = energies(system, seen[owners == owner][:, ENERGIES])
 
 
 class Memory(NamedTuple):
@@ -235,7 +234,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
     before the observation, and all.
     """
     m, integrals, steps = memory, drifts.shape[2] if stages[0] < stages[1] else 0, 0
-    squares = Squares(potentials[0], drifts[0], NO_FORMS)
+    squares = Squares(potentials[0], drifts[0], NO_FORMS)  # a type for the compiler
     while True:
         alive = 0
         for lane in range(WIDTH):
@@ -310,7 +309,7 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
     m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
     m.runs[march.ALIVE, lane], m.runs[march.DUE, lane], m.runs[march.STOP, lane] = 1.0, -1.0, stages[0]
     m.runs[march.SINE, lane], m.runs[march.COSINE, lane] = np.sin(phases[owner, 0]), np.cos(phases[owner, 0])
-    if stages[0] == 0 and stages[1] > 0:
+    if stages[0] == 0 < stages[1]:
         flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
         squares = Squares(potentials[owner], drifts[owner], NO_FORMS)
         _open(flow, squares, _motion_of(m.runs, lane), stages, lane, m)
@@ -349,11 +348,7 @@ def _write(m, lane):
 def _fill_constants(flow, phase, potentials, drifts, owner, c):
     """Fill in the constants (CONSTANTS,) of a system."""
     q = flow.coefficients
-    middle, half = 0.5 * (q.k11 + q.k22), 0.5 * (q.k11 - q.k22)
-    stiff = np.sqrt(middle + np.sqrt(half * half + q.k12 * q.k12))
-    middle, half = 0.5 * (q.c11 + q.c22), 0.5 * (q.c11 - q.c22)
-    rate = stiff + middle + np.sqrt(half * half + q.c12 * q.c12)
-    j = int(march.LONGEST_STEP / max(rate, q.omega) * flow.density)
+    j = int(march.LONGEST_STEP / max(flow.rate, q.omega) * flow.density)
     for row in range(4):
         for k in range(6):
             c[6 * row + k] = flow.series[0, j, k, ORDERS * (row & 1) + (row >> 1)]
@@ -363,7 +358,7 @@ def _fill_constants(flow, phase, potentials, drifts, owner, c):
     )  # fmt: skip
     c[march.F1], c[march.F2], c[march.OMEGA], c[march.EPSILON], c[march.KAPPA] = q.f1, q.f2, q.omega, q.epsilon, q.kappa
     c[march.IMPULSE], c[march.REST], c[march.GROUND], c[march.DRIVE] = q.impulse, q.impulse_rest, q.ground, q.drive
-    far, w = max(1.0, 1.0 / np.sqrt(q.ground)), q.omega
+    far, w, rate = max(1.0, 1.0 / np.sqrt(q.ground)), q.omega, flow.rate
     c[march.BEND] = far * rate**4 / 72
     c[march.BEND_FORCE] = far * q.drive * (rate**3 + rate * rate * w + rate * w * w + w**3) / 72
     c[march.ROUNDING], c[march.LEAST_ROUNDING] = march.ROUNDED * 6.0 * far, march.ROUNDED * (2.0 + q.shift)

@@ -56,7 +56,8 @@ class Flow(NamedTuple):
     """Tables of one system (`tables`): series (4, n, 6, 16), rotations (n, 2); their spacing (and its inverse), their
     longest time.
 
-    unit: a time over which nothing in the system changes much, 1 / its fastest rate.
+    unit: a time over which nothing in the system changes much, 1 / its fastest rate; rate: a bound on that of the boxes
+    in free flight, in the norm of their energy.
     """
 
     coefficients: Coefficients
@@ -66,6 +67,7 @@ class Flow(NamedTuple):
     density: float
     longest: float
     unit: float
+    rate: float
 
 
 SCALARS = len(Coefficients._fields)
@@ -84,20 +86,18 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     The shift is a bound: the force adds no more than its time integral to the square root of twice the boxes' energy.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
-    rates, impulses = exact_rates(parameters)
-    e = parameters[:, 0]
-    k12, c1, c2, c12, f1, f2 = e * parameters[:, [2, 3, 4, 5, 8, 9]].T
-    ground, omega = 1.0 + e * parameters[:, 6], parameters[:, 7]
-    stiffness = np.array([[1.0 + k12, -k12], [-k12, ground + k12]])
-    damping = np.array([[c1 + c12, -c12], [-c12, c2 + c12]])
-    stiff, damped = (np.linalg.norm(matrix, 2, axis=(0, 1)) for matrix in (stiffness, damping))
-    fastest = np.maximum(np.maximum(1.0, omega), np.maximum(np.sqrt(stiff), damped))
+    rates, impulses, fastest = exact_rates(parameters)
+    stiff, damped = fastest.T
+    k, c = -rates[:, 0, 0, 2:4, 0:2], -rates[:, 0, 0, 2:4, 2:4]
+    e, kappa, omega, f1, f2 = parameters[:, [0, 1, 7, 8, 9]].T
+    f1, f2, ground = e * f1, e * f2, 1.0 + e * parameters[:, 6]
+    fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
     numbers = [
-        *(stiffness[0, 0], stiffness[0, 1], stiffness[1, 1], ground, damping[0, 0], damping[0, 1], damping[1, 1]),
-        *(f1, f2, omega, e, parameters[:, 1], drive, drive * omega**6, drive * longest * farthest(ground)),
-        *(1.0 + e, 1.0 / (1.0 + e), *impulses.T, spacing, 1.0 / spacing, longest, 1.0 / fastest),
+        *(k[:, 0, 0], k[:, 0, 1], k[:, 1, 1], ground, c[:, 0, 0], c[:, 0, 1], c[:, 1, 1], f1, f2, omega, e, kappa),
+        *(drive, drive * omega**6, drive * longest * farthest(ground), 1.0 + e, 1.0 / (1.0 + e), *impulses.T),
+        *(spacing, 1.0 / spacing, longest, 1.0 / fastest, stiff + damped),
     ]
     return np.array(numbers).T.copy(), rates
 

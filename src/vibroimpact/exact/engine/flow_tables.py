@@ -4,6 +4,8 @@ They are computed in numbers of twice the precision, pairs of a float and what i
 pairs are (2, 6, 6, times), so that the processor multiplies those of several times at once.
 """
 
+import math
+
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
@@ -16,20 +18,20 @@ ORDERS = 8  # of the Taylor polynomials
 
 @compiled
 def exact_rates(parameters):
-    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat, the rate matrices of its contact states in pairs, (n, 2, 4, 6, 6):
-    floats next to the exact entries, and the rest; and the change of a ball's velocity at an impact per unit of relative
-    velocity, (n, 2).
+    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat, the rate matrices of its contact
+    states in pairs, (n, 2, 4, 6, 6): floats next to the exact entries, and the rest; the change of a ball's velocity at an
+    impact per unit of relative velocity, (n, 2); and the largest rates of stiffness and damping, (n, 2).
 
     Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
     """
     n = len(parameters)
-    rates, impulses = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2))
+    rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
+    rows = np.empty((2, 2, 5))
     for k in range(n):
         e, kappa, coupling, d1, d2, d, detuning, omega, f1, f2 = parameters[k]
         mass, mass_low = _sum(1.0, 0.0, e, 0.0)
         one, one_low = _sum(1.0, 0.0, kappa, 0.0)
         impulses[k, 0], impulses[k, 1] = _ratio(one, one_low, mass, mass_low)
-        rows = np.empty((2, 2, 5))
         for i in range(2):
             other = 1 - i
             _put(rows, i, i, -1.0, e, -coupling, -detuning if i == 1 else 0.0)
@@ -46,7 +48,14 @@ def exact_rates(parameters):
                     if mode >> i & 1:
                         high, low = _ratio(high, low, mass, mass_low)
                     rates[k, 0, mode, 2 + i, j], rates[k, 1, mode, 2 + i, j] = high, low
-    return rates, impulses
+        for j in range(2):
+            middle, half = (
+                (rows[0, 0, 2 * j] + rows[0, 1, 2 * j + 1]) / 2,
+                (rows[0, 0, 2 * j] - rows[0, 1, 2 * j + 1]) / 2,
+            )
+            fastest[k, j] = math.sqrt(half * half + rows[0, 0, 2 * j + 1] ** 2) - middle
+        fastest[k, 0] = math.sqrt(fastest[k, 0])
+    return rates, impulses, fastest
 
 
 @unfolded
