@@ -53,7 +53,7 @@ NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
 LONGEST_STEP = 0.45  # over the largest rate of boxes and forcing
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
-LONGEST = 6.0  # after which the sine and cosine of the phase are computed anew
+LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
 ROUNDED = 8.0 * 2.0**-52
 SAME_TIME = 2.0**-48
 
@@ -256,7 +256,7 @@ def meet(runs, c, work, integrals):
     _replace(runs, there, SINE, s)
     _replace(runs, there, COSINE, k)
     _replace(runs, there, PASSED, 0.0)
-    _replace(runs, there, REACH, _least(left, LONGEST))
+    _replace(runs, there, REACH, _least(left, LONGEST / load(c, OMEGA)))
     _replace(runs, pending, TRIAL, where(there, step, where(again, 0.5 * t, -1.0)))
     _replace(runs, there, SIZE, size)
     _replace(runs, there, LIMIT, limit)
