@@ -10,7 +10,18 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.energy import ENERGY, NO_FORMS, OBSERVED, Squares, energies, potentials_of
+from vibroimpact.exact.engine.energy import (
+    ENERGY,
+    NO_FORMS,
+    OBSERVED,
+    Squares,
+    account,
+    energies,
+    potentials_of,
+    powers_of,
+    squares_of,
+)
+from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import (
     FAILURES,
     FINISHED,
@@ -19,11 +30,11 @@ from vibroimpact.exact.engine.event_loop import (
     Progress,
     go_on,
 )
-from vibroimpact.exact.engine.flow import SPACING, numbers_of, unpacked
+from vibroimpact.exact.engine.flow import OMEGA, RATE, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
 from vibroimpact.exact.engine.march import meet
-from vibroimpact.exact.engine.motion import ENTRIES, EVENTS, ROW, Log, Motion, mode_of
+from vibroimpact.exact.engine.motion import APPROACH, ENTRIES, EVENTS, KIND, MODULE, ROW, TIME, Log, Motion, mode_of
 from vibroimpact.exact.engine.observation import (
     IMPACTS,
     INTEGRALS,
@@ -37,10 +48,11 @@ from vibroimpact.exact.engine.observation import (
     open_or_close,
 )
 from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
-from vibroimpact.exact.engine.replay import Departure
-from vibroimpact.exact.engine.simulation import MOST_CYCLES, checked_window, within_walls
+from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals, whole
+from vibroimpact.system.state import STICK
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -69,6 +81,8 @@ UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
 """Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""
 MOST_RUNS, SHARES = 1024, 4
 """Runs in a piece of work; pieces per core where there are many runs."""
+LATER = INADMISSIBLE + 1
+STIFF = 5.0  # over the forcing frequency, rates of which lanes would need many steps, with as many rounding errors
 TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
 NEAR = 1e-6  # from a wall, no ball rests on it
 SPELL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
@@ -160,15 +174,21 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     owners, energy = numbers[places] - first, "energy" in outcomes.dtype.names
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
+    alone = scalars[:, RATE] > STIFF * scalars[:, OMEGA]
     seen, final = np.zeros((len(places), SEEN)), np.full((len(places), 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
     potentials, drifts = UNSEEN
     if settle < cycles:
         potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED if energy else OBSERVED[:2])
+        alone |= ~sound
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
+    single = np.flatnonzero(alone[owners] & (status == FINISHED))
+    status[single] = LATER
     given = scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen, _memory()
     while not _loop(*given):
         stop_if_given_up()
+    for n in single:
+        status[n], final[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, seen[n])
     outcomes["status"][places], outcomes["final"][places] = status, final
     seen[status != FINISHED, :LARGEST], seen[status != FINISHED, LARGEST:] = 0.0, np.nan
     if settle == cycles:
@@ -182,12 +202,46 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
             outcomes["energy"][places[owners == owner]] = energies(system, seen[owners == owner][:, ENERGIES])
 
 
+def _alone(system, state, begin, stages, energy, seen):
+    """Return (status, final state) of a run by `simulate`; add its statistics to seen (SEEN,).
+
+    For stiff systems, of which a period has very many steps of lanes, and where potentials lose their digits.
+    """
+    (settle, cycles), (status, run) = stages, attempt(system, state, stages[0], begin, NO_TIMES)
+    if status == FINISHED and settle < cycles:
+        status, run = attempt(system, run.final.copy(), cycles - settle, run.end, NO_TIMES)
+        if status == FINISHED:
+            flow, flights, rows = run.trajectory
+            phase, duration = flights[0, FORCING], run.cycles * system.period
+            _watch(flow, squares_of(system), run.start, rows, run.final, (duration, phase), settle > 0, seen)
+            if energy:
+                spent = np.zeros((1, ACCOUNTED))
+                account(flow, powers_of(system), flights, rows, np.zeros(1), spent)
+                seen[INTEGRALS + 2 :] = spent[0, : SEEN - INTEGRALS - 2]
+    return status, run.final if status == FINISHED else np.nan
+
+
+@compiled
+def _watch(flow, squares, start, rows, final, end, settled, seen):
+    """Add the statistics of a finished run; end: its duration and phase; settled: it continues another run, so that a
+    ball at rest on its wall stuck there before.
+    """
+    leaving, (duration, phase) = first_departure(start, end[1]), end
+    last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
+    open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, seen)
+    observe(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), seen)
+    open_or_close(flow, squares, last, 1.0, seen)
+    for n in range(len(rows)):
+        if settled and rows[n, TIME] == 0.0 and rows[n, KIND] == STICK and rows[n, APPROACH] == 0.0:
+            seen[STICKS + int(rows[n, MODULE]) - 1] -= 1.0
+
+
 class Memory(NamedTuple):
     """Runs in the lanes and what is known of them, between two calls of the loop.
 
     runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts were
     looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact states;
-    series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen: room for the event loop.
+    series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen, change: room for the event loop.
     """
 
     runs: np.ndarray
@@ -204,6 +258,7 @@ class Memory(NamedTuple):
     rows: np.ndarray
     counters: np.ndarray
     seen: np.ndarray
+    change: np.ndarray
 
 
 def _memory():
@@ -222,6 +277,7 @@ def _memory():
         np.empty((2 * MOST_AT_ONCE, ROW)),
         np.zeros((WIDTH, ENTRIES)),
         np.zeros(SEEN),
+        np.zeros((6, 6)),
     )
 
 
@@ -299,9 +355,10 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
                 slot = k
         m.owners[slot], m.made[slot, 0] = owner, True
         m.made[slot, 1:] = False
-        fill_table(rates[owner], 0, numbers[owner, SPACING], m.series[slot], m.rotations[slot])
         flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
-        _fill_constants(flow, phases[owner], potentials, drifts, owner, m.kept[slot])
+        j = int(march.LONGEST_STEP / max(flow.rate, flow.coefficients.omega) * flow.density)
+        fill_table(rates[owner], 0, flow.spacing, flow.series, flow.rotations, j, m.change)
+        _fill_constants(flow, m.change, j * flow.spacing, phases[owner], potentials, drifts, owner, m.kept[slot])
     m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
     m.constants[:, lane], m.runs[:, lane] = m.kept[slot], 0.0
     for i in range(4):
@@ -345,14 +402,13 @@ def _write(m, lane):
 
 
 @unfolded
-def _fill_constants(flow, phase, potentials, drifts, owner, c):
+def _fill_constants(flow, change, step, phase, potentials, drifts, owner, c):
     """Fill in the constants (CONSTANTS,) of a system."""
     q = flow.coefficients
-    j = int(march.LONGEST_STEP / max(flow.rate, q.omega) * flow.density)
     for row in range(4):
         for k in range(6):
-            c[6 * row + k] = flow.series[0, j, k, ORDERS * (row & 1) + (row >> 1)]
-    c[march.CA], c[march.SA], c[march.STEP] = flow.rotations[j, 0], flow.rotations[j, 1], j * flow.spacing
+            c[6 * row + k] = change[row, k]
+    c[march.CA], c[march.SA], c[march.STEP] = change[4, 4], change[4, 5], step
     c[march.K11], c[march.K12], c[march.K22], c[march.C11], c[march.C12], c[march.C22] = (
         q.k11, q.k12, q.k22, q.c11, q.c12, q.c22
     )  # fmt: skip
@@ -383,7 +439,7 @@ def _by_events(flow, rates, squares, stages, lane, m):
     stalled, due = int(runs[march.STALLED, lane]), int(runs[march.DUE, lane])
     progress = Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
     while True:
-        _make_tables(flow, rates, progress, m.made[m.slots[lane]])
+        _make_tables(flow, rates, progress, m.made[m.slots[lane]], m.change)
         stop = int(runs[march.STOP, lane])
         counters[EVENTS] = 0.0
         leaving = Departure(
@@ -427,7 +483,7 @@ def _by_events(flow, rates, squares, stages, lane, m):
 
 
 @unfolded
-def _make_tables(flow, rates, progress, made):
+def _make_tables(flow, rates, progress, made, change):
     """Make the tables of the contact states that the next events can lead to."""
     motion = progress.motion
     modes = mode_of(motion.walls)
@@ -436,5 +492,5 @@ def _make_tables(flow, rates, progress, made):
         modes |= (1 << i) if near or progress.due == i else 0
     for mode in range(4):
         if mode | modes == modes and not made[mode]:
-            fill_table(rates, mode, flow.spacing, flow.series, flow.rotations)
+            fill_table(rates, mode, flow.spacing, flow.series, flow.rotations, 0, change)
             made[mode] = True

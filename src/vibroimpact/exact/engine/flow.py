@@ -13,7 +13,7 @@ import numpy as np
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from vibroimpact.exact.engine.compiled import inlined, unfolded
-from vibroimpact.exact.engine.flow_tables import ORDERS, exact_rates, tables
+from vibroimpact.exact.engine.flow_tables import exact_rates, tables
 from vibroimpact.exact.engine.lanes import weighted_sum
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
@@ -27,7 +27,7 @@ class Coefficients(NamedTuple):
     """The scalars of (10.2) as the compiled loops read them.
 
     ground: stiffness of box 2 to ground (that of box 1 is 1); drive: |(f1, f2)|; growth: that of the sixth derivative
-    of the force; shift: the farthest that the force moves a box from rest within the tables; mass: that of box and
+    of the force; shift: no farther does the force move a box from rest within a period; mass: that of box and
     ball together; impulse, impulse_rest: (1 + kappa) / (1 + epsilon), the nearest float and the rest.
     """
 
@@ -73,7 +73,7 @@ class Flow(NamedTuple):
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
 """Numbers packed by `tables_of`: the coefficients, and the fields of Flow behind its arrays."""
-SHIFT, SPACING, LONGEST = Coefficients._fields.index("shift"), SCALARS, SCALARS + 2
+SPACING, LONGEST, RATE, OMEGA = SCALARS, SCALARS + 2, SCALARS + 4, Coefficients._fields.index("omega")
 PARAMETERS = (
     *("epsilon", "kappa", "alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"),
     *("sigma20_hat", "Omega", "f10_hat", "f20_hat"),
@@ -83,7 +83,7 @@ PARAMETERS = (
 def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the numbers of flows with tables of so many times, (n, NUMBERS), and their `exact_rates`.
 
-    The shift is a bound: the force adds no more than its time integral to the square root of twice the boxes' energy.
+    The shift is a bound, since the force adds no more than its time integral to the square root of twice the energy.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -94,9 +94,10 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
+    shift = drive * (2.0 * np.pi / omega) * farthest(ground)
     numbers = [
         *(k[:, 0, 0], k[:, 0, 1], k[:, 1, 1], ground, c[:, 0, 0], c[:, 0, 1], c[:, 1, 1], f1, f2, omega, e, kappa),
-        *(drive, drive * omega**6, drive * longest * farthest(ground), 1.0 + e, 1.0 / (1.0 + e), *impulses.T),
+        *(drive, drive * omega**6, shift, 1.0 + e, 1.0 / (1.0 + e), *impulses.T),
         *(spacing, 1.0 / spacing, longest, 1.0 / fastest, stiff + damped),
     ]
     return np.array(numbers).T.copy(), rates
@@ -114,7 +115,6 @@ def flow_of(system) -> Flow:
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
     series, rotations = tables(rates, numbers[SPACING], count)
     numbers[LONGEST] = numbers[SPACING] * (count - 1)
-    numbers[SHIFT] = np.abs(series[:, :, 4:, ::ORDERS]).max()
     return Flow(Coefficients(*numbers[:SCALARS].tolist()), series, rotations, *numbers[SCALARS:].tolist())
 
 

@@ -85,13 +85,13 @@ def tables(rates, spacing, count):
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
-        fill_table(rates, mode, spacing, series, rotations)
+        fill_table(rates, mode, spacing, series, rotations, 0, np.empty((SIZE, SIZE)))
     return series, rotations
 
 
 @compiled
-def fill_table(rates, mode, spacing, series, rotations):
-    """Fill in series[mode] and the rotations of `tables`."""
+def fill_table(rates, mode, spacing, series, rotations, step, change):
+    """Fill in series[mode] and the rotations of `tables`, and the change (6, 6) that so many steps make to the state."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
@@ -105,6 +105,9 @@ def fill_table(rates, mode, spacing, series, rotations):
     _expand(coefficients, power, series, mode)
     for j in range(count):
         rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
+    for i in range(SIZE):
+        for j in range(SIZE):
+            change[i, j] = (power[0, i, j, step] - (1.0 if i == j else 0.0)) + power[1, i, j, step]
 
 
 @unfolded

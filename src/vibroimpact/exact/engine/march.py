@@ -1,6 +1,6 @@
 """Free flights of eight runs of any systems side by side, and their plain impacts.
 
-Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`). A step is proved free of an impact by
+Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`); what that changes is added, so that its rounding is small. A step is proved free of an impact by
 the hull of a cubic polynomial. The position w of a ball relative to its box and the rate r at both ends, w, r and w', r',
 make Hermite's polynomial; it lies within its Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on
 the fourth derivative it is wrong by at most B h^4 s^2 (1 - s)^2 / 24 at s h, no more than lowering the two coefficients
@@ -43,8 +43,8 @@ there is a run, whether it is observed; its events, its flights without progress
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
 BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
 CONSTANTS = FALLS + 12 * (SEEN - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of the system of each run: exp(A h), four rows of six; cosine and sine of Omega
-h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
+"""Rows of the constants, (CONSTANTS, 8), of the system of each run: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h;
+h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
 impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
@@ -69,8 +69,8 @@ def _most(a, b):
 
 
 @inlined
-def _product(c, k, x1, x2, v1, v2, s, cosine):
-    """Return a row of six constants times [X1, X2, X1', X2', sin, cos]."""
+def _change(c, k, x1, x2, v1, v2, s, cosine):
+    """Return a row of six constants times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
     boxes = fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
     return boxes + fused(load(c, k + 5), cosine, load(c, k + 4) * s)
 
@@ -106,8 +106,8 @@ def march(runs, c, enough):
     w1, w2, r1, r2 = x1 - y1, x2 - y2, v1 - u1, v2 - u2
     steps = 0
     while True:
-        a1, a2 = _product(c, 0, x1, x2, v1, v2, s, k), _product(c, 6, x1, x2, v1, v2, s, k)
-        b1, b2 = _product(c, 12, x1, x2, v1, v2, s, k), _product(c, 18, x1, x2, v1, v2, s, k)
+        a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 6, x1, x2, v1, v2, s, k)
+        b1, b2 = v1 + _change(c, 12, x1, x2, v1, v2, s, k), v2 + _change(c, 18, x1, x2, v1, v2, s, k)
         z1, z2 = fused(step, u1, y1), fused(step, u2, y2)
         q1, q2, o1, o2, later = a1 - z1, a2 - z2, b1 - u1, b2 - u2, passed + step
         ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
@@ -116,7 +116,7 @@ def march(runs, c, enough):
         ok = ok & ~turns
         if count(alive & ~ok) >= enough:
             break
-        s, k = where(ok, fused(k, sa, s * ca), s), where(ok, fused(k, ca, -s * sa), k)
+        s, k = where(ok, s + fused(k, sa, s * ca), s), where(ok, k + fused(k, ca, -s * sa), k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         y1, y2, passed, limit = (
             where(ok, z1, y1),
@@ -160,8 +160,8 @@ def meet(runs, c, work, integrals):
 
     # when the first ball meets a wall, if it does
     until = _least(_most(trial, 0.0), reach - passed)
-    a1 = _product(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE)) - fused(step, u1, y1)
-    a2 = _product(c, 6, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE)) - fused(step, u2, y2)
+    a1 = x1 - fused(step, u1, y1) + _change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
+    a2 = x2 - fused(step, u2, y2) + _change(c, 6, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
     t1 = where(abs(a1) >= 1.0, _about(work, 0, load(runs, TOUCH1) == wall1, wall1, y1, u1, step), math.inf)
     t2 = where(abs(a2) >= 1.0, _about(work, n, load(runs, TOUCH2) == wall2, wall2, y2, u2, step), math.inf)

@@ -316,6 +316,15 @@ def simulate_many(
 
 def _run(system, state, cycles, begin, times):
     """Return one run from checked arguments."""
+    status, run = attempt(system, state, cycles, begin, times)
+    if status != kernel.FINISHED:
+        number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
+        raise ArithmeticError(f"{kernel.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
+    return run
+
+
+def attempt(system, state, cycles, begin, times):
+    """Return (status, the run as far as it came) from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
     (rows, counters, where), pieces = kernel.memory(cycles), []
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
@@ -325,10 +334,5 @@ def _run(system, state, cycles, begin, times):
             kernel.empty_rows(counters, where)
             rows = np.empty((kernel.PIECE, motion.ROW))
         stop_if_given_up()
-    rows = rows[: int(counters[motion.EVENTS])]
-    if status != kernel.FINISHED:
-        what = kernel.FAILURES[status]
-        last = rows if len(rows) or not pieces else pieces[-1]
-        number, time = sum(map(len, pieces)) + len(rows), last[-1, 0] if len(last) else 0.0
-        raise ArithmeticError(f"{what} after {number} events, tau = {tau0 + time}")
-    return Run(system, state, begin, cycles, samples, final, [*pieces, rows], counters)
+    pieces.append(rows[: int(counters[motion.EVENTS])])
+    return status, Run(system, state, begin, cycles, samples, final, pieces, counters)
