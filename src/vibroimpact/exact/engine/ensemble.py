@@ -23,9 +23,12 @@ from vibroimpact.exact.engine.energy import (
 )
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import (
+    CROWDED,
     FAILURES,
     FINISHED,
     MOST_AT_ONCE,
+    MOST_EVENTS,
+    MOST_EVENTS_PER_CYCLE,
     PAUSED,
     Progress,
     go_on,
@@ -207,10 +210,13 @@ def _alone(system, state, begin, stages, energy, seen):
 
     For stiff systems, of which a period has very many steps of lanes, and where potentials lose their digits.
     """
-    (settle, cycles), (status, run) = stages, attempt(system, state, stages[0], begin, NO_TIMES)
-    if status == FINISHED and settle < cycles:
-        status, run = attempt(system, run.final.copy(), cycles - settle, run.end, NO_TIMES)
-        if status == FINISHED:
+    (settle, cycles), status = stages, FINISHED
+    if settle:
+        status, run = attempt(system, state, settle, begin, NO_TIMES)
+        state, begin = run.final.copy(), run.end
+    if status == FINISHED and (settle < cycles or not settle):
+        status, run = attempt(system, state, cycles - settle, begin, NO_TIMES)
+        if status == FINISHED and cycles:
             flow, flights, rows = run.trajectory
             phase, duration = flights[0, FORCING], run.cycles * system.period
             _watch(flow, squares_of(system), run.start, rows, run.final, (duration, phase), settle > 0, seen)
@@ -305,6 +311,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
         if alive == 0:
             return True
         if steps > SPELL:
+            _stop_crowded(stages, status, m)
             return False
         steps += march.march(m.runs, m.constants, max(3 * alive // 4, 1)) + 16
         if meet(m.runs, m.constants, m.work, integrals) == 0:
@@ -337,6 +344,14 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
                         _read(m, lane)
                         open_or_close(flow, squares, motion, 1.0, m.seen)
                         seen[n] = m.seen
+
+
+@unfolded
+def _stop_crowded(stages, status, m):
+    """Give up runs with too many events."""
+    for lane in range(WIDTH):
+        if m.members[lane] >= 0 and m.runs[march.EVENTS, lane] > MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(stages[1]):
+            status[m.members[lane]], m.members[lane] = CROWDED, -1
 
 
 @unfolded

@@ -402,13 +402,15 @@ def _add(runs, mask, place, value):
 
 @inlined
 def _turn(work, first, end, t):
-    """Return where a box turns between 0 and the end, by Newton's method from t."""
+    """Return where a box turns between 0 and the end: by Newton's method from t, and a parabola at last."""
+    value = t
     for _ in range(3):
-        value, slope, bend = load(work, first + ORDER), 0.0 * t, 0.0 * t
+        value, slope, bend = load(work, first + ORDER), 0.0 * t, 0.0 * t  # the bend is half the second derivative
         for m in range(ORDER - 1, -1, -1):
             bend = fused(bend, t, slope)
             slope = fused(slope, t, value)
             value = fused(value, t, load(work, first + m))
-        later = t - slope / (2.0 * bend)
+        change = -0.5 * slope / bend
+        value, later = fused(0.5 * slope, change, value), t + change
         t = where((later >= 0.0) & (later <= end), later, t)
-    return _at(work, first, t)[0]
+    return value
