@@ -5,11 +5,23 @@ import pytest
 
 import one_box
 import vibroimpact as vi
-from attacks import GENES, Observer, attacks, climbed, random_start, random_system, same_events, true_over_told, truth
+from attacks import (
+    GENES,
+    PROMISED,
+    Observer,
+    attacks,
+    climbed,
+    ensembles,
+    random_start,
+    random_system,
+    same_events,
+    true_over_told,
+    truth,
+    unlike_single_runs,
+)
 from vibroimpact.accuracy.reference.roots import Undecidable
 
 PER_SYSTEM = 10
-PROMISED = 2.6  # true error over the told one (docs/engine.md)
 
 
 @pytest.fixture
@@ -65,3 +77,13 @@ def test_no_true_error_exceeds_the_promise(request, ratio, genes, per_attack):
         seed += 1
     print(f"{len(ratios)} decided runs, worst ratio {max(ratios):.3g}, median {np.median(ratios):.3g}")
     assert max(ratios) < PROMISED
+
+
+def test_runs_of_an_ensemble_are_those_of_simulate(request):
+    """As many runs as asked for, of all kinds of scenes in turn, together in ensembles of up to a thousand."""
+    left, seed = request.config.getoption("--attack"), 0
+    while left > 0:
+        kind = list(ensembles)[seed % len(ensembles)]
+        count = min(left, max(request.config.getoption("--attack") // len(ensembles) // 2, 8), 1000)
+        assert unlike_single_runs(*ensembles[kind](np.random.default_rng([seed, 5]), count)) == [], (kind, seed)
+        left, seed = left - count, seed + 1
