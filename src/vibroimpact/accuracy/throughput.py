@@ -1,70 +1,175 @@
-"""Speed of very many runs: ensembles beside single runs and beside heyoka's batches, and on all cores."""
+"""Speed of many runs in the scenes that the project runs: ensembles beside single runs, a closed form without proof and
+heyoka's batches, timed in turn, with the share of runs that have the events of single runs and the errors.
+"""
 
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from vibroimpact.accuracy.timing import interleaved
-from vibroimpact.exact.engine.all_cores import at_most, cores
+from vibroimpact.exact.engine.all_cores import at_most
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.integrators.heyoka_batch import LANES, HeyokaBatch
 from vibroimpact.integrators.heyoka_taylor import heyoka
+from vibroimpact.integrators.modal import Modal
 from vibroimpact.system import System
-from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.state import BALLS, BOXES, IMPACT
 
-NEAR, CYCLES = 1e-4, 100
-"""Starts of the settled motion are that near to each other; they are run for so many cycles."""
-RANDOM, SHORT = 20_000, 10
-"""Random starts, and their cycles."""
-TOLERANCES = 1e-6, 1e-12
+LONG = 4000
+"""Cycles of the single long run, whose time per impact is the unit of all others."""
+SAMPLE, SHORT = 8, 10
+"""Runs of a scene that other methods repeat, and their cycles; errors are those after so many cycles."""
+CHECKED = 64
+"""Runs of a scene whose events and final states are compared with single runs."""
+LOOKS, TOLERANCES = 32, (1e-6, 1e-12)
+"""Looks per cycle of the closed form, at which it misses hardly an impact; tolerances of heyoka."""
+BEFORE = {
+    "64 starts within 1e-2 of a settled motion, 100 cycles": (100, 212),
+    "16 such starts": (232, 324),
+    "256 starts within 0.3, 100 cycles": (192, 263),
+    "4000 random starts, 10 cycles": (285, 397),
+    "400 random starts, 100 cycles": (213, 277),
+    "weak case, 200 random starts, 500 cycles": (274, 349),
+    "300 systems x 2 starts, 250 cycles": (609, 831),
+    "300 systems x 5 starts, 250 cycles": (509, 623),
+}
+"""ns per impact of lanes filled by runs of one system (commit cf93e77), final state only and observed, on a machine
+where a single long run took BEFORE_UNIT."""
+BEFORE_UNIT = 222
 
 
-def throughput(system: System, settled, seconds: float) -> list[dict]:
-    """Rows of what is run, "ns per impact", and "ratio" to single runs of the settled motion; all timed in turn.
+class Scene(NamedTuple):
+    """Systems and starts, as `ensemble` takes them, and cycles."""
+
+    systems: System | np.ndarray
+    states: np.ndarray
+    cycles: int
+
+    def runs(self, count):
+        """Systems and starts of so many runs, spread over the scene."""
+        systems = np.asarray(self.systems, dtype=object)
+        shape = np.broadcast_shapes(systems.shape, self.states.shape[:-1])
+        places = np.unique(np.linspace(0, np.prod(shape) - 1, count).astype(int))
+        return np.broadcast_to(systems, shape).flat[places], np.broadcast_to(self.states, (*shape, 8)).reshape(-1, 8)[
+            places
+        ]
+
+
+def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
+    """The scenes of BEFORE; settled: state (8,) of a motion of `equal` without sticking."""
+    sweep = [
+        [equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)]
+        for detuning in np.linspace(-0.5, 1.0, 20)
+        for force in np.linspace(0.5, 1.5, 15)
+    ]
+    near, wide = _around(settled, 64, 1e-2), _around(settled, 256, 0.3)
+    found = [
+        Scene(equal, near, 100),
+        Scene(equal, near[:16], 100),
+        Scene(equal, wide, 100),
+        Scene(equal, _random(4000), 10),
+        Scene(equal, _random(400), 100),
+        Scene(weak, _random(200), 500),
+        Scene(np.array(sweep), _random(2), 250),
+        Scene(np.array(sweep), _random(5), 250),
+    ]
+    return dict(zip(BEFORE, found, strict=True))
+
+
+def _random(count):
+    states = np.random.default_rng(0).uniform(-0.5, 0.5, (count, 8))
+    states[:, BALLS[:2]] += states[:, BOXES[:2]]
+    return states
+
+
+def _around(state, count, distance):
+    states = np.asarray(state, dtype=float) + np.random.default_rng(1).uniform(-distance, distance, (count, 8))
+    boxes = states[:, BOXES[:2]]
+    states[:, BALLS[:2]] = np.clip(states[:, BALLS[:2]], boxes - 0.99, boxes + 0.99)
+    return states
+
+
+def throughput(equal: System, weak: System, settled, seconds: float) -> list[dict]:
+    """One row for each scene: ns per impact of each method, all timed in turn on one core, and ratios to a single long
+    run of the same minutes; before: the same ratios of the lanes that there were before.
 
     Args:
-        settled: state (8,) of a motion without sticking, from which LANES^2 starts are run.
+        settled: state (8,) of a motion of `equal` without sticking.
         seconds: how long each is repeated.
     """
-    near = np.asarray(settled, dtype=float) + np.linspace(0.0, NEAR, LANES**2)[:, np.newaxis]
-    spread = np.random.default_rng(0).uniform(-0.5, 0.5, (RANDOM, 8))
-    spread[:, BALLS[:2]] += spread[:, BOXES[:2]]
-    random = partial(ensemble, system, spread, SHORT)
-    one_core = {
-        "simulate, one start after another": lambda: [simulate(system, start, CYCLES) and None for start in near],
-        "ensemble": partial(ensemble, system, near, CYCLES, settle=CYCLES),
-        "ensemble, observed": partial(ensemble, system, near, CYCLES),
-        f"ensemble, {RANDOM:,} random starts over {SHORT} cycles": partial(random, settle=SHORT),
-        "ensemble, random starts, observed": random,
-    }
-    if heyoka:
-        for tolerance in TOLERANCES:
-            batch = HeyokaBatch(system, tolerance)
-            one_core[f"heyoka, batches of {LANES} at {tolerance:g}"] = partial(_in_batches, batch, near)
-    all_cores = {f"ensemble, random starts on {cores()} core(s), wall time": partial(random, settle=SHORT)}
-    impacts = {len(near): _impacts(system, near, CYCLES), len(spread): _impacts(system, spread, SHORT)}
     with at_most(1):
-        found = _timed(one_core, seconds)
-    found |= _timed(all_cores, seconds)
-    rows = []
-    for name, time in found.items():
-        count = impacts[len(spread) if "random" in name else len(near)]
-        rows.append({"run": name, "ns per impact": 1e9 * time / count})
-    return [row | {"ratio": row["ns per impact"] / rows[0]["ns per impact"]} for row in rows]
+        return [
+            {"scene": name}
+            | _timed(scene, partial(_long_run, equal, settled), seconds)
+            | _compared(scene)
+            | _before(name)
+            for name, scene in scenes(equal, weak, settled).items()
+        ]
 
 
-def _timed(works, seconds):
-    """Seconds of the fastest call of each, after a first one."""
-    for work in works.values():
+def _long_run(system, state):
+    return len(simulate(system, state, LONG).rows)
+
+
+def _timed(scene, long_run, seconds):
+    """ns per impact of every method."""
+    impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
+    short = Scene(systems, states, SHORT)
+    few = _impacts(short)
+    works = {
+        "one long run": (long_run, long_run()),
+        "final": (partial(ensemble, *scene, settle=scene.cycles), impacts),
+        "observed": (partial(ensemble, *scene), impacts),
+        "one by one": (partial(_each, simulate, systems, states), few),
+        "closed form": (partial(_each, _closed_form, systems, states), few),
+    }
+    flying = [one for one in zip(*scene.runs(8 * LANES), strict=True) if not ensemble(*one, SHORT)["sticks"].any()]
+    if heyoka and len(flying) >= LANES:
+        systems, states = (np.array(part) for part in zip(*flying[:LANES], strict=True))
+        count = _impacts(Scene(systems, states, SHORT))
+        for tolerance in TOLERANCES:
+            batch = HeyokaBatch(tolerance)
+            works[f"heyoka {tolerance:g}"] = partial(batch.run, systems, states.T, SHORT), count
+    for work, _ in works.values():
         work()
-    return dict(zip(works, (time for _, time in interleaved(list(works.values()), seconds)), strict=True))
+    times = interleaved([work for work, _ in works.values()], seconds)
+    found = {name: 1e9 * time / count for (name, (_, count)), (_, time) in zip(works.items(), times, strict=True)}
+    unit = found["one long run"]
+    return found | {"final / long run": found["final"] / unit, "observed / long run": found["observed"] / unit}
 
 
-def _in_batches(batch, starts):
-    for first in range(0, len(starts), LANES):
-        batch.run(starts[first : first + LANES].T, CYCLES)
+def _before(name):
+    return dict(zip(("before: final", "before: observed"), np.divide(BEFORE[name], BEFORE_UNIT), strict=True))
 
 
-def _impacts(system, states, cycles):
-    return int(ensemble(system, states, cycles)["impacts"].sum())
+def _impacts(scene):
+    return int(ensemble(*scene)["impacts"].sum())
+
+
+def _each(method, systems, states):
+    for system, state in zip(systems, states, strict=True):
+        method(system, state, SHORT)
+
+
+def _closed_form(system, state, cycles):
+    return Modal().run(system, state, cycles, 0.0, LOOKS)
+
+
+def _compared(scene):
+    """Share of runs with the impacts of single runs, and the median error of the final states, of ensemble and closed
+    form, after SHORT cycles.
+    """
+    systems, states = scene.runs(CHECKED)
+    outcomes = ensemble(systems, states, SHORT)
+    singles = [simulate(system, state, SHORT) for system, state in zip(systems, states, strict=True)]
+    closed = [_closed_form(system, state, SHORT) for system, state in zip(systems, states, strict=True)]
+    counts = np.array([(run.events["kind"] == IMPACT).sum() for run in singles])
+    finals = np.array([run.final for run in singles])
+    return {
+        "same events": np.mean(outcomes["impacts"].sum(axis=1) == counts),
+        "error": np.median(abs(outcomes["final"] - finals).max(axis=1)),
+        "closed form: same events": np.mean([len(run.impacts) for run in closed] == counts),
+        "closed form: error": np.median([abs(run.final - one).max() for run, one in zip(closed, finals, strict=True)]),
+    }

@@ -6,19 +6,17 @@ For motions in which no ball comes to rest on a wall: the lanes share their equa
 import numpy as np
 
 from vibroimpact.integrators.heyoka_taylor import heyoka, right_hand_side
-from vibroimpact.integrators.right_hand_side import coefficients
+from vibroimpact.integrators.right_hand_side import NAMES, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
 LANES = 8
 
 
 class HeyokaBatch:
-    """heyoka's batch integrator of a system at a tolerance. Compiled when it is made."""
+    """heyoka's batch integrator at a tolerance, for a system in each lane. Compiled when it is made."""
 
-    def __init__(self, system, tolerance: float):
-        self.system = system
-        self.epsilon, self.bounce = system.epsilon, (1.0 + system.kappa) / (1.0 + system.epsilon)
-        s, _, equations = right_hand_side([float(number) for number in coefficients(system)])
+    def __init__(self, tolerance: float):
+        s, _, equations = right_hand_side([heyoka.par[k] for k in range(len(NAMES))])
         events = [
             heyoka.t_event_batch(s[BOXES[i]] - s[BALLS[i]] - wall, callback=self._impact(i), direction=direction)
             for i in range(2)
@@ -30,20 +28,24 @@ class HeyokaBatch:
         self._taylor = heyoka.taylor_adaptive_batch(equations, np.zeros((10, LANES)), tol=tolerance, t_events=events)
         self._state = self._taylor.state  # a view: the integrator's own memory
 
-    def run(self, states, cycles: int) -> np.ndarray:
+    def run(self, systems, states, cycles: int) -> np.ndarray:
         """Final states (8, LANES) of starts (8, LANES) at tau = 0."""
+        numbers, periods = np.array([coefficients(system) for system in systems]).T, [one.period for one in systems]
+        self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # those that the equations use
+        self._epsilon, kappa = numbers[NAMES.index("epsilon")], numbers[NAMES.index("kappa")]
+        self._bounce = (1.0 + kappa) / (1.0 + self._epsilon)
         self._taylor.set_time(0.0)
         self._state[:8], self._state[8], self._state[9] = states, 0.0, 1.0
         self._taylor.reset_cooldowns()
-        self._taylor.propagate_until(cycles * self.system.period)
+        self._taylor.propagate_until(cycles * np.array(periods))
         return self._state[:8].copy()
 
     def _impact(self, i):
         box, ball = 4 + BOXES[i], 4 + BALLS[i]
 
         def callback(taylor, sign, lane):
-            impulse = self.bounce * (self._state[box, lane] - self._state[ball, lane])
-            self._state[box, lane] -= self.epsilon * impulse
+            impulse = self._bounce[lane] * (self._state[box, lane] - self._state[ball, lane])
+            self._state[box, lane] -= self._epsilon[lane] * impulse
             self._state[ball, lane] += impulse
             return True
 
