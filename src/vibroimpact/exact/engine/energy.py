@@ -46,16 +46,10 @@ LARGEST = 1e3
 
 
 class Squares(NamedTuple):
-    """Tables of a system per contact state: potentials S (4, k, 6, 6) and drifts c (4, k) of k integrals, with empty
-    forms; or zeros and the forms (`integrals_of`) of X_1^2 and X_2^2, where the potentials would lose their digits.
-    """
+    """Potentials S (4, k, 6, 6) and drifts c (4, k) of k integrals in each contact state."""
 
     potentials: np.ndarray
     drifts: np.ndarray
-    forms: np.ndarray
-
-
-NO_FORMS = np.empty((4, 0, 2, TRIANGLE))
 
 
 def _lyapunov():
@@ -91,12 +85,6 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     potentials[..., ROWS, COLUMNS] = potentials[..., COLUMNS, ROWS] = np.swapaxes(solved[..., :-1, :], -1, -2)
     sound = abs(solved).max(axis=(1, 2, 3), initial=0.0) * abs(rates).max(axis=(1, 2, 3)) < LARGEST
     return potentials, solved[..., -1, :].copy(), sound
-
-
-@lru_cache(maxsize=64)
-def squares_of(system) -> Squares:
-    """Return the tables of a system with forms in place of potentials."""
-    return Squares(np.zeros((4, 2, SIZE, SIZE)), np.zeros((4, 2)), integrals_of(system, POSITIONS))
 
 
 def integrals_of(system, kernels) -> np.ndarray:
@@ -182,28 +170,6 @@ def add_falls(squares, before, after, forcing, sums):
                 for b in range(SIZE):
                     total += squares.potentials[mode, k, a, b] * z[b]
                 sums[k] += change * total
-
-
-@inlined
-def squares_before(forms, mode, j, boxes, sine, cosine):
-    """Return the integrals of X_1^2 and X_2^2 from the start of a flight to the j-th time of the flow table."""
-    z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
-    one, two, place = 0.0, 0.0, 0
-    first, second = forms[mode, j, 0], forms[mode, j, 1]
-    for a in range(SIZE):
-        for b in range(a, SIZE):
-            product = z[a] * z[b]
-            one += first[place] * product
-            two += second[place] * product
-            place += 1
-    return one, two
-
-
-@inlined
-def squares_along(p, t):
-    """Return the integral of the square of a polynomial of degree 7, p (8,), from 0 to a short time t."""
-    first, second, third = value(p, t * REST[0]), value(p, t * REST[1]), value(p, t * REST[2])
-    return t * (SHARES[0] * first * first + SHARES[1] * second * second + SHARES[2] * third * third)
 
 
 ENERGY = np.dtype(

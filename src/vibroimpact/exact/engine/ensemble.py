@@ -12,14 +12,12 @@ from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_give
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.energy import (
     ENERGY,
-    NO_FORMS,
     OBSERVED,
     Squares,
     account,
     energies,
     potentials_of,
     powers_of,
-    squares_of,
 )
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import (
@@ -219,7 +217,16 @@ def _alone(system, state, begin, stages, energy, seen):
         if status == FINISHED and cycles:
             flow, flights, rows = run.trajectory
             phase, duration = flights[0, FORCING], run.cycles * system.period
-            _watch(flow, squares_of(system), run.start, rows, run.final, (duration, phase), settle > 0, seen)
+            _watch(
+                flow,
+                Squares(*(part[0] for part in UNSEEN)),
+                run.start,
+                rows,
+                run.final,
+                (duration, phase),
+                settle > 0,
+                seen,
+            )
             if energy:
                 spent = np.zeros((1, ACCOUNTED))
                 account(flow, powers_of(system), flights, rows, np.zeros(1), spent)
@@ -296,7 +303,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
     before the observation, and all.
     """
     m, integrals, steps = memory, drifts.shape[2] if stages[0] < stages[1] else 0, 0
-    squares = Squares(potentials[0], drifts[0], NO_FORMS)  # a type for the compiler
+    squares = Squares(potentials[0], drifts[0])  # a type for the compiler
     while True:
         alive = 0
         for lane in range(WIDTH):
@@ -324,7 +331,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
             owner, slot = owners[n], m.slots[lane]
             flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
             if integrals > 0:
-                squares = Squares(potentials[owner], drifts[owner], NO_FORMS)
+                squares = Squares(potentials[owner], drifts[owner])
             if outcome == march.STOPPED:
                 ended, motion = FINISHED, _motion_of(m.runs, lane)
                 if m.runs[march.STOP, lane] < stages[1]:
@@ -383,7 +390,7 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
     m.runs[march.SINE, lane], m.runs[march.COSINE, lane] = np.sin(phases[owner, 0]), np.cos(phases[owner, 0])
     if stages[0] == 0 < stages[1]:
         flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
-        squares = Squares(potentials[owner], drifts[owner], NO_FORMS)
+        squares = Squares(potentials[owner], drifts[owner])
         _open(flow, squares, _motion_of(m.runs, lane), stages, lane, m)
 
 

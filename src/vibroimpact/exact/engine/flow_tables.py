@@ -128,8 +128,9 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
             for j in range(SIZE):
                 high, low = 0.0, 0.0
                 for n in range(SIZE):
-                    rate, rest = rates[0, k, n, j] * spacing, rates[1, k, n, j] * spacing
-                    high, low = _plus_product(high, low, term[0, i, n, 0], term[1, i, n, 0], rate, rest)
+                    if rates[0, k, n, j] != 0.0:
+                        rate, rest = rates[0, k, n, j] * spacing, rates[1, k, n, j] * spacing
+                        high, low = _plus_product(high, low, term[0, i, n, 0], term[1, i, n, 0], rate, rest)
                 high, low = _normal(high, low)
                 after[0, i, j, 0], after[1, i, j, 0] = _over(high, low, order)
         for i in range(SIZE):

@@ -34,8 +34,8 @@ X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
 PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, SEEN_AT = range(18, 28)
 STATES = SEEN_AT + SEEN
-"""Rows of the runs, (STATES, 8): boxes, balls, sine and cosine of the forcing phase after a number of steps; the time
-passed since the flight began, and its end; the length of the next step (0: begin a flight, -1: leave it to the event
+"""Rows of the runs, (STATES, 8): boxes, sine and cosine of the forcing phase after a number of steps, balls at the
+beginning of the flight; the time passed since then, and that to its end; the length of the next step (0: begin a flight, -1: leave it to the event
 loop); a bound on the boxes' energy, the bound for Bernstein's coefficients; the walls that the balls leave; the module
 that is on a wall, or -1; the phase at the beginning of the flight, revolutions, and those at the end of the run; whether
 there is a run, whether it is observed; its events, its flights without progress; what a pass did; its statistics."""
@@ -51,7 +51,7 @@ NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """What a pass did in a lane: DOUBTFUL asks for the event loop."""
 
 ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
-LONGEST_STEP = 0.45  # over the largest rate of boxes and forcing
+LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
 LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
 ROUNDED = 8.0 * 2.0**-52
@@ -103,13 +103,14 @@ def march(runs, c, enough):
     square = step * step
     less = fused(load(c, BEND), square * square, load(c, ROUNDING)) * (load(c, DRIVE) * step)
     ca, sa = load(c, CA), load(c, SA)
-    w1, w2, r1, r2 = x1 - y1, x2 - y2, v1 - u1, v2 - u2
+    w1, w2, r1, r2 = x1 - fused(passed, u1, y1), x2 - fused(passed, u2, y2), v1 - u1, v2 - u2
     steps = 0
     while True:
         a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 6, x1, x2, v1, v2, s, k)
         b1, b2 = v1 + _change(c, 12, x1, x2, v1, v2, s, k), v2 + _change(c, 18, x1, x2, v1, v2, s, k)
-        z1, z2 = fused(step, u1, y1), fused(step, u2, y2)
-        q1, q2, o1, o2, later = a1 - z1, a2 - z2, b1 - u1, b2 - u2, passed + step
+        later = passed + step
+        q1, q2 = a1 - fused(later, u1, y1), a2 - fused(later, u2, y2)
+        o1, o2 = b1 - u1, b2 - u2
         ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         turns = _may_turn_beyond(most1, x1, v1, a1, b1, third) | _may_turn_beyond(most2, x2, v2, a2, b2, third)
@@ -118,12 +119,7 @@ def march(runs, c, enough):
             break
         s, k = where(ok, s + fused(k, sa, s * ca), s), where(ok, k + fused(k, ca, -s * sa), k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
-        y1, y2, passed, limit = (
-            where(ok, z1, y1),
-            where(ok, z2, y2),
-            where(ok, later, passed),
-            where(ok, limit - less, limit),
-        )
+        passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
         w1, w2, r1, r2 = where(ok, q1, w1), where(ok, q2, w2), where(ok, o1, r1), where(ok, o2, r2)
         steps += 1
     moved = passed > load(runs, PASSED)
@@ -133,8 +129,6 @@ def march(runs, c, enough):
     store(runs, X2, x2)
     store(runs, V1, v1)
     store(runs, V2, v2)
-    store(runs, Y1, y1)
-    store(runs, Y2, y2)
     store(runs, SINE, s)
     store(runs, COSINE, k)
     store(runs, LIMIT, limit)
@@ -151,8 +145,9 @@ def meet(runs, c, work, integrals):
     """
     pending, n = load(runs, OUTCOME) == DONE, ORDER + 1
     x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
-    y1, y2, u1, u2 = load(runs, Y1), load(runs, Y2), load(runs, U1), load(runs, U2)
+    u1, u2, touch1, touch2 = load(runs, U1), load(runs, U2), load(runs, TOUCH1), load(runs, TOUCH2)
     passed, reach, trial, due = load(runs, PASSED), load(runs, REACH), load(runs, TRIAL), load(runs, DUE)
+    y1, y2 = fused(passed, u1, load(runs, Y1)), fused(passed, u2, load(runs, Y2))
     step, drive, kappa = load(c, STEP), load(c, DRIVE), load(c, KAPPA)
     leaves = trial < 0.0
     on_wall = (due >= 0.0) & ~leaves
@@ -163,12 +158,12 @@ def meet(runs, c, work, integrals):
     a1 = x1 - fused(step, u1, y1) + _change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     a2 = x2 - fused(step, u2, y2) + _change(c, 6, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
-    t1 = where(abs(a1) >= 1.0, _about(work, 0, load(runs, TOUCH1) == wall1, wall1, y1, u1, step), math.inf)
-    t2 = where(abs(a2) >= 1.0, _about(work, n, load(runs, TOUCH2) == wall2, wall2, y2, u2, step), math.inf)
+    t1 = where(abs(a1) >= 1.0, _about(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
+    t2 = where(abs(a2) >= 1.0, _about(work, n, touch2 == wall2, wall2, y2, u2, step), math.inf)
     one = where(on_wall, due, where(t1 <= t2, 0.0, 1.0)) == 0.0
     wall, soonest = where(one, wall1, wall2), _least(t1, t2)
     ball, rate = where(one, y1, y2), where(one, u1, u2)
-    near = where(where(one, load(runs, TOUCH1), load(runs, TOUCH2)) == wall, 0.0, where(one, x1, x2) - ball - wall)
+    near = where(where(one, touch1, touch2) == wall, 0.0, where(one, x1, x2) - ball - wall)
     t, found = _sharp(work, one, near, where(one, v1, v2) - rate, soonest)
     found = found & (soonest <= step) & (t > 0.0) & (t <= until)
     missed = (soonest <= until) & ~found
@@ -177,7 +172,8 @@ def meet(runs, c, work, integrals):
     # the flight until then, and its proof
     b1, d1 = _at(work, 0, t)
     b2, d2 = _at(work, n, t)
-    z1, z2, time = fused(t, u1, y1), fused(t, u2, y2), passed + t
+    time = passed + t
+    z1, z2 = fused(time, u1, load(runs, Y1)), fused(time, u2, load(runs, Y2))
     size, square, third = fused(time, drive, load(runs, SIZE)), t * t, t * (1 / 3)
     rounding = _rounding(c, size, u1, u2)
     limit = 1.0 - fused(fused(load(c, BEND), size, load(c, BEND_FORCE)), square * square, rounding)
