@@ -73,16 +73,9 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
-    each = np.array(systems, dtype=object)[:, None]
-    final = ensemble(each, states, settle, settle=settle)["final"]
-    largest, squares = [], 0.0
-    for _ in range(cycles - settle):
-        runs = ensemble(each, final, 1)  # as if it went on: the forcing has the same phase
-        final, squares = runs["final"], squares + runs["mean_square"]
-        largest.append(runs["largest"].max(axis=-1))
-    largest = np.stack(largest, axis=-1)
+    runs = ensemble(np.array(systems, dtype=object)[:, None], states, cycles, settle=settle, by_cycle=True)
+    largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
     lost = np.isnan(final).any(axis=-1)
-    largest[lost] = np.nan
     rms = np.sqrt(np.max(squares[~lost], initial=0.0) / (cycles - settle))
     return Cycles(largest, final, float(rms), int(np.count_nonzero(lost)))
 

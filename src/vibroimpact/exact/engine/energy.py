@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned, value
+from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
@@ -151,8 +151,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def add_falls(squares, before, after, forcing, sums):
-    """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes, in the same
-    places.
+    """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes.
 
     Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
     """

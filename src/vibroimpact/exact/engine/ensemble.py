@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ from vibroimpact.exact.engine.event_loop import (
     Progress,
     go_on,
 )
-from vibroimpact.exact.engine.flow import OMEGA, RATE, numbers_of, unpacked
+from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
 from vibroimpact.exact.engine.march import meet
@@ -97,11 +98,12 @@ def ensemble(
     settle: int = 0,
     progress: bool = False,
     energy: bool = False,
+    by_cycle: bool = False,
 ) -> np.ndarray:
     """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
 
-    The events are those of `simulate`, and final states differ by no more than `certificate.error` of the single run, as
-    long as that is decided; for events, samples or a certificate use `simulate`.
+    The events are those of `simulate`, and final states are as accurate as its certificate says (docs/engine.md). For
+    events, samples or a certificate use `simulate`.
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).
@@ -111,6 +113,8 @@ def ensemble(
         settle: cycles before the observation, from 0 to cycles; if all, only the final state is returned.
         progress: count finished runs on standard error, about once a second.
         energy: add the energy balance over the observed cycles (`Run.energy`) as the field energy (ENERGY).
+        by_cycle: return an outcome for each observed cycle, in a last axis of their number; its final state is that at
+            the end of the cycle.
 
     Returns:
         A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. The status (STATUSES) of a run
@@ -125,17 +129,26 @@ def ensemble(
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles)
     begins = [checked_window(system, cycles, tau0)[0] for system in known]
-    outcomes = np.empty(numbers.shape, WITH_ENERGY if energy else OUTCOME)
-    filled, starts = outcomes.reshape(-1), states.reshape(-1, 8)
+    windows = cycles - settle if by_cycle else 1
+    outcomes = np.empty((*numbers.shape, windows), WITH_ENERGY if energy else OUTCOME)
+    filled, starts = outcomes.reshape(numbers.size, windows), states.reshape(-1, 8)
     order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share what is known of it
     share = -(-numbers.size // cores())
     size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
     pieces = [
-        (known, begins, numbers.ravel(), starts, (settle, cycles), filled, order[first : first + size])
+        (
+            known,
+            begins,
+            numbers.ravel(),
+            starts,
+            (settle, cycles, 1 if by_cycle else cycles - settle),
+            filled,
+            order[first : first + size],
+        )
         for first in range(0, len(order), size)
     ]
     on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
-    return outcomes
+    return outcomes if by_cycle else outcomes[..., 0]
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
@@ -170,13 +183,13 @@ def _combined(systems, states):
 
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
-    """Run the initial states at these places and fill in their outcomes."""
-    (settle, cycles), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
-    owners, energy = numbers[places] - first, "energy" in outcomes.dtype.names
+    """Run the initial states at these places and fill in their outcomes; stages: as of `_loop`."""
+    (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
+    owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
     alone = scalars[:, RATE] > STIFF * scalars[:, OMEGA]
-    seen, final = np.zeros((len(places), SEEN)), np.full((len(places), 8), np.nan)
+    seen, final = np.zeros((*shape, SEEN)), np.full((*shape, 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
     potentials, drifts = UNSEEN
     if settle < cycles:
@@ -189,49 +202,43 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     while not _loop(*given):
         stop_if_given_up()
     for n in single:
-        status[n], final[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, seen[n])
-    outcomes["status"][places], outcomes["final"][places] = status, final
-    seen[status != FINISHED, :LARGEST], seen[status != FINISHED, LARGEST:] = 0.0, np.nan
+        status[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, final[n], seen[n])
+    failed = status != FINISHED
+    final[failed], seen[failed, :, :LARGEST], seen[failed, :, LARGEST:] = np.nan, 0.0, np.nan
     if settle == cycles:
-        seen[:, LARGEST:] = np.nan
+        seen[..., LARGEST:] = np.nan
     else:
-        seen[:, MEANS] /= (cycles - settle) * np.array([system.period for system in systems])[owners, None]
+        seen[..., MEANS] /= length * np.array([system.period for system in systems])[owners, None, None]
+    outcomes["status"][places], outcomes["final"][places] = status[:, None], final
     for name, place in FIELDS.items():
-        outcomes[name][places] = seen[:, place : place + 2]
+        outcomes[name][places] = seen[..., place : place + 2]
     if energy:
         for owner, system in enumerate(systems):
-            outcomes["energy"][places[owners == owner]] = energies(system, seen[owners == owner][:, ENERGIES])
+            outcomes["energy"][places[owners == owner]] = energies(system, seen[owners == owner][..., ENERGIES])
 
 
-def _alone(system, state, begin, stages, energy, seen):
-    """Return (status, final state) of a run by `simulate`; add its statistics to seen (SEEN,).
+def _alone(system, state, begin, stages, energy, final, seen):
+    """Return the status of a run by `simulate`; fill in its final states (k, 8) and statistics (k, SEEN).
 
     For stiff systems, of which a period has very many steps of lanes, and where potentials lose their digits.
     """
-    (settle, cycles), status = stages, FINISHED
-    if settle:
-        status, run = attempt(system, state, settle, begin, NO_TIMES)
-        state, begin = run.final.copy(), run.end
-    if status == FINISHED and (settle < cycles or not settle):
-        status, run = attempt(system, state, cycles - settle, begin, NO_TIMES)
-        if status == FINISHED and cycles:
-            flow, flights, rows = run.trajectory
-            phase, duration = flights[0, FORCING], run.cycles * system.period
-            _watch(
-                flow,
-                Squares(*(part[0] for part in UNSEEN)),
-                run.start,
-                rows,
-                run.final,
-                (duration, phase),
-                settle > 0,
-                seen,
-            )
+    (settle, cycles, length), flow = stages, flow_of(system)
+    stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
+    for cycle, stop in pairwise(stops):
+        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES)
+        if status != FINISHED:
+            return status
+        state, begin, k = run.final.copy(), run.end, max(cycle - settle, 0) // max(length, 1)
+        final[k] = run.final
+        if settle < stop:
+            _, flights, rows = run.trajectory
+            end = run.cycles * system.period, flights[0, FORCING]
+            _watch(flow, Squares(*(part[0] for part in UNSEEN)), run.start, rows, run.final, end, cycle > 0, seen[k])
             if energy:
                 spent = np.zeros((1, ACCOUNTED))
                 account(flow, powers_of(system), flights, rows, np.zeros(1), spent)
-                seen[INTEGRALS + 2 :] = spent[0, : SEEN - INTEGRALS - 2]
-    return status, run.final if status == FINISHED else np.nan
+                seen[k, INTEGRALS + 2 :] = spent[0, : SEEN - INTEGRALS - 2]
+    return FINISHED
 
 
 @compiled
@@ -252,9 +259,9 @@ def _watch(flow, squares, start, rows, final, end, settled, seen):
 class Memory(NamedTuple):
     """Runs in the lanes and what is known of them, between two calls of the loop.
 
-    runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts were
-    looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact states;
-    series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen, change: room for the event loop.
+    runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts
+    were looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact
+    states; series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen, change: room to work in.
     """
 
     runs: np.ndarray
@@ -299,8 +306,8 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
     """Run the initial states (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in
     their status, final states and statistics. Returns False after a while: then call again.
 
-    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; stages: the cycles
-    before the observation, and all.
+    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; stages: cycles
+    before the observation, all, and in each of its k windows; final (n, k, 8); seen (n, k, SEEN).
     """
     m, integrals, steps = memory, drifts.shape[2] if stages[0] < stages[1] else 0, 0
     squares = Squares(potentials[0], drifts[0])  # a type for the compiler
@@ -311,7 +318,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
                 n = m.begun[0]
                 m.begun[0] += 1
                 if status[n] == FINISHED:
-                    _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, m)
+                    _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, final, seen, m)
             alive += m.members[lane] >= 0
             if m.members[lane] < 0:
                 m.runs[march.ALIVE, lane] = 0.0
@@ -332,25 +339,37 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
             flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
             if integrals > 0:
                 squares = Squares(potentials[owner], drifts[owner])
-            if outcome == march.STOPPED:
-                ended, motion = FINISHED, _motion_of(m.runs, lane)
-                if m.runs[march.STOP, lane] < stages[1]:
-                    _open(flow, squares, motion, stages, lane, m)
-                    m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
-                    m.runs[march.TURNS, lane] = stages[0]
-                    m.runs[march.TRIAL, lane] = m.runs[march.REACH, lane] = 0.0
-                    continue
+            if outcome == march.DOUBTFUL:
+                ended = _by_events(flow, rates[owner], squares, stages, n, lane, final, seen, m)
             else:
-                ended, motion = _by_events(flow, rates[owner], squares, stages, lane, m)
+                stop, motion = m.runs[march.STOP, lane], _motion_of(m.runs, lane)
+                ended = FINISHED if _is_last(flow, squares, motion, stages, n, lane, final, seen, m) else PAUSED
+                m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
+                m.runs[march.TURNS, lane], m.runs[march.TRIAL, lane], m.runs[march.REACH, lane] = stop, 0.0, 0.0
             if ended != PAUSED:
                 status[n], m.members[lane] = ended, -1
-                if ended == FINISHED:
-                    for i in range(4):
-                        final[n, 2 * i], final[n, 2 * i + 1] = motion.boxes[i], motion.balls[i]
-                    if integrals > 0:
-                        _read(m, lane)
-                        open_or_close(flow, squares, motion, 1.0, m.seen)
-                        seen[n] = m.seen
+
+
+@unfolded
+def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
+    """Return True if a run is at its end. Close the window of its observation that ends there, else open the next."""
+    settle, cycles, length = stages
+    stop, watched = int(m.runs[march.STOP, lane]), m.runs[march.WATCHED, lane] > 0.0
+    if watched or stop == cycles:
+        k = (stop - settle) // length - 1 if watched else 0
+        for i in range(4):
+            final[n, k, 2 * i], final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
+        if watched:
+            _read(m, lane)
+            open_or_close(flow, squares, motion, 1.0, m.seen)
+            seen[n, k] = m.seen
+    if stop == cycles:
+        return True
+    m.runs[march.STOP, lane], m.runs[march.WATCHED, lane] = stop + length, 1.0
+    m.seen[:] = 0.0
+    open_or_close(flow, squares, motion, -1.0, m.seen)
+    _write(m, lane)
+    return False
 
 
 @unfolded
@@ -362,7 +381,7 @@ def _stop_crowded(stages, status, m):
 
 
 @unfolded
-def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, m):
+def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, final, seen, m):
     """Put a start into a lane."""
     owner, slot = owners[n], -1
     for k in range(WIDTH):
@@ -391,7 +410,7 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
     if stages[0] == 0 < stages[1]:
         flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
         squares = Squares(potentials[owner], drifts[owner])
-        _open(flow, squares, _motion_of(m.runs, lane), stages, lane, m)
+        _is_last(flow, squares, _motion_of(m.runs, lane), stages, n, lane, final, seen, m)
 
 
 @inlined
@@ -400,15 +419,6 @@ def _motion_of(runs, lane):
     return Motion(
         (r[0], r[1], r[2], r[3]), (r[k], r[k + 1], r[k + 2], r[k + 3]), (0, 0), (0, 0), r[march.SINE], r[march.COSINE]
     )
-
-
-@inlined
-def _open(flow, squares, motion, stages, lane, m):
-    """Begin the observation of a lane."""
-    m.runs[march.STOP, lane], m.runs[march.WATCHED, lane] = stages[1], 1.0
-    m.seen[:] = 0.0
-    open_or_close(flow, squares, motion, -1.0, m.seen)
-    _write(m, lane)
 
 
 @inlined
@@ -450,9 +460,9 @@ def _fill_constants(flow, change, step, phase, potentials, drifts, owner, c):
 
 
 @unfolded
-def _by_events(flow, rates, squares, stages, lane, m):
-    """Carry the run of a lane on by the event loop until both balls fly and one is on a wall or far from them; return
-    (PAUSED, or the status of the finished run; its motion).
+def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
+    """Carry the run of a lane on by the event loop to where both balls fly; return PAUSED, or the status of a finished
+    run.
     """
     runs, counters, no_times, no_samples = m.runs, m.counters[lane], np.empty(0), np.empty((0, 8))
     first = m.constants[march.FIRST, lane], m.constants[march.FIRST_TAIL, lane]
@@ -488,9 +498,9 @@ def _by_events(flow, rates, squares, stages, lane, m):
         motion = Motion(
             motion.boxes, motion.balls, motion.walls, (0, 0), np.sin(progress.phase), np.cos(progress.phase)
         )
-        if ended == FINISHED and stop < stages[1]:
-            _open(flow, squares, motion, stages, lane, m)
-        elif ended != PAUSED or mode_of(motion.walls) == 0:
+        if ended == FINISHED and not _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
+            continue
+        if ended != PAUSED or mode_of(motion.walls) == 0:
             break
     for i in range(4):
         runs[march.X1 + i, lane], runs[march.Y1 + i, lane] = motion.boxes[i], motion.balls[i]
@@ -501,7 +511,7 @@ def _by_events(flow, rates, squares, stages, lane, m):
     runs[march.DUE, lane], runs[march.STALLED, lane] = progress.due, progress.stalled
     runs[march.TRIAL, lane] = runs[march.REACH, lane] = runs[march.PASSED, lane] = 0.0
     runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = 0.0
-    return ended, motion
+    return ended
 
 
 @unfolded

@@ -18,9 +18,9 @@ ORDERS = 8  # of the Taylor polynomials
 
 @compiled
 def exact_rates(parameters):
-    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat, the rate matrices of its contact
-    states in pairs, (n, 2, 4, 6, 6): floats next to the exact entries, and the rest; the change of a ball's velocity at an
-    impact per unit of relative velocity, (n, 2); and the largest rates of stiffness and damping, (n, 2).
+    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat: the rate matrices of its contact
+    states in pairs, (n, 2, 4, 6, 6), floats next to the exact entries, and the rest; the change of a ball's velocity at
+    an impact per unit of relative velocity, (n, 2); and the largest rates of stiffness and damping, (n, 2).
 
     Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
     """
@@ -91,7 +91,7 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Fill in series[mode] and the rotations of `tables`, and the change (6, 6) that so many steps make to the state."""
+    """Fill in series[mode] and the rotations of `tables`, and the change (6, 6) of the state in so many steps."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))

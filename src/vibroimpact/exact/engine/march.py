@@ -1,10 +1,11 @@
 """Free flights of eight runs of any systems side by side, and their plain impacts.
 
-Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`); what that changes is added, so that its rounding is small. A step is proved free of an impact by
-the hull of a cubic polynomial. The position w of a ball relative to its box and the rate r at both ends, w, r and w', r',
-make Hermite's polynomial; it lies within its Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on
-the fourth derivative it is wrong by at most B h^4 s^2 (1 - s)^2 / 24 at s h, no more than lowering the two coefficients
-in the middle by B h^4 / 72 takes away. B follows from the energy of the boxes, which grows no faster than by the force.
+Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`); what a step changes is added, so that
+its rounding is small. A step is proved free of an impact by the hull of a cubic polynomial. The position w of a ball in
+its box and its rate r at both ends make Hermite's polynomial, which lies within its Bernstein coefficients w,
+w + h r / 3, w' - h r' / 3, w'. With a bound B on the fourth derivative it errs by at most B h^4 s^2 (1 - s)^2 / 24 at a
+part s of the step; lowering the two coefficients in the middle by B h^4 / 72 takes away more. B follows from the energy
+of the boxes, which grows no faster than the force raises it.
 
 Lanes whose step is not proved wait until there are enough of them for a pass (`meet`): the Taylor polynomials of both
 boxes give the time of an impact, and the same hull proves the flight until then; or they give where a box turns. A
@@ -34,18 +35,18 @@ X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
 PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, SEEN_AT = range(18, 28)
 STATES = SEEN_AT + SEEN
-"""Rows of the runs, (STATES, 8): boxes, sine and cosine of the forcing phase after a number of steps, balls at the
-beginning of the flight; the time passed since then, and that to its end; the length of the next step (0: begin a flight, -1: leave it to the event
-loop); a bound on the boxes' energy, the bound for Bernstein's coefficients; the walls that the balls leave; the module
-that is on a wall, or -1; the phase at the beginning of the flight, revolutions, and those at the end of the run; whether
-there is a run, whether it is observed; its events, its flights without progress; what a pass did; its statistics."""
+"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; the
+time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
+the event loop); a bound on the boxes' energy, that for Bernstein's coefficients; the walls that the balls leave; the
+module that is on a wall, or -1; the phase at the beginning, revolutions, and those at which the run stops; 1 for a run,
+1 if it is observed; its events, its flights without progress; what a pass did; its statistics."""
 
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
 BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
 CONSTANTS = FALLS + 12 * (SEEN - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of the system of each run: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h;
-h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
-impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
+"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h; h;
+scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
+lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """What a pass did in a lane: DOUBTFUL asks for the event loop."""
@@ -315,7 +316,7 @@ def _at(work, first, t):
 
 @inlined
 def _about(work, first, leaves, wall, y, u, step):
-    """Return roughly when a ball meets a wall: by a quadratic, and two steps of Newton's method; leaves: it is there."""
+    """Return roughly when a ball meets a wall, by a quadratic and two steps of Newton's method; leaves: it is there."""
     c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
     c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
     root = fused(c1, c1, -4.0 * c0 * c2)

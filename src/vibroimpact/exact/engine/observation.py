@@ -24,7 +24,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 def observe(flow, squares, departure, events, count, arrival, seen):
     """Add the statistics of a piece of a run to seen (SEEN,), without the potentials at its ends.
 
-    departure: its start (`replay.Departure`); events: its rows, and how many; arrival: boxes, time and phase of its end.
+    departure: its start (`replay.Departure`); events, count: its rows; arrival: boxes, time and phase of its end.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
