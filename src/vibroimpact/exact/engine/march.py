@@ -9,7 +9,7 @@ of the boxes, which grows no faster than the force raises it.
 
 Lanes whose step is not proved wait until there are enough of them for a pass (`meet`): the Taylor polynomials of both
 boxes give the time of an impact, and the same hull proves the flight until then; or they give where a box turns. A
-proof that fails is tried again over half the time. What is not plain (chatter low enough to be completed, balls at rest,
+proof that fails is tried again over half the time. What is not plain (chatter to be completed, balls at rest,
 two events at once, any doubt) is left to the event loop.
 """
 
