@@ -1,0 +1,114 @@
+"""The proofs of the lanes: the bound on the fourth derivative, the hull of Hermite's polynomial; vectors or none."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import vibroimpact as vi
+from attacks import GENES, bred, random_system
+from vibroimpact.exact.engine import ensemble as lanes
+from vibroimpact.exact.engine import march
+from vibroimpact.exact.engine.compiled import compiled
+from vibroimpact.exact.engine.flow import numbers_of
+from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
+
+GRID = 400
+
+
+@compiled
+def begun(numbers, rates, potentials, drifts, starts, memory):
+    """Put the first start into the first lane."""
+    owners, phases, seen = np.zeros(1, np.int64), np.zeros((1, 2)), np.zeros((1, 1, 1))
+    lanes._begin(numbers, rates, phases, potentials, drifts, owners, starts, (1, 1, 0), 0, 0, seen, seen, memory)
+
+
+def constants(system):
+    """Constants of a system in the lanes."""
+    memory = lanes._memory()
+    begun(*numbers_of([system], lanes.TABLE), *lanes.UNSEEN, np.zeros((1, 8)), memory)
+    return memory.constants[:, 0]
+
+
+def systems(count):
+    rng = np.random.default_rng(3)
+    yield from (random_system(rng) for _ in range(count))
+    while count:
+        try:
+            yield bred(rng.uniform(0, 1, GENES))[0].system
+            count -= 1
+        except ValueError:
+            continue
+
+
+def test_a_step_is_the_matrix_exponential_less_one():
+    for system in systems(20):
+        c = constants(system)
+        step = expm(rate_matrix(system) * c[march.STEP])
+        np.testing.assert_allclose(c[:24].reshape(4, 6), step[:4] - np.eye(6)[:4], rtol=0, atol=1e-13 * abs(step).max())
+        np.testing.assert_allclose([c[march.CA] + 1.0, c[march.SA]], step[4, 4:], rtol=1e-14)
+
+
+def test_the_fourth_derivative_stays_below_its_bound_throughout_a_flight():
+    rng, closest = np.random.default_rng(4), 0.0
+    for system in systems(40):
+        c, rate = constants(system), rate_matrix(system)
+        boxes, phase = rng.normal(size=4) * 10 ** rng.uniform(-2, 1), rng.uniform(0, 7)
+        z = np.array([*boxes, np.sin(phase), np.cos(phase)])
+        size = np.sqrt(boxes[2:] @ boxes[2:] + boxes[:2] @ stiffness_matrix(system) @ boxes[:2])
+        times = np.linspace(0.0, 6.0 / system.Omega, GRID)
+        step, fourth = expm(rate * times[1]), np.linalg.matrix_power(rate, 4)[:2]
+        for t in times:
+            bound = 72 * (c[march.BEND] * (size + t * c[march.DRIVE]) + c[march.BEND_FORCE])
+            closest = max(closest, np.abs(fourth @ z).max() / bound)
+            z = step @ z
+    assert 0.1 < closest <= 1.0
+
+
+def test_no_function_with_a_bounded_fourth_derivative_leaves_the_hull():
+    """The worst, whose fourth derivative is the bound everywhere, with coefficients up to the limits."""
+    rng, s, h = np.random.default_rng(5), np.linspace(0.0, 1.0, 2001), 0.4
+    nearest = 0.0
+    for _ in range(2000):
+        bend = 10 ** rng.uniform(-3, 2)
+        limit = 1.0 - bend * h**4 / 72
+        ends, middle = rng.choice([1.0, rng.uniform(-1, 1)], 2), limit * rng.choice([1.0, rng.uniform(-1, 1)], 2)
+        rates = 3 * (middle[0] - ends[0]) / h, 3 * (ends[1] - middle[1]) / h
+        inside = march._inside(limit + 1e-15, ends[0], rates[0], ends[1], rates[1], h / 3)
+        assert inside
+        cubic = (1 - s) ** 3 * ends[0] + 3 * s * (1 - s) * ((1 - s) * middle[0] + s * middle[1]) + s**3 * ends[1]
+        worst = (cubic + bend * h**4 * (s * (1 - s)) ** 2 / 24)[1:-1].max()
+        nearest = max(nearest, worst)
+        assert worst <= 1.0 + 1e-14
+        assert not march._inside(limit - 1e-9, 1.0, 3 * (limit - 1.0) / h, 0.0, 0.0, h / 3)
+    assert nearest > 1.0 - 1e-3
+
+
+SCRIPT = """
+import sys
+import numpy as np
+import vibroimpact as vi
+from attacks import ensembles
+for kind in ("equal", "sweep", "hostile"):
+    systems, states, cycles, tau0 = ensembles[kind](np.random.default_rng(6), 40)
+    sys.stdout.buffer.write(vi.ensemble(systems, states, cycles, tau0).tobytes())
+"""
+
+
+@pytest.mark.thorough
+def test_processors_without_vectors_or_fused_products_give_the_same_outcomes(tmp_path):
+    """The compiler cuts the vectors up; each operation rounds as it does in a lane."""
+    path = os.pathsep.join(entry for entry in sys.path if entry)
+    plain = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(tmp_path)}
+    outcomes = [
+        subprocess.run(
+            [sys.executable, "-c", SCRIPT], env=os.environ | {"PYTHONPATH": path} | extra, check=True, stdout=-1
+        )
+        for extra in ({}, plain)
+    ]
+    first, second = (np.frombuffer(one.stdout, vi.OUTCOME) for one in outcomes)
+    for name in vi.OUTCOME.names:
+        np.testing.assert_array_equal(first[name], second[name])
