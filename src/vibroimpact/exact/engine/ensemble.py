@@ -8,34 +8,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
-from vibroimpact.exact.engine.energy import (
-    ENERGY,
-    OBSERVED,
-    Squares,
-    account,
-    energies,
-    potentials_of,
-    powers_of,
-)
+from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, Squares, account, energies, potentials_of, powers_of
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
-from vibroimpact.exact.engine.event_loop import (
-    CROWDED,
-    FAILURES,
-    FINISHED,
-    MOST_AT_ONCE,
-    MOST_EVENTS,
-    MOST_EVENTS_PER_CYCLE,
-    PAUSED,
-    Progress,
-    go_on,
-)
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, go_on
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
-from vibroimpact.exact.engine.march import meet
 from vibroimpact.exact.engine.motion import APPROACH, ENTRIES, EVENTS, KIND, MODULE, ROW, TIME, Log, Motion, mode_of
 from vibroimpact.exact.engine.observation import (
     IMPACTS,
@@ -294,7 +276,7 @@ def _memory():
         np.empty((WIDTH, 4, TABLE, 6, 2 * ORDERS)),
         np.empty((WIDTH, TABLE, 2)),
         np.zeros((WIDTH, march.CONSTANTS)),
-        np.empty((2 * MOST_AT_ONCE, ROW)),
+        np.empty((2 * kernel.MOST_AT_ONCE, ROW)),
         np.zeros((WIDTH, ENTRIES)),
         np.zeros(SEEN),
         np.zeros((6, 6)),
@@ -328,7 +310,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
             _stop_crowded(stages, status, m)
             return False
         steps += march.march(m.runs, m.constants, max(3 * alive // 4, 1)) + 16
-        if meet(m.runs, m.constants, m.work, integrals) == 0:
+        if march.meet(m.runs, m.constants, m.work, integrals) == 0:
             continue
         for lane in range(WIDTH):
             outcome, n = m.runs[march.OUTCOME, lane], m.members[lane]
@@ -375,9 +357,10 @@ def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
 @unfolded
 def _stop_crowded(stages, status, m):
     """Give up runs with too many events."""
+    most = kernel.MOST_EVENTS + kernel.MOST_EVENTS_PER_CYCLE * float(stages[1])
     for lane in range(WIDTH):
-        if m.members[lane] >= 0 and m.runs[march.EVENTS, lane] > MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(stages[1]):
-            status[m.members[lane]], m.members[lane] = CROWDED, -1
+        if m.members[lane] >= 0 and m.runs[march.EVENTS, lane] > most:
+            status[m.members[lane]], m.members[lane] = kernel.CROWDED, -1
 
 
 @unfolded
@@ -416,9 +399,8 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
 @inlined
 def _motion_of(runs, lane):
     r, k = runs[:, lane], march.Y1
-    return Motion(
-        (r[0], r[1], r[2], r[3]), (r[k], r[k + 1], r[k + 2], r[k + 3]), (0, 0), (0, 0), r[march.SINE], r[march.COSINE]
-    )
+    boxes, balls = (r[0], r[1], r[2], r[3]), (r[k], r[k + 1], r[k + 2], r[k + 3])
+    return Motion(boxes, balls, (0, 0), (0, 0), r[march.SINE], r[march.COSINE])
 
 
 @inlined
@@ -474,30 +456,19 @@ def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
         _make_tables(flow, rates, progress, m.made[m.slots[lane]], m.change)
         stop = int(runs[march.STOP, lane])
         counters[EVENTS] = 0.0
-        leaving = Departure(
-            progress.motion.boxes, progress.motion.balls, progress.motion.walls, progress.elapsed, progress.phase
-        )
+        motion, log, earlier = progress.motion, Log(m.rows, counters), runs[march.EVENTS, lane]
+        leaving = Departure(motion.boxes, motion.balls, motion.walls, progress.elapsed, progress.phase)
         progress, ended = go_on(
-            flow,
-            progress,
-            first,
-            stop,
-            0.0,
-            no_times,
-            no_samples,
-            Log(m.rows, counters),
-            runs[march.EVENTS, lane],
-            np.int64(0),
-        )
+            flow, progress, first, stop, 0.0, no_times, no_samples, log, earlier, np.int64(0)
+        )  # fmt: skip
         noted, motion = int(counters[EVENTS]), progress.motion
         runs[march.EVENTS, lane] += noted
         if runs[march.WATCHED, lane] > 0.0:
             _read(m, lane)
             observe(flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.seen)
             _write(m, lane)
-        motion = Motion(
-            motion.boxes, motion.balls, motion.walls, (0, 0), np.sin(progress.phase), np.cos(progress.phase)
-        )
+        sine, cosine = np.sin(progress.phase), np.cos(progress.phase)
+        motion = Motion(motion.boxes, motion.balls, motion.walls, (0, 0), sine, cosine)
         if ended == FINISHED and not _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
             continue
         if ended != PAUSED or mode_of(motion.walls) == 0:

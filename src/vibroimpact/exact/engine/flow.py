@@ -94,18 +94,13 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
-    shift = drive * (2.0 * np.pi / omega) * farthest(ground)
+    shift = drive * (2.0 * np.pi / omega) * np.maximum(1.0, 1.0 / np.sqrt(ground))
     numbers = [
         *(k[:, 0, 0], k[:, 0, 1], k[:, 1, 1], ground, c[:, 0, 0], c[:, 0, 1], c[:, 1, 1], f1, f2, omega, e, kappa),
         *(drive, drive * omega**6, shift, 1.0 + e, 1.0 / (1.0 + e), *impulses.T),
         *(spacing, 1.0 / spacing, longest, 1.0 / fastest, stiff + damped),
     ]
     return np.array(numbers).T.copy(), rates
-
-
-def farthest(ground):
-    """Return the largest displacement of a box per square root of twice the energy of both."""
-    return np.maximum(1.0, 1.0 / np.sqrt(ground))
 
 
 @lru_cache(maxsize=64)
@@ -204,14 +199,6 @@ def along(jets, t):
     """Return the boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
-
-
-@inlined
-def node(flow, mode, boxes, sine, cosine, j):
-    """Return boxes and forcing phase at the j-th time of the table, j * flow.spacing: (X1, X2, X1', X2'), sin, cos."""
-    one, two = jet_at(flow, mode, boxes, sine, cosine, j)
-    s, c = turned(flow, sine, cosine, j)
-    return (one[0], two[0], one[1], two[1]), s, c
 
 
 @inlined

@@ -84,7 +84,7 @@ def _inside(limit, w, rate, later, rate_later, third):
 
 @inlined
 def _may_turn_beyond(most, x, v, later, v_later, third):
-    """Return True where a box turns in a step and may be farther from rest than most."""
+    """Return True where a box turns in a step and a Bernstein coefficient in the middle is beyond most."""
     return (v * v_later < 0.0) & (_most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > most)
 
 
@@ -114,8 +114,9 @@ def march(runs, c, enough):
         o1, o2 = b1 - u1, b2 - u2
         ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
-        turns = _may_turn_beyond(most1, x1, v1, a1, b1, third) | _may_turn_beyond(most2, x2, v2, a2, b2, third)
-        ok = ok & ~turns
+        wrong = 1.0 - limit
+        ok = ok & ~_may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
+        ok = ok & ~_may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
         if count(alive & ~ok) >= enough:
             break
         s, k = where(ok, s + fused(k, sa, s * ca), s), where(ok, k + fused(k, ca, -s * sa), k)
@@ -217,23 +218,9 @@ def meet(runs, c, work, integrals):
     again = pending & ~there & (t > SHORTEST * step)
     stops = there & ~meets & ~leaves & (time >= reach) & (left <= SAME_TIME)
     if integrals > 0:
-        _observe(
-            runs,
-            c,
-            work,
-            integrals,
-            there,
-            impact & one,
-            impact & ~one,
-            t,
-            time,
-            (v1, v2),
-            (b1, b2),
-            (d1, d2),
-            (e1, e2),
-            (u1, u2),
-            (s, k),
-        )
+        hits, early = (impact & one, impact & ~one), ((x1, v1), (x2, v2))
+        flight = there, t, time, 1.0 - limit
+        _observe(runs, c, work, integrals, flight, hits, early, (b1, b2), (d1, d2), (e1, e2), (u1, u2), (s, k))
     e1, e2, o1, o2 = where(doubt, d1, e1), where(doubt, d2, e2), where(doubt, u1, o1), where(doubt, u2, o2)
     put = where(one, b1, b2) - wall
     z1, z2 = where(impact & one, put, z1), where(impact & ~one, put, z2)
@@ -363,31 +350,32 @@ def _sine_and_cosine(phase, tail):
 
 
 @inlined
-def _observe(runs, c, work, integrals, there, hit1, hit2, t, time, early, boxes, late, after, balls, forcing):
+def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, balls, forcing):
     """Add the statistics of a flight and its impact.
 
-    time: since the last pass, of which t is the last step; early: velocities of the boxes before it; boxes: positions
-    after it; late, after: velocities before and after the impact.
+    flight: where there is one, its last step, its time, the error of Hermite's polynomial in that step; hits: where a
+    module has an impact; early: position and velocity of each box before the step; boxes: positions after it; late,
+    after: velocities before and after the impact.
     """
-    watched = (load(runs, WATCHED) > 0.0) & there
+    there, t, time, wrong = flight
+    watched, third = (load(runs, WATCHED) > 0.0) & there, t * (1 / 3)
     for i in range(2):
-        hit = hit1 if i == 0 else hit2
-        _add(runs, watched & hit, IMPACTS + i, 1.0)
-        approach = late[i] - balls[i]
-        _add(runs, watched & hit, LOST + i, load(c, LOSS) * (approach * approach))
+        hit, row, approach = watched & hits[i], SEEN_AT + LARGEST + i, late[i] - balls[i]
+        _add(runs, hit, IMPACTS + i, 1.0)
+        _add(runs, hit, LOST + i, load(c, LOSS) * (approach * approach))
         _add(runs, watched, PATH + i, abs(balls[i]) * time)
-        most, turns = abs(boxes[i]), watched & (early[i] * late[i] < 0.0)
+        most, (x, v) = _most(abs(boxes[i]), load(runs, row)), early[i]
+        turns = watched & _may_turn_beyond(most - wrong, x, v, boxes[i], late[i], third)
         if count(turns) > 0:
-            turned = abs(_turn(work, i * (ORDER + 1), t, t * early[i] / (early[i] - late[i])))
-            most = where(turns & (turned > most), turned, most)
-        row = SEEN_AT + LARGEST + i
-        _replace(runs, watched & (most > load(runs, row)), row, most)
+            turned = abs(_turn(work, i * (ORDER + 1), t, t * v / (v - late[i])))
+            most = where(turns, _most(most, turned), most)
+        _replace(runs, watched, row, most)
     z = 2.0 * boxes[0], 2.0 * boxes[1], late[0] + after[0], late[1] + after[1], 2.0 * forcing[0], 2.0 * forcing[1]
-    change = where(hit1, late[0] - after[0], where(hit2, late[1] - after[1], 0.0))
+    change = where(hits[0], late[0] - after[0], where(hits[1], late[1] - after[1], 0.0))
     for k in range(integrals):
         place, fall = FALLS + 12 * k, 0.0 * t
         for m in range(6):
-            fall = fused(where(hit1, load(c, place + m), load(c, place + 6 + m)), z[m], fall)
+            fall = fused(where(hits[0], load(c, place + m), load(c, place + 6 + m)), z[m], fall)
         _add(runs, watched, INTEGRALS + k, fused(change, fall, load(c, DRIFTS + k) * time))
 
 
