@@ -111,7 +111,7 @@ def ensemble(
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles)
     begins = [checked_window(system, cycles, tau0)[0] for system in known]
-    windows = cycles - settle if by_cycle else 1
+    windows = max(cycles - settle, 1) if by_cycle else 1
     outcomes = np.empty((*numbers.shape, windows), WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(numbers.size, windows), states.reshape(-1, 8)
     order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share what is known of it
@@ -130,7 +130,7 @@ def ensemble(
         for first in range(0, len(order), size)
     ]
     on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
-    return outcomes if by_cycle else outcomes[..., 0]
+    return outcomes[..., : cycles - settle] if by_cycle else outcomes[..., 0]
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
