@@ -66,7 +66,7 @@ UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
 MOST_RUNS, SHARES = 1024, 4
 """Runs in a piece of work; pieces per core where there are many runs."""
 LATER = INADMISSIBLE + 1
-STIFF = 5.0  # over the forcing frequency, rates of which lanes would need many steps, with as many rounding errors
+FAR = np.log(4.0)  # the rates of boxes and forcing are so far apart that flights would be many steps, each rounded
 TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
 NEAR = 1e-6  # from a wall, no ball rests on it
 SPELL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
@@ -170,7 +170,7 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
-    alone = scalars[:, RATE] > STIFF * scalars[:, OMEGA]
+    alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > FAR
     seen, final = np.zeros((*shape, SEEN)), np.full((*shape, 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
     potentials, drifts = UNSEEN
@@ -202,7 +202,7 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _alone(system, state, begin, stages, energy, final, seen):
     """Return the status of a run by `simulate`; fill in its final states (k, 8) and statistics (k, SEEN).
 
-    For stiff systems, of which a period has very many steps of lanes, and where potentials lose their digits.
+    For systems with fast and slow rates, whose flights would be many steps, and where potentials lose their digits.
     """
     (settle, cycles, length), flow = stages, flow_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
