@@ -4,7 +4,7 @@ Work and dissipation are integrals of quadratic forms along the flights. None of
 so that they add up to the change of what is stored by being right. The stick that ends a chatter takes what is left of
 the relative motion: the energy of the rebounds that are not listed.
 
-In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. The integral of a quadratic form of z over a time t is another
+In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. The integral of a quadratic form of z over a time t is such a
 form of z at the start, which a table has at the times of the flow table (`flow`), and Gauss's rule on the Taylor
 polynomial there adds the rest. Where there is damping, ensembles do without tables: z G z is the rate of a potential,
 z S z + c t, with A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation), so that of a run count its ends, and what
