@@ -7,12 +7,12 @@ import sys
 
 import numpy as np
 import pytest
+from vibroimpact.cli.plots import curves
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.cli.commands import Table
 from vibroimpact.cli.parser import main
-from vibroimpact.cli.plots import curves
 
 
 def table(capsys, *arguments):
@@ -41,7 +41,7 @@ def test_fixed_points_of_the_cases(capsys, case):
     rows = table(capsys, "fixed-points", "--case", case)
     points = vi.fixed_points(system_of(case))
     assert [[float(row["C1"]), float(row["psi2"])] for row in rows] == [[p.C[0], p.psi[1]] for p in points]
-    assert {row["slow_flow"] for row in rows} <= {"stable", "unstable", "undecided"}
+    assert {row["slow"] for row in rows} <= {"stable", "unstable", "undecided"}
 
 
 def test_options_change_the_system(capsys):
@@ -55,7 +55,7 @@ def test_orbits_that_are_motions(capsys):
     orbits = [orbit for orbit in vi.orbits(system_of("equal")) if orbit.admissible]
     assert [row["symmetric"] == "True" for row in rows] == [orbit.symmetric for orbit in orbits]
     np.testing.assert_array_equal([float(row["phase2_minus"]) for row in rows], [o.impact_phases[1, 1] for o in orbits])
-    assert [row["floquet"] == "stable" for row in rows] == [abs(o.multipliers[0]) < 1 for o in orbits]
+    assert [row["exact"] == "stable" for row in rows] == [abs(o.multipliers[0]) < 1 for o in orbits]
 
 
 START = ["--state", "-1e-3", "0", "0.1", "-.5", "0", "0", "0", "0.3", "--cycles", "20", "--tau0", "0.5"]

@@ -43,7 +43,7 @@ def test_the_table_of_fixed_points_is_the_printed_one(followed):
     for label, cells in rows:
         point = points[label]
         numbers = [f"{point[name]:.3f}" for name in ("C1", "C2", "B1", "B2")]
-        assert cells.split(" | ") == [*numbers, point["fast"], point["slow"], point["both"]]
+        assert cells.split(" | ") == [*numbers, point["fast"], point["slow"], point["theory"]]
 
 
 def test_what_is_said_of_the_orbits(followed):
