@@ -113,7 +113,7 @@ def bifurcation_curves(
         for q in np.linspace(*limits[1], count + 2)[1:-1].tolist():
             report = _report(f"{family.name}: {names[1]} = {q:.4g}, {names[0]} =", progress)
             path = Path(system.with_(**{names[1]: q}), names[:1])
-            values = np.linspace(low, high, count)
+            values = np.linspace(low, high, count + 2)
             started += [
                 (q, branch)
                 for branch in one_parameter.branches(family, path, (low, high), values, widths[0] / _STEPS, report)
