@@ -54,8 +54,8 @@ def attractors(system: System, states, observation: Observation | None = None) -
     Args:
         states: (n, 8) starts at tau = 0.
         observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
-            until it repeats. A ball that stands idle, or hardly moves, may take thousands to meet a wall, or never
-            meet one; docs/regimes.md has numbers.
+            until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
+            never meet a wall (docs/howto_sweep.md).
 
     Raises:
         ValueError: an argument is malformed.
