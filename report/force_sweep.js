@@ -45,10 +45,10 @@ class Plane {
     let last = -Infinity;
     for (const { name, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
       const hue = colour(track), [x, y] = [this.x(C[module]), this.y(B[module])];
-      const fill = verdicts.fast_and_slow === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
+      const fill = verdicts.theory === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
       shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": name });
-      if (verdicts.floquet in RINGS) {
-        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.floquet], "data-exact": verdicts.floquet });
+      if (verdicts.exact in RINGS) {
+        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.exact], "data-exact": verdicts.exact });
       }
       const below = x - last > 20;
       last = x;
@@ -70,9 +70,9 @@ class Branches {
     for (let C = 0; C <= top; C += 0.5) shape(svg, "text", { x: LEFT - 6, y: y(C) + 4, "text-anchor": "end" }, C);
     shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, "f̂₂₀");
     shape(svg, "text", { x: 2, y: TOP + 30, "font-style": "italic" }, "C₂");
-    for (const { track, C, value, floquet } of all) {
-      const stable = floquet === "stable";
-      shape(svg, "circle", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": floquet });
+    for (const { track, C, value, exact } of all) {
+      const stable = exact === "stable";
+      shape(svg, "circle", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": exact });
     }
     this.cursor = shape(svg, "line", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: "#4a4a4a", "stroke-width": 1.2 });
   }
@@ -98,11 +98,11 @@ class Circle {
   show(index, points) {
     this.layer.replaceChildren();
     const names = Object.fromEntries(points.map(({ track, name }) => [track, name])), far = [];
-    for (const { track, floquet, multipliers } of this.orbits[index]) {
+    for (const { track, exact, multipliers } of this.orbits[index]) {
       for (const [real, imaginary] of multipliers) {
         const modulus = Math.hypot(real, imaginary), inside = Math.min(1, (FAR - 0.1) / modulus);
         const [x, y] = [this.centre[0] + real * inside * this.unit, this.centre[1] - imaginary * inside * this.unit];
-        const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": floquet };
+        const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": exact };
         if (track) shape(this.layer, "circle", { cx: x, cy: y, r: 3.6, ...style });
         else shape(this.layer, "rect", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
         if (inside < 1) far.push([`${names[track] ?? "pair"}: ${modulus.toPrecision(3)}`, colour(track)]);
@@ -134,9 +134,9 @@ class Badges {
     };
     const pair = orbits.find(({ track }) => !track);
     const lines = points.map(({ name, label, track, verdicts }) => {
-      return line(name, colour(track), name === label ? "" : `(${label} in the chapter’s order)`, [["the chapter says", verdicts.printed_10_26], ["exact", verdicts.floquet]]);
+      return line(name, colour(track), name === label ? "" : `(${label} in the chapter’s order)`, [["the chapter says", verdicts.printed_10_26], ["exact", verdicts.exact]]);
     });
-    this.list.replaceChildren(...lines, ...(pair ? [line("pair", ASYMMETRIC, "of asymmetric orbits", [["the chapter says", "nothing"], ["exact", pair.floquet]])] : []));
+    this.list.replaceChildren(...lines, ...(pair ? [line("pair", ASYMMETRIC, "of asymmetric orbits", [["the chapter says", "nothing"], ["exact", pair.exact]])] : []));
   }
 }
 

@@ -10,9 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.cli.commands import Table
 from vibroimpact.cli.parser import main
-from vibroimpact.cli.plots import curves
 
 
 def table(capsys, *arguments):
@@ -41,7 +39,8 @@ def test_fixed_points_of_the_cases(capsys, case):
     rows = table(capsys, "fixed-points", "--case", case)
     points = vi.fixed_points(system_of(case))
     assert [[float(row["C1"]), float(row["psi2"])] for row in rows] == [[p.C[0], p.psi[1]] for p in points]
-    assert {row["slow_flow"] for row in rows} <= {"stable", "unstable", "undecided"}
+    said = [(point.stability.fast, point.stability.slow, point.stability.theory) for point in points]
+    assert [(row["fast"], row["slow"], row["theory"]) for row in rows] == said
 
 
 def test_options_change_the_system(capsys):
@@ -55,7 +54,7 @@ def test_orbits_that_are_motions(capsys):
     orbits = [orbit for orbit in vi.orbits(system_of("equal")) if orbit.admissible]
     assert [row["symmetric"] == "True" for row in rows] == [orbit.symmetric for orbit in orbits]
     np.testing.assert_array_equal([float(row["phase2_minus"]) for row in rows], [o.impact_phases[1, 1] for o in orbits])
-    assert [row["floquet"] == "stable" for row in rows] == [abs(o.multipliers[0]) < 1 for o in orbits]
+    assert [row["exact"] == "stable" for row in rows] == [abs(o.multipliers[0]) < 1 for o in orbits]
 
 
 START = ["--state", "-1e-3", "0", "0.1", "-.5", "0", "0", "0", "0.3", "--cycles", "20", "--tau0", "0.5"]
@@ -80,25 +79,13 @@ def test_events_of_a_run(capsys):
     assert [float(row["dY2"]) for row in rows] == [event["state"][7] for event in events]
 
 
-def test_a_response_curve_passes_the_fixed_points(capsys):
-    rows = table(capsys, "response", "--of", "theory", "--from", "0.85", "--to", "1.05", "--along", "f20_hat")
-    on_curve = np.array([[float(row[name]) for name in ("f20_hat", "C1", "C2")] for row in rows])
-    for f20_hat in (0.9, 1.0):
-        for point in vi.fixed_points(system_of("equal", f20_hat=f20_hat)):
-            gap = np.abs(on_curve - [f20_hat, *point.C]).max(axis=1).min()
-            assert gap < 0.03  # half a step of 0.02 in the parameter, along curves of slope up to 5
-    assert {row["special"] for row in rows} > {""}
-
-
 BAD = {
     "fixed-points --kappa 1.2": "kappa", "fixed-points --kappa nan": "kappa", "fixed-points --kappa high": "--kappa",
     "fixed-points --kapa 0.5": "--kapa", "fixed-points --case strong": "--case", "simulate --cycles -1": "cycles",
     "simulate --samples-per-cycle 0": "samples-per-cycle", "simulate --state 1 2": "--state",
     "simulate --cycles 1000000 --samples-per-cycle 1000": "cycles", "simulate --state 0 1.5 0 0 0 0 0 0": "state",
-    "simulate --events --plot events.png": "plot", "simulate --output nowhere/run.csv": "output",
-    "response --from 1 --to 1": "to", "response --along mass": "--along",
-    "response --along kappa --from 0.5 --to 1.5": "kappa", "orbits --plot orbits.gif": "plot", "orbit": "COMMAND",
-    "": "COMMAND",
+    "simulate --plot run.png": "--plot", "simulate --output nowhere/run.csv": "output", "response": "COMMAND",
+    "design --M 1 --m 1 --k 1 --c 1 --F 1 --from 1 --to 2 --plot design.gif": "plot", "orbit": "COMMAND", "": "COMMAND",
 }  # fmt: skip
 
 
@@ -117,39 +104,6 @@ def test_a_run_that_fails_is_one_line(capsys):
     assert "time stands still" in line
 
 
-@pytest.mark.parametrize(
-    "words", ["fixed-points", "orbits", "simulate --cycles 3", "response --of theory --from 0.9 --to 1"]
-)
-def test_pictures_beside_the_table(capsys, tmp_path, words):
-    paths = tmp_path / "table.csv", tmp_path / "picture.svg"
-    assert main([*words.split(), "--output", str(paths[0]), "--plot", str(paths[1])]) == 0
-    assert capsys.readouterr().out == ""
-    assert len(paths[0].read_text().splitlines()) > 1
-    assert "<svg" in paths[1].read_text()
-
-
-@pytest.mark.parametrize(
-    ("families", "titles"),
-    [
-        (["fixed point"], ["theory"]),
-        (["symmetric orbit", "asymmetric orbit"], ["exact"]),
-        (["symmetric orbit", "fixed point"], ["theory", "exact"]),
-        ([], ["theory"]),
-    ],
-)
-def test_a_picture_of_a_response_has_panels_for_what_is_there_and_a_key(families, titles):
-    rows = [(family, 0, 0, p, 1.0, 1.1, stable, True, "") for stable, family in enumerate(families) for p in (0.9, 1.0)]
-    figure = curves(
-        Table(("family", "branch", "piece", "f20_hat", "C1", "C2", "stable", "admissible", "special"), rows)
-    )
-    assert [axes.get_title() for axes in figure.axes if axes.get_title()] == titles
-    assert len(figure.axes) == 2 * len(titles)
-    [key] = figure.legends
-    assert [text.get_text() for text in key.get_texts()] == ["stable", "unstable"]
-    solid, dashed = key.get_lines()
-    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
-
-
 def test_a_reader_that_has_seen_enough_is_no_error():
     command = f"{sys.executable} -m vibroimpact simulate --cycles 1000 | head -2"
     run = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False)
@@ -159,7 +113,7 @@ def test_a_reader_that_has_seen_enough_is_no_error():
 
 
 def test_every_command_has_its_help(capsys):
-    for words in ([], ["fixed-points"], ["orbits"], ["simulate"], ["response"], ["compile"]):
+    for words in ([], ["fixed-points"], ["orbits"], ["simulate"], ["design"], ["compile"]):
         with pytest.raises(SystemExit) as end:
             main([*words, "--help"])
         assert end.value.code == 0

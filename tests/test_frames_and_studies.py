@@ -18,7 +18,7 @@ def test_fixed_points_bear_the_labels_of_the_figures_and_their_stability():
     assert [point.stability for point in points] == [
         ("unstable", "stable"), ("stable", "stable"), ("stable", "unstable")
     ]  # fmt: skip
-    assert [point.stability.both for point in points] == ["unstable", "stable", "unstable"]
+    assert [point.stability.theory for point in points] == ["unstable", "stable", "unstable"]
     assert "label=c, stability=stable (fast stable, slow stable)" in repr(points[1])
     frame = vi.to_frame(points)
     assert frame["label"].tolist() == ["a", "c", "b"]

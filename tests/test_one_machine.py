@@ -263,14 +263,23 @@ def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_p
     assert picture.stat().st_size > 10_000
 
 
+def test_the_picture_has_the_displacements_of_the_table(found):
+    axes = found.plot().axes[0]
+    lines = {line.get_label(): np.asarray(line.get_data()) for line in axes.get_lines()}
+    assert len(lines) == 4
+    for name, label in (("with_m", "with the ball, settled"), ("without_m", "without ball")):
+        drawn = [[row["frequency_Hz"], 1000 * row[name]] for row in found.response]
+        np.testing.assert_array_equal(lines[label].T, drawn)
+
+
 def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
     asked = []
-    monkeypatch.setattr(one_machine, "design", lambda machine, *choice: asked.append((machine, choice)) or done)
+    monkeypatch.setattr(one_machine, "design", lambda *given, masses: asked.append(masses) or done)
     done = vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
     words = OPTIONS.replace("--m 6", "--m {}")
     for given, masses in (("0..4", [1.0, 2.0, 3.0, 4.0]), ("2..6", [2.0, 3.0, 4.0, 5.0, 6.0]), ("6", None)):
         assert main(words.format(given).split()) == 0
-        assert asked[-1][1][-1] == masses
+        assert asked[-1] == masses
     assert "with 2 kg" in capsys.readouterr().out
     for wrong in ("4..2", "a..2", "1..", "-1..2"):
         with pytest.raises(SystemExit) as end:

@@ -155,7 +155,7 @@ def test_python_of_the_readme_runs_with_the_three(alone, shared_code):
 def test_commands_of_the_readme_run_with_the_three(alone, shared_code, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = [line for language, text in BLOCKS if not language for line in text.splitlines()]
-    assert {line.split()[1] for line in lines} == {"-m", "fixed-points", "orbits", "simulate", "response"}
+    assert {line.split()[1] for line in lines} == {"-m", "fixed-points", "orbits", "simulate"}
     printed = {line: alone(*_as_python(line), **shared_code).stdout for line in lines}
     for line, text in printed.items():
         text = Path("orbits.csv").read_text() if "--output" in line else text
@@ -167,12 +167,13 @@ def _as_python(line):
     return arguments if program == "python" else ["-m", program, *arguments]
 
 
+DESIGN = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9 --plot design.png"
+
+
 def test_a_picture_without_its_extra_says_so(alone, shared_code):
-    run = alone("-m", "vibroimpact", "fixed-points", "--plot", "points.png", check=False, **shared_code)
+    run = alone("-m", "vibroimpact", *shlex.split(DESIGN), check=False, **shared_code)
     assert run.returncode == 2
-    assert re.fullmatch(
-        r"vibroimpact fixed-points: .*needs matplotlib and pandas: pip install .*figures.*\n", run.stderr
-    )
+    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib: pip install .*figures.*\n", run.stderr)
 
 
 def test_the_stub_names_what_the_package_exports():

@@ -19,7 +19,8 @@ _PER_CYCLE, _MOST = 64, 20_000  # points of a picture
 
 
 def to_frame(result: Any) -> "pandas.DataFrame":
-    """A pandas DataFrame of a run (its events), an ensemble, or a list of fixed points, orbits, branches or rows.
+    """A pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits, branches,
+    bifurcation curves or rows.
 
     Raises:
         ValueError: the result is none of these.
@@ -27,12 +28,16 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     """
     if hasattr(result, "events"):
         return of_run(result)
+    if hasattr(result, "rows"):
+        return _pandas().DataFrame(result.rows())
     if isinstance(result, np.ndarray) and result.dtype.names:
         return _pandas().DataFrame(_columns(result.ravel()))
     if isinstance(result, list | tuple) and all(map(_has_rows, result)):
         return _pandas().DataFrame([row for number, one in enumerate(result) for row in _rows(one, number)])
     kind = type(result).__name__
-    raise ValueError(f"result: a {kind} is no run, no ensemble and no list of fixed points, orbits, branches or rows")
+    raise ValueError(
+        f"result: a {kind} is no run, no ensemble, no basins and no list of fixed points, orbits, branches or rows"
+    )
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":
@@ -75,25 +80,6 @@ def of_run(run):
     return table
 
 
-def branch_rows(branch, number: int = 0) -> list[dict]:
-    """A row per node of a Branch, along its pieces between special points, which belong to the pieces they join."""
-    return [
-        {
-            "family": branch.family.name,
-            "branch": number,
-            "piece": piece,
-            "p": node.p,
-            "C1": float(node.amplitudes[0]),
-            "C2": float(node.amplitudes[1]),
-            "stable": inner.stable,
-            "admissible": inner.admissible,
-            "special": node.kind,
-        }
-        for piece, (inner, nodes) in enumerate(branch.pieces())
-        for node in nodes
-    ]
-
-
 def section_times(run, phase: float = 0.0) -> np.ndarray:
     """Times within a Run at which the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
 
@@ -128,14 +114,14 @@ def plot(system, times, samples):
 
 
 def _has_rows(one):
-    return isinstance(one, dict) or hasattr(one, "pieces") or hasattr(one, "row")
+    return isinstance(one, dict) or hasattr(one, "rows") or hasattr(one, "row")
 
 
 def _rows(one, number):
     """Rows of one member of a list."""
     if isinstance(one, dict):
         return [one]
-    return branch_rows(one, number) if hasattr(one, "pieces") else [one.row()]
+    return one.rows(number) if hasattr(one, "rows") else [one.row()]
 
 
 def _columns(table):

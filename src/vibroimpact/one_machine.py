@@ -9,8 +9,7 @@ picture, is of one grid of frequencies and one window of time.
 """
 
 import math
-import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -23,6 +22,8 @@ from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals
+from vibroimpact.system.extras import need
+from vibroimpact.system.progress import counted
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
@@ -48,6 +49,13 @@ NEAR, FRAGILE = 0.02, 1.1
 """The neighbourhood: so much more and less clearance; a peak so many times as high in it makes a design fragile."""
 LATER = 1000
 """Forcing periods after these, for which the largest motion at a frequency is followed: is it a transient?"""
+CURVES = {
+    "without_m": ("without ball", {"color": "0.55", "linewidth": 1.6}),
+    "with_m": ("with the ball, settled", {"color": "black", "linewidth": 1.2}),
+    "settling_m": ("while it settles from rest", {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 0.9}),
+    "absorber_m": ("best linear absorber", {"color": "black", "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
+}
+"""Lines of the picture of a design: columns of its response, with labels and looks."""
 OFF = (0.8, 1.2)
 """Clearances of the sensitivity, over that of the design."""
 
@@ -119,6 +127,25 @@ class Design:
             "The walls are rigid, so an impact has an impulse but no finite force.",
         ])  # fmt: skip
 
+    def plot(self):
+        """A Matplotlib Figure of the displacements in `response` over the frequency.
+
+        Raises:
+            ModuleNotFoundError: Matplotlib is missing; the extra `figures` brings it.
+        """
+        need("figures", "matplotlib")
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(4.8, 3.2), layout="constrained")
+        axes = figure.add_subplot(xlabel="frequency of the force, Hz", ylabel="largest displacement, mm")
+        hertz = [row["frequency_Hz"] for row in self.response]
+        for name, (label, look) in CURVES.items():
+            axes.plot(hertz, [1000 * row[name] for row in self.response], label=label, **look)
+        axes.set_ylim(bottom=0)
+        axes.margins(x=0)
+        axes.legend(frameon=False)
+        return figure
+
     def _of_masses(self):
         for row in self.masses:
             yield f"with {row['mass_kg']:.4g} kg {_mm(row['peak_m'])}, best linear absorber {_mm(row['absorber_m'])}"
@@ -151,7 +178,7 @@ def design(
     band: tuple[float, float],
     clearances: Sequence[float] | None = None,
     restitutions: Sequence[float] = RESTITUTIONS,
-    progress: bool = False,
+    progress: bool = True,
     masses: Sequence[float] | None = None,
 ) -> Design:
     """Return the clearance and restitution with the lowest peak over a band, with what they achieve.
@@ -165,7 +192,7 @@ def design(
             amplitude without ball (a box that swings less than its clearance never meets a ball at rest), then others
             beside the best.
         restitutions: those to choose from, each between 0 and 1.
-        progress: count the candidates on standard error.
+        progress: count the candidates on standard error, if that is a terminal.
         masses: those of the ball to choose from [kg], each with a design of its own; by default that of the machine.
 
     Raises:
@@ -212,7 +239,7 @@ def _designed(study, clearances, restitutions, progress) -> Design:
     else:
         rows = study.tried([(L, kappa) for kappa in restitutions for L in clearances], progress)
     finalists = []
-    for row in _counted(_best(rows), "measured again", progress):
+    for row in counted(_best(rows), "design: measured again", progress):
         machine = replace(study.machine, L=row["clearance_m"], kappa=row["restitution"])
         measured, *beside = (study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR))
         peaks = [measured.peak, *(one.peak for one in beside)]
@@ -296,10 +323,10 @@ class _Study:
         """The peak of a linear system in place of the machine [m]."""
         return self.machine.L * reference(self.system).peak(self.band)
 
-    def tried(self, pairs: Iterable[tuple[float, float]], progress: bool) -> list[dict]:
+    def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """A row per pair of clearance and restitution, with the peak as few starts see it."""
         rows, states = [], _starts(TRIED, 1)
-        for L, kappa in _counted(pairs, "tried", progress):
+        for L, kappa in counted(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
             runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
             height = L * float(runs["largest"][..., 0].max())
@@ -370,12 +397,3 @@ def _at_rest(events, run):
     ends = np.append(times[1:], run.tau0 + run.cycles * run.system.period)
     first = times[0] - run.tau0 if len(changes) and not sticks[0] else 0.0
     return float((ends - times)[sticks].sum() + first)
-
-
-def _counted(things, done, progress):
-    """Yield the things; count them on standard error if asked for."""
-    for number, one in enumerate(things, start=1):
-        if progress:
-            end = "\n" if number == len(things) else ""
-            print(f"\rdesign: {done} {number}/{len(things)}", end=end, file=sys.stderr, flush=True)
-        yield one

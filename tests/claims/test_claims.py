@@ -157,18 +157,18 @@ def at(table, where, column, value):
 
 
 CHANGED_TABLES = {
-    "equal-b": ("fixed_points", 'case == "equal" and label == "b"', "floquet", "stable", IN_PART),
-    "equal-c": ("fixed_points", 'case == "equal" and label == "c"', "floquet", "stable", HOLDS),
-    "weak-a": ("fixed_points", 'case == "weak"', "floquet", "undecided", OPEN),
-    "two-stable-equal": ("fixed_points", 'case == "equal"', "masri_derived", "undecided", IN_PART),
-    "one-stable-unequal": ("fixed_points", 'case == "unequal" and label == "b"', "masri_derived", "stable", REFUTED),
+    "equal-b": ("fixed_points", 'case == "equal" and label == "b"', "exact", "stable", IN_PART),
+    "equal-c": ("fixed_points", 'case == "equal" and label == "c"', "exact", "stable", HOLDS),
+    "weak-a": ("fixed_points", 'case == "weak"', "exact", "undecided", OPEN),
+    "two-stable-equal": ("fixed_points", 'case == "equal"', "fast", "undecided", IN_PART),
+    "one-stable-unequal": ("fixed_points", 'case == "unequal" and label == "b"', "fast", "stable", REFUTED),
     "equal-a-left": ("fixed_points", 'case == "equal" and label == "a"', "C1", 1.0, REFUTED),
     "weak-left-arms": ("fixed_points", 'case == "weak"', "C2", 1.0, IN_PART),
     "points-move-left": ("fixed_points", 'case == "unequal"', ["C1", "C2"], 0.1, HOLDS),
     "stable-point-moves-down": ("fixed_points", 'case == "unequal" and label == "c"', "C1", 0.9, IN_PART),
-    "assesses-stability": ("verdict_grid", "epsilon > 0", "floquet", "stable", IN_PART),
-    "no-practical-importance": ("orbits", 'case == "weak"', "floquet", "stable", REFUTED),
-    "falling-amplitudes": ("fixed_points", 'case == "equal" and label == "c"', "floquet", "stable", HOLDS),
+    "assesses-stability": ("verdict_grid", "epsilon > 0", "exact", "stable", IN_PART),
+    "no-practical-importance": ("orbits", 'case == "weak"', "exact", "stable", REFUTED),
+    "falling-amplitudes": ("fixed_points", 'case == "equal" and label == "c"', "exact", "stable", HOLDS),
     "periodic-solutions": ("verdict_grid", "epsilon > 0", "admissible", True, HOLDS),
     "unstable-means-modulated": ("modulation", 'quantity == "share of starts"', "regime", "asymmetric", IN_PART),
     "only-possible-behaviour": ("modulation", 'start == "rest"', "regime", "strongly modulated", HOLDS),
@@ -185,28 +185,28 @@ def test_other_tables_lead_to_the_verdict_that_they_mean(evidence, claim):
 
 
 def test_a_grid_without_wrong_verdicts_would_leave_nothing_to_hold_against_the_theory(evidence):
-    says = ["printed_10_26", "masri_derived", "slow_flow"]
-    agreeing = with_table(evidence, "verdict_grid", lambda rows: rows.update(dict.fromkeys(says, rows["floquet"])))
-    assert {"stable", "unstable"} < set(agreeing.verdict_grid["floquet"])
+    says = ["printed_10_26", "theory"]
+    agreeing = with_table(evidence, "verdict_grid", lambda rows: rows.update(dict.fromkeys(says, rows["exact"])))
+    assert {"stable", "unstable"} < set(agreeing.verdict_grid["exact"])
     assert verdict("assesses-stability", agreeing) == HOLDS
 
 
 def test_confusion_matrices_count_every_point(evidence):
     (judged,) = judge([CLAIMS["assesses-stability"]], evidence)
     grid = evidence.verdict_grid.query("epsilon == 0.1")
-    without = grid["floquet"] == "no orbit"
+    without = grid["exact"] == "no orbit"
     (of_all,) = judge([CLAIMS["periodic-solutions"]], evidence)
     # docs/findings.md: one more exists only if its ball may leave the box.
     assert judged["numbers"]["without an orbit"] + 1 == of_all["numbers"]["without an orbit between the walls"]
     for name in ("(10.26)", "fast and slow"):
         (calm, wrong), (missed, right) = judged["numbers"][f"{name}, epsilon = 0.1"]
-        assert calm + wrong + missed + right == (grid["floquet"] != "no orbit").sum()
-        assert calm + missed == (grid["floquet"] == "stable").sum()
+        assert calm + wrong + missed + right == (grid["exact"] != "no orbit").sum()
+        assert calm + missed == (grid["exact"] == "stable").sum()
         assert sum(judged["numbers"][f"{name}, epsilon = 0.1, no orbit"]) == without.sum()
     called = grid["printed_10_26"] == "stable"
     assert judged["numbers"]["(10.26), epsilon = 0.1, no orbit"][0] == (called & without).sum()
     (calm, wrong), _ = judged["numbers"]["(10.26), epsilon = 0.1"]
-    assert calm + wrong == ((grid["printed_10_26"] == "stable") & (grid["floquet"] != "no orbit")).sum()
+    assert calm + wrong == ((grid["printed_10_26"] == "stable") & (grid["exact"] != "no orbit")).sum()
 
 
 def test_a_small_restitution_is_looked_at(evidence):

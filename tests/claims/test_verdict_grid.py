@@ -53,7 +53,7 @@ def test_every_fixed_point_is_judged_at_every_epsilon(grid):
 def test_three_fixed_points_and_one_orbit(grid):
     rows = grid[(grid["f10_hat"] == 1.0) & np.isclose(grid["f20_hat"], 0.72) & (grid["epsilon"] == 0.1)]
     assert len(rows) == 3
-    assert (rows["floquet"] == "no orbit").sum() == 2
+    assert (rows["exact"] == "no orbit").sum() == 2
     assert rows["admissible"].sum() == 1
 
 
@@ -64,4 +64,4 @@ def test_verdicts_are_those_of_the_simulation_s_multipliers(grid):
         orbits = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
         orbit = min(orbits, key=lambda o: np.linalg.norm(o.C - [row["C1"], row["C2"]]))
         largest = np.abs(np.linalg.eigvals(vi.simulate(system, orbit.state, 1).jacobian)).max()
-        assert row["floquet"] == ("stable" if largest < 1 else "unstable")
+        assert row["exact"] == ("stable" if largest < 1 else "unstable")

@@ -69,7 +69,7 @@ def test_moduli_descend_and_decide(table):
     orbits = table("orbits.csv")
     moduli = columns(orbits, "modulus_", range(1, 9))
     assert (np.diff(moduli, axis=1) <= 0).all()
-    assert ((moduli[:, 0] < 1) == (orbits["floquet"] == "stable")).all()
+    assert ((moduli[:, 0] < 1) == (orbits["exact"] == "stable")).all()
 
 
 def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say(table):
@@ -83,7 +83,7 @@ def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say
         printed = (4 / (4 + np.pi * RHO) < C).all(axis=1)
         derived = ((C > 1 / (1 + RHO**2)) & (np.pi**2 / (np.pi**2 - 4) > C)).all(axis=1)
         assert ((rows["printed_10_26"] == "stable") == printed).all()
-        assert ((rows["masri_derived"] == "stable") == derived).all()
+        assert ((rows["fast"] == "stable") == derived).all()
 
 
 def test_the_orbit_of_a_fixed_point_is_the_nearest_symmetric_one(table):
@@ -91,7 +91,7 @@ def test_the_orbit_of_a_fixed_point_is_the_nearest_symmetric_one(table):
     for point in table("fixed_points.csv").itertuples():
         near = orbits[(orbits["case"] == point.case) & orbits["symmetric"]]
         gaps = np.hypot(near["C1"] - point.C1, near["C2"] - point.C2)
-        assert near.loc[gaps.idxmin(), ["label", "floquet"]].tolist() == [point.orbit, point.floquet]
+        assert near.loc[gaps.idxmin(), ["label", "exact"]].tolist() == [point.orbit, point.floquet]
 
 
 @pytest.mark.parametrize("case", ["equal", "weak"])

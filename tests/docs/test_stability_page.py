@@ -158,26 +158,26 @@ def test_verdicts_on_the_fixed_points():
     for (name, C, _, *verdicts), (_, point) in zip(rows, points.iterrows(), strict=True):
         assert name == f"{point['case']}, {point['label']}"
         assert [point["C1"], point["C2"]] == [number(value) for value in C.split(", ")]
-        criteria = ["printed_10_26", "masri_derived", "slow_flow", "floquet"]
+        criteria = ["printed_10_26", "fast", "slow", "exact"]
         assert [verdict.strip("*") for verdict in verdicts] == point[criteria].tolist()
 
 
 @pytest.mark.parametrize("case", ["equal", "unequal"])
 def test_the_asymmetric_pair(case):
     _, orbits = tables()
-    stable = orbits[(orbits["case"] == case) & (orbits["floquet"] == "stable")]
+    stable = orbits[(orbits["case"] == case) & (orbits["exact"] == "stable")]
     assert len(stable) == 2
     assert not stable["symmetric"].any()
     C1, C2, modulus = re.search(rf"in\s+the {case} case \(\$C = ([\d.]+), ([\d.]+)\$[^)]*?([\d.]+)\)", PAGE).groups()
     for _, orbit in stable.iterrows():
         assert [orbit["C1"], orbit["C2"], orbit["modulus_1"]] == [number(C1), number(C2), number(modulus)]
-        assert orbit["masri_derived"] == "stable"
+        assert orbit["fast"] == "stable"
 
 
 def test_no_symmetric_response_is_stable_and_how_often_the_criteria_are_right():
     points, orbits = tables()
-    assert not (orbits["symmetric"] & (orbits["floquet"] == "stable")).any()
-    both = (points["masri_derived"] == "stable") & (points["slow_flow"] == "stable")
-    assert (points["printed_10_26"] == points["floquet"]).sum() == 3
-    assert (both == (points["floquet"] == "stable")).sum() == 6
+    assert not (orbits["symmetric"] & (orbits["exact"] == "stable")).any()
+    both = (points["fast"] == "stable") & (points["slow"] == "stable")
+    assert (points["printed_10_26"] == points["exact"]).sum() == 3
+    assert (both == (points["exact"] == "stable")).sum() == 6
     assert len(points) == 7

@@ -7,7 +7,7 @@ import pytest
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from verdict_tables import verdicts_of
-from vibroimpact.claims.verdict_table import CRITERIA, NO_ORBIT, fixed_point_rows, orbit_rows
+from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures import companion_10_05, companion_stability
@@ -45,14 +45,14 @@ def test_each_fixed_point_goes_with_the_orbit_that_continues_it(verdict_tables):
             C = listed[step.argmin()]
         found = exact[(exact["case"] == row["case"]) & (exact["label"] == row["orbit"])]
         np.testing.assert_allclose(found[["C1", "C2"]].to_numpy()[0], C, atol=1e-8)
-        assert row["floquet"] == found["floquet"].iloc[0]
+        assert row["exact"] == found["exact"].iloc[0]
 
 
 def test_what_is_true_of_the_chapter_s_responses(verdict_tables):
     """No symmetric response of the three cases is stable at epsilon = 0.1; one asymmetric pair is, in two of them."""
     points, exact = verdict_tables
-    assert set(points["floquet"]) == {"unstable"}
-    stable = exact[exact["floquet"] == "stable"]
+    assert set(points["exact"]) == {"unstable"}
+    stable = exact[exact["exact"] == "stable"]
     assert not stable["symmetric"].any()
     assert stable.groupby("case").size().to_dict() == {"equal": 2, "unequal": 2}
     assert stable["admissible"].all()
@@ -61,7 +61,7 @@ def test_what_is_true_of_the_chapter_s_responses(verdict_tables):
 def test_point_c_of_the_equal_case_breaks_symmetry_though_the_theory_calls_it_stable(verdict_tables):
     points, exact = verdict_tables
     (c,) = points[(points["case"] == "equal") & (points["label"] == "c")].to_dict("records")
-    assert (c["printed_10_26"], c["masri_derived"], c["slow_flow"]) == ("stable",) * 3
+    assert (c["printed_10_26"], c["fast"], c["slow"]) == ("stable",) * 3
     place = exact[exact["case"] == "equal"]["label"].tolist().index(c["orbit"])
     half = half_period_multipliers(orbits(SYSTEMS["equal"])[place])
     outside = half[np.abs(half) > 1]
@@ -78,7 +78,7 @@ def test_without_orbits_fixed_points_are_left_without_multipliers(verdict_tables
     (row,) = fixed_point_rows("weak", system, zip("a", vi.fixed_points(system), strict=True), nothing).to_dict(
         "records"
     )
-    assert (row["orbit"], row["floquet"]) == ("", NO_ORBIT)
+    assert (row["orbit"], row["exact"]) == ("", NO_ORBIT)
     table = companion_stability.compute(
         {"weak": system}, pd.DataFrame([row]), nothing.astype({"symmetric": bool, "admissible": bool})
     )
@@ -130,8 +130,9 @@ def test_every_motion_and_verdict_is_in_the_table(tables, verdict_tables):
     table = tables["companion_stability"]
     shown = table[table["series"].isin(companion_stability.KINDS)]
     motions = pd.concat([points, exact[exact["admissible"]]])
-    left = shown.rename(columns={"panel": "case"})[["case", "label", "C1", "C2", *CRITERIA]]
-    right = motions[["case", "label", "C1", "C2", *CRITERIA]]
+    columns = ["case", "label", "C1", "C2", *companion_stability.CRITERIA]
+    left = shown.rename(columns={"panel": "case"})[columns]
+    right = motions[columns]
     order = ["case", "label"]
     pd.testing.assert_frame_equal(
         left.sort_values(order).reset_index(drop=True), right.sort_values(order).reset_index(drop=True)

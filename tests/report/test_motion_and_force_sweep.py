@@ -108,7 +108,7 @@ def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(s
 def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
     rows = swept["orbits"].query("track != @force_sweep.PAIR")
     modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
-    verdicts = swept["points"].set_index(["value", "track"])["floquet"]
+    verdicts = swept["points"].set_index(["value", "track"])["exact"]
     assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()
 
 

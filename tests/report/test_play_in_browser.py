@@ -87,7 +87,7 @@ def test_the_fixed_points_are_those_of_the_library(browser):
             np.testing.assert_allclose(other["C"], mine.C, atol=1e-8)
             np.testing.assert_allclose(other["psi"], mine.psi, atol=1e-8)
             assert other["growth"] == pytest.approx(mine.slow_eigenvalues.real.max(), rel=1e-4, abs=1e-4)
-            assert other["both"] == (mine.stability.both == "stable")
+            assert other["both"] == (mine.stability.theory == "stable")
 
 
 def test_the_response_of_the_theory_is_that_of_the_library(browser):

@@ -206,8 +206,8 @@ def test_a_disc_says_what_the_theory_says_and_its_ring_what_is_true(browser, sit
     table = pd.read_csv(site.parent / "fixed_points.csv").query("case == 'equal'").sort_values("label")
     rows = browser.run(FIXED_POINTS)["rows"]
     assert [row[0] for row in rows] == table["label"].tolist() == ["a", "b", "c"]
-    assert [row[7] for row in rows] == table["slow_flow"].tolist()
-    assert [row[9] for row in rows] == table["floquet"].tolist()
+    assert [row[7] for row in rows] == table["slow"].tolist()
+    assert [row[9] for row in rows] == table["exact"].tolist()
     plane = "document.querySelector('[data-force-sweep] .planes svg')"
     discs = browser.run(
         f"[...{plane}.querySelectorAll('[data-label]')].map(c => [c.dataset.label, c.getAttribute('fill')])"
@@ -251,7 +251,7 @@ def test_badges_say_what_the_chapter_says_and_what_is_exact(browser, site, case)
         ).groups()
         found[order or name] = (chapter, exact)
     assert found.pop("pair") == ("nothing", "stable")
-    assert found == {label: (row["printed_10_26"], row["floquet"]) for label, row in table.iterrows()}
+    assert found == {label: (row["printed_10_26"], row["exact"]) for label, row in table.iterrows()}
 
 
 @pytest.mark.parametrize("value", [0.72, 0.81, 1.0, 1.2, 1.5])
@@ -295,20 +295,20 @@ def test_the_multipliers_of_the_asymmetric_orbits_cross_the_unit_circle(browser,
     assert browser.run(count.format('circle[data-multiplier=unstable][fill="#fff"]')) >= 3
 
 
-@pytest.mark.parametrize("criterion", ["both", "printed_10_26"])
+@pytest.mark.parametrize("criterion", ["theory", "printed_10_26"])
 def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site, criterion):
     """As counted in the table; by both time scales means by Masri's analysis and the slow flow."""
     browser.open(address(site, "fixed_points"))
     table = pd.read_csv(site.parent / "verdict_grid.csv")
-    table["both"] = table["masri_derived"].where(table["masri_derived"] != "stable", table["slow_flow"])
+    assert (table["theory"] == table["fast"].where(table["fast"] != "stable", table["slow"])).all()
     browser.run(f"document.querySelector('[data-criterion={criterion}]').click()")
     browser.run("document.querySelector('#verdicts-epsilon').focus()")
     shares = []
     for epsilon in sorted(table["epsilon"].unique(), reverse=True):
         called = table[(table["epsilon"] == epsilon) & (table[criterion] == "stable")]
-        right = int((called["floquet"] == "stable").sum())
+        right = int((called["exact"] == "stable").sum())
         told = browser.run("document.querySelector('#verdicts-count').textContent")
-        none = int((called["floquet"] == "no orbit").sum())
+        none = int((called["exact"] == "no orbit").sum())
         assert told == (
             f"At ε = {epsilon}, {len(called)} points are called stable. "
             f"The exact orbits of {right} of them are; {none} have none."

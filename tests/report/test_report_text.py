@@ -194,13 +194,13 @@ def test_verdicts_are_counted_in_their_order_with_misprints_last():
 def test_the_slider_of_epsilon_knows_points_without_an_orbit():
     """Called stable, and told apart: the exact orbit is stable, unstable, or there is none."""
     exact = ["stable", "unstable", "no orbit", "no orbit"]
-    table = pd.DataFrame({"epsilon": 0.1, "f10_hat": [1.0, 2.0, 3.0, 4.0], "f20_hat": 0.5, "floquet": exact})
-    table = table.assign(printed_10_26=["stable"] * 3 + ["unstable"], masri_derived="stable", slow_flow="unstable")
+    table = pd.DataFrame({"epsilon": 0.1, "f10_hat": [1.0, 2.0, 3.0, 4.0], "f20_hat": 0.5, "exact": exact})
+    table = table.assign(printed_10_26=["stable"] * 3 + ["unstable"], fast="stable", slow="unstable", theory="unstable")
     grid = {"f10_range": [0, 4], "f20_range": [0, 4], "points": 4}
     results = SimpleNamespace(table=lambda name: table.copy())
     data = json.loads(verdict_data(results, {"stability": {"verdict_grid": grid}}))
     assert data["printed_10_26"] == [[[1.0, 0.5, "stable"], [2.0, 0.5, "unstable"], [3.0, 0.5, "no orbit"]]]
-    assert data["both"] == [[]]
+    assert data["theory"] == [[]]
 
 
 @pytest.mark.parametrize(

@@ -78,9 +78,9 @@ def results(folder: Path) -> Path:
         "track": 1,
         "C": [1.0, 1.1],
         "B": [0.1, 0.2],
-        "verdicts": {"slow_flow": HOSTILE, "other": HOSTILE},
+        "verdicts": {"slow": HOSTILE, "other": HOSTILE},
     }
-    orbit = {"track": 1, "C": [1.0, 1.1], "floquet": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}
+    orbit = {"track": 1, "C": [1.0, 1.1], "exact": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}
     sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
     sweep |= {"orbits": [[orbit], [orbit]]}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
@@ -107,8 +107,8 @@ def results(folder: Path) -> Path:
     tables = {
         "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE} | numbers],
         "verdict_grid.csv": [
-            {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "floquet": HOSTILE, "admissible": True}
-            | {"printed_10_26": HOSTILE, "masri_derived": HOSTILE, "slow_flow": HOSTILE}
+            {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "exact": HOSTILE, "admissible": True}
+            | {"printed_10_26": HOSTILE, "fast": HOSTILE, "slow": HOSTILE, "theory": HOSTILE}
             for f10 in (0.5, 1.5)
         ],
         "accuracy/work_precision.csv": [
@@ -120,8 +120,8 @@ def results(folder: Path) -> Path:
             | {"error_state": 1e-9, "missed": 0, "spurious": 0}
         ],
         "force_sweep/force_sweep.csv": [
-            {"value": 0.4, "fast_and_slow": HOSTILE},
-            {"value": 0.5, "fast_and_slow": "stable"},
+            {"value": 0.4, "theory": HOSTILE},
+            {"value": 0.5, "theory": "stable"},
         ],
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}

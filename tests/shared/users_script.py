@@ -10,7 +10,7 @@ system: vi.System = vi.System(
 )  # fmt: skip
 for point in vi.fixed_points(system):
     amplitude: float = float(point.C[0])
-    print(point.label, amplitude, point.stability.both)
+    print(point.label, amplitude, point.stability.theory)
 run: vi.Run = vi.simulate(system, np.zeros(8), 20, sample_times=np.linspace(0.0, 10.0, 11))
 impacts = run.events[run.events["kind"] == vi.IMPACT]
 print(len(impacts), run.final.shape, run.certificate.decided)

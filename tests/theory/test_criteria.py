@@ -45,11 +45,11 @@ def test_slow_flow_is_the_sign_of_the_jacobian_s_eigenvalues(name):
     system = case(name)
     for point in vi.fixed_points(system):
         growth = np.linalg.eigvals(jacobian(system, point.psi, point.C)).real.max()
-        assert verdicts.of_fixed_point(system, point)["slow_flow"] == ("stable" if growth < 0 else "unstable")
+        assert verdicts.of_fixed_point(system, point)["slow"] == ("stable" if growth < 0 else "unstable")
         assert verdicts.fixed_point_error(system, point) < 1e-11
         says = verdicts.of_fixed_point(system, point)
         expected = "stable" if growth < 0 and min(point.C) > FOLD and max(point.C) < BREAKING else "unstable"
-        assert point.stability.both == verdicts.fast_and_slow(says) == expected
+        assert point.stability.theory == says["theory"] == expected
 
 
 @settings(max_examples=30)
@@ -109,9 +109,9 @@ def test_close_to_a_fold_the_slow_flow_is_undecided_and_beyond_not():
             break
         low, high = (low, middle) if len(vi.fixed_points(base.with_(f20_hat=middle))) == 3 else (middle, high)
     near = base.with_(f20_hat=high)
-    assert "undecided" in [verdicts.of_fixed_point(near, point)["slow_flow"] for point in vi.fixed_points(near)]
+    assert "undecided" in [verdicts.of_fixed_point(near, point)["slow"] for point in vi.fixed_points(near)]
     clear = base.with_(f20_hat=high + 1e-4)
-    assert "undecided" not in [verdicts.of_fixed_point(clear, point)["slow_flow"] for point in vi.fixed_points(clear)]
+    assert "undecided" not in [verdicts.of_fixed_point(clear, point)["slow"] for point in vi.fixed_points(clear)]
 
 
 def test_psi_of_an_orbit_solves_the_slow_flow_to_leading_order():

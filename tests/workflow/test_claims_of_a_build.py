@@ -43,8 +43,8 @@ def test_orbits_of_all_cases_are_gathered(built):
     assert table["residual"].max() < 1e-11
     moduli = table.filter(like="modulus_")
     assert moduli.shape[1] == 8
-    assert ((moduli["modulus_1"] < 1) == (table["floquet"] == "stable")).all()
-    assert (table["floquet"] == table["floquet_proved"]).all()
+    assert ((moduli["modulus_1"] < 1) == (table["exact"] == "stable")).all()
+    assert (table["exact"] == table["floquet_proved"]).all()
     assert ((table["motion_proved"] == "legal") == table["admissible"]).all()
     assert table.filter(like="phase").stack().between(0, 1, inclusive="left").all()
 
@@ -106,8 +106,8 @@ def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_finding
 
 def test_the_matrix_of_criteria_is_that_of_the_results(built):
     points = pd.read_csv(built / "results/fixed_points.csv").set_index(["case", "label"])
-    both = points[["masri_derived", "slow_flow"]].eq("stable").all(axis=1).map({True: "stable", False: "unstable"})
-    points = points.assign(both=both)[["printed_10_26", "masri_derived", "both", "floquet"]]
+    both = points[["fast", "slow"]].eq("stable").all(axis=1).map({True: "stable", False: "unstable"})
+    points = points.assign(both=both)[["printed_10_26", "fast", "both", "exact"]]
     told = re.findall(r"^\| (\w+) ([a-c]) \| (\w+) \| (\w+) \| (\w+) \| (\w+) \|$", FINDINGS, flags=re.MULTILINE)
     assert {(case, label): verdicts for case, label, *verdicts in told} == dict(
         zip(points.index, points.to_numpy().tolist(), strict=True)

@@ -25,7 +25,7 @@ def for_page(found: dict, values: list) -> dict:
         points[row["value"]].append(place | {"verdicts": said})
     orbits = {value: [] for value in values}
     for (value, track, C1, C2), rows in found["orbits"].groupby(["value", "track", "C1", "C2"]):
-        place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "floquet": rows["floquet"].iloc[0]}
+        place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "exact": rows["exact"].iloc[0]}
         orbits[value].append(place | {"multipliers": rows[["real", "imag"]].round(4).to_numpy().tolist()})
     lists = {"points": list(points.values()), "orbits": list(orbits.values())}
     return {"manifold": manifold, "values": values, **lists}

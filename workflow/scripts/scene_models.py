@@ -30,7 +30,7 @@ def levels_of(figure, scene, params, simulation, module, table, folder):
         return scene_models.slow_flow_levels(scene, system, points)
     samples = tables.read(folder / f"simulations/{case}/samples.csv")
     orbits = tables.read(folder / f"orbits/{case}.csv")
-    stable = orbits[orbits["admissible"] & (orbits["floquet"] == STABLE)][list(NAMES)].to_numpy(float)
+    stable = orbits[orbits["admissible"] & (orbits["exact"] == STABLE)][list(NAMES)].to_numpy(float)
     summary = json.loads((folder / f"simulations/{case}/summary.json").read_text(encoding="utf-8"))
     return scene_models.motion_levels(system, simulation, summary, points, stable, samples)
 

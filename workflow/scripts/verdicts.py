@@ -1,6 +1,6 @@
 """Fixed points of one case with the verdict of each criterion -> CSV: the rows of the case and columns for verdicts."""
 
-from vibroimpact.claims.verdict_table import CRITERIA, fixed_point_rows
+from vibroimpact.claims.verdict_table import CRITERIA, FORMER, fixed_point_rows
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.system import System
@@ -10,5 +10,5 @@ with running(snakemake) as out:
     points, orbits = tables.read(snakemake.input.fixed_points), tables.read(snakemake.input.orbits)
     labelled = [(point.label, point) for point in labelled_points(points)]
     judged = fixed_point_rows(snakemake.wildcards.case, System(**snakemake.params.system), labelled, orbits)
-    verdicts = judged[["label", "admissible", "orbit", *CRITERIA]]
+    verdicts = judged[["label", "admissible", "orbit", *CRITERIA, *FORMER]]
     tables.write(points.drop(columns="multiple").merge(verdicts, on="label", validate="one_to_one"), out.csv)

@@ -2,11 +2,9 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
 from vibroimpact.system import System
-from vibroimpact.theory.criteria import fast_and_slow
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +63,3 @@ class Evidence:
     def shares(self, case: str) -> pd.Series:
         """Share of the spread starts that end in each regime, by its name."""
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]
-
-
-def by_theory(table: pd.DataFrame) -> np.ndarray:
-    """Verdict of the theory on both time scales for every row of a table of criteria, shape (n,)."""
-    return np.array([fast_and_slow(row) for _, row in table.iterrows()])

@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.claims.evidence import by_theory
 from vibroimpact.claims.finding import Finding
 from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.search import orbits
@@ -78,7 +77,7 @@ def numerical_results_are_similar(evidence, case, label):
 def transients_are_long(evidence, case):
     """Cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
     motions = evidence.motions(case)
-    stable = motions[motions["floquet"] == STABLE]
+    stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
     return Finding({"longer than the cycles shown": cycles > 10}, {"cycles to a tenth": cycles})
 
@@ -92,7 +91,7 @@ def only_possible_behaviour(evidence, case):
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
     motions = evidence.motions(case)
     parts = {
-        "no stable 1:1 response": not (motions["floquet"] == STABLE).any(),
+        "no stable 1:1 response": not (motions["exact"] == STABLE).any(),
         "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
         "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
     }
@@ -108,7 +107,7 @@ def no_practical_importance(evidence, case, label):
     """The orbit of an unstable fixed point is not observed: it is unstable itself, and nothing stays near it."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
-    parts = {"its orbit is not stable": orbit["floquet"] != STABLE}
+    parts = {"its orbit is not stable": orbit["exact"] != STABLE}
     return Finding(parts, {"largest multiplier": orbit["modulus_1"]})
 
 
@@ -140,9 +139,9 @@ def beating(evidence, case):
 def lower_amplitudes_end_stable_responses(evidence, sequence):
     """From case to case: fixed points stable by theory and by their exact orbits, and where the last motion ends."""
     points = [evidence.points(case) for case in sequence]
-    in_theory = [int((by_theory(rows) == STABLE).sum()) for rows in points]
-    exactly = [int((rows["floquet"] == STABLE).sum()) for rows in points]
-    others = [int((evidence.motions(case)["floquet"] == STABLE).sum()) for case in sequence]
+    in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
+    exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
+    others = [int((evidence.motions(case)["exact"] == STABLE).sum()) for case in sequence]
     share = evidence.shares(sequence[-1]).get(STRONGLY_MODULATED, 0.0)
     parts = {
         "a stable fixed point at first, by theory": in_theory[0] > 0,
@@ -164,7 +163,7 @@ def unstable_means_modulated(evidence, case):
     The chapter does not say it of every case; the shares of all cases without a stable fixed point stand beside.
     """
     observed = evidence.modulation["case"].unique()
-    unstable = [name for name in observed if (evidence.points(name)["floquet"] == UNSTABLE).all()]
+    unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
     shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (*unstable, case)}
     parts = {
         "its fixed points are unstable": case in unstable,
@@ -211,11 +210,11 @@ def assesses_stability(evidence):
     Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
     without an exact orbit are counted beside, stable then unstable.
     """
-    grid = evidence.verdict_grid.assign(theory=by_theory(evidence.verdict_grid))
-    parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["floquet"] == NO_ORBIT).sum())}
+    grid = evidence.verdict_grid
+    parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
         for epsilon, rows in grid.groupby("epsilon", sort=False):
-            found = pd.crosstab(rows[criterion], rows["floquet"])
+            found = pd.crosstab(rows[criterion], rows["exact"])
             found = found.reindex(index=SAYINGS, columns=[*SAYINGS, NO_ORBIT], fill_value=0)
             matrix = found[SAYINGS]
             numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
@@ -227,8 +226,8 @@ def assesses_stability(evidence):
                     numbers[f"{saying} by {name}, share right"] = right / said if said else None
     points = evidence.fixed_points
     numbers["of the chapter's points"] = len(points)
-    numbers["right by (10.26)"] = int((points["printed_10_26"] == points["floquet"]).sum())
-    numbers["right by fast and slow"] = int((by_theory(points) == points["floquet"]).sum())
+    numbers["right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())
+    numbers["right by fast and slow"] = int((points["theory"] == points["exact"]).sum())
     return Finding(parts, numbers)
 
 

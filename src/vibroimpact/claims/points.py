@@ -5,10 +5,8 @@ from itertools import permutations
 import numpy as np
 from scipy.optimize import brentq
 
-from vibroimpact.claims.evidence import by_theory
 from vibroimpact.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
-from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
 from vibroimpact.theory.fixed_points.search import fixed_points, labels, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
@@ -58,12 +56,12 @@ def phases_can_be_eliminated(evidence):
 def label_of_a_point(evidence, case, label, says):
     """A caption's verdict on a point: against the theory with both time scales, and against its exact orbit."""
     row = evidence.points(case).loc[label]
-    said = fast_and_slow(row)
+    said = row["theory"]
     parts = {
         f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
-        f"{says} by its exact orbit": None if row["floquet"] not in (STABLE, UNSTABLE) else row["floquet"] == says,
+        f"{says} by its exact orbit": None if row["exact"] not in (STABLE, UNSTABLE) else row["exact"] == says,
     }
-    criteria = ("printed_10_26", "masri_derived", "slow_flow", "floquet")
+    criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
     return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
 
 
@@ -75,12 +73,12 @@ def stable_points(evidence, case, number):
     """
     points = evidence.points(case)
     counts = {
-        "by the derived fast criterion": int((points["masri_derived"] == STABLE).sum()),
+        "by the derived fast criterion": int((points["fast"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
-        "by theory, fast and slow": int((by_theory(points) == STABLE).sum()),
-        "by their exact orbits": int((points["floquet"] == STABLE).sum()),
+        "by theory, fast and slow": int((points["theory"] == STABLE).sum()),
+        "by their exact orbits": int((points["exact"] == STABLE).sum()),
     }
-    right = {name: _captions_right(evidence.points(name)["masri_derived"], name) for name in CAPTIONS}
+    right = {name: _captions_right(evidence.points(name)["fast"], name) for name in CAPTIONS}
     parts = {f"{number} {name}": count == number for name, count in counts.items()}
     parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
     numbers = {"captions right in all cases by the fast criterion": sum(right.values())}

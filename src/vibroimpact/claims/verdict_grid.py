@@ -2,22 +2,23 @@
 
 import pandas as pd
 
-from vibroimpact.claims.verdict_table import NO_ORBIT, partners
+from vibroimpact.claims.verdict_table import NO_ORBIT, partners, with_former_names
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
 from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.theory import criteria
+from vibroimpact.theory.criteria import EXACT
 from vibroimpact.theory.fixed_points.search import fixed_points
 
-NO_MOTION = {"admissible": False, "floquet": NO_ORBIT}
+NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
     """A row per fixed point and epsilon, for forces at the centres of points x points cells.
 
     Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
-    theory, admissible (True if its exact orbit stays between the walls) and floquet: the verdict on that orbit,
+    theory, admissible (True if its exact orbit stays between the walls) and exact: the verdict on that orbit,
     "no orbit" where there is none (see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)
@@ -34,7 +35,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
                 for (point, says), found in zip(judged, exact, strict=True)
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
-    return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
+    return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True))
 
 
 def exact_orbits(system, points, roots):
@@ -47,6 +48,6 @@ def exact_orbits(system, points, roots):
 
 
 def exact_verdicts(system, points, roots):
-    """Yield "admissible" and "floquet" of the orbit of each fixed point, as in `compute`."""
+    """Yield "admissible" and "exact" of the orbit of each fixed point, as in `compute`."""
     for orbit in exact_orbits(system, points, roots):
-        yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, "floquet": floquet(orbit)}
+        yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}

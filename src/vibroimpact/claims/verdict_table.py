@@ -1,4 +1,4 @@
-"""Four criteria on every fixed point and orbit of a case: (10.26), Masri's analysis, slow flow, multipliers."""
+"""Verdicts on every fixed point and orbit of a case: (10.26), fast, slow, theory, exact (`theory.criteria`)."""
 
 import numpy as np
 import pandas as pd
@@ -6,9 +6,12 @@ import pandas as pd
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
+from vibroimpact.theory.criteria import EXACT, FAST, SLOW
 from vibroimpact.theory.manifold import stays_within_walls
 
-CRITERIA = (*criteria.CRITERIA, "floquet")
+CRITERIA = (*criteria.CRITERIA, EXACT)
+FORMER = {"masri_derived": FAST, "slow_flow": SLOW, "floquet": EXACT}
+"""Former names of columns, which the tables have beside the new ones until the next release."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
 """An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
@@ -32,12 +35,12 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     for orbit in orbits:
         counts[orbit.symmetric] += 1
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
-        says = {**criteria.of_orbit(orbit), "floquet": floquet(orbit)}
+        says = {**criteria.of_orbit(orbit), EXACT: floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
         numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
         numbers += [*np.abs(orbit.multipliers), *orbit.state]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
-    return pd.DataFrame(rows, columns=_OF_ORBIT)
+    return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT))
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
@@ -56,13 +59,19 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
     rows = []
     for (label, point), place in zip(labelled, found, strict=True):
         partner = None if place is None else symmetric.iloc[place]
-        exact = NO_ORBIT if partner is None else partner["floquet"]
+        exact = NO_ORBIT if partner is None else partner[EXACT]
         within = all(stays_within_walls(C, system.kappa) for C in point.C)
-        says = {**criteria.of_fixed_point(system, point), "floquet": exact}
+        says = {**criteria.of_fixed_point(system, point), EXACT: exact}
         known_as = "" if partner is None else partner["label"]
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
         rows.append({**row, "orbit": known_as, **says})
-    return pd.DataFrame(rows, columns=["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA])
+    columns = ["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA]
+    return with_former_names(pd.DataFrame(rows, columns=columns))
+
+
+def with_former_names(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with its verdicts under their former names as well, last."""
+    return table.assign(**{former: table[name] for former, name in FORMER.items()})
 
 
 def partners(points, orbits) -> list[int | None]:

@@ -1,22 +1,22 @@
 """The commands: each with its options and the table it computes from a system."""
 
 import csv
-import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact import one_machine, studies
+from vibroimpact import one_machine
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.frames import branch_rows
 from vibroimpact.system import PhysicalSystem, System
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact.system.extras import need
 from vibroimpact.system.state import KINDS
 from vibroimpact.system.state import NAMES as STATE
-from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
+from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
 from vibroimpact.theory.fixed_points.search import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
@@ -29,6 +29,7 @@ MACHINE = {
     "F": "amplitude of the force [N]",
 }
 """Options of a machine: the arguments of PhysicalSystem.single that have no default."""
+PICTURES = (".png", ".pdf", ".svg")
 MASSES = 4
 """Steps from the least to the greatest mass of the ball."""
 _MOST_SAMPLES = 10_000_000
@@ -42,6 +43,8 @@ class Table(NamedTuple):
     rows: list[tuple]
     answer: str = ""
     """Result in words; printed in place of the rows if these go to a file or nowhere."""
+    plot: Callable | None = None
+    """Draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
         """Write CSV to an open text file, every number with as many digits as tell it apart."""
@@ -86,21 +89,18 @@ def _no_options(parser):
 
 
 def _fixed_points(system, options):
-    """A row per fixed point; theory: the verdict of Masri's analysis and of the slow flow together."""
-    rows = []
-    for point in fixed_points(system):
-        says = of_fixed_point(system, point)
-        numbers = np.ravel([point.C, point.B, point.psi]).tolist()
-        rows.append((point.label, *numbers, *says.values(), fast_and_slow(says)))
-    return Table(("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA, "theory"), rows)
+    """A row per fixed point; fast and slow, and theory: both together."""
+    columns = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA)
+    rows = [point.row() | of_fixed_point(system, point) for point in fixed_points(system)]
+    return Table(columns, [tuple(row[name] for name in columns) for row in rows])
 
 
 def _orbits(system, options):
     """A row per orbit that is a motion; phases in periods, at wall +1 and -1; the modulus of the largest multiplier."""
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
-    columns = ("symmetric", "C1", "C2", *measures, "largest_multiplier", "residual", "floquet")
+    columns = ("symmetric", "C1", "C2", *measures, "largest_multiplier", "residual", "exact")
     rows = [orbit.row() for orbit in orbits(system) if orbit.admissible]
-    return Table(columns, [tuple(({**row, "floquet": row["stability"]})[name] for name in columns) for row in rows])
+    return Table(columns, [tuple(row[name] for name in columns) for row in rows])
 
 
 def _simulate_options(parser):
@@ -118,8 +118,6 @@ def _simulate_options(parser):
 
 def _simulate(system, options):
     """A row per sample, tau and the state; or per event, with the state just after it."""
-    if options.events and options.plot:
-        raise ValueError("plot: it draws samples, not events")
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
     if options.events:
         events = simulate(system, options.state, cycles, options.tau0).events.tolist()
@@ -132,40 +130,8 @@ def _simulate(system, options):
     return Table(("tau", *STATE), np.column_stack([times, run.samples]).tolist())
 
 
-def _response_options(parser):
-    """The path through the parameters."""
-    parser.add_argument(
-        "--along", nargs="+", choices=NAMES, metavar="PARAMETER", default=["f20_hat"],
-        help="the parameter, or several that move together (default: f20_hat)",
-    )  # fmt: skip
-    parser.add_argument("--from", dest="low", type=float, default=0.2, metavar="P", help="first value (default: 0.2)")
-    parser.add_argument("--to", dest="high", type=float, default=1.2, metavar="P", help="last value (default: 1.2)")
-    parser.add_argument(
-        "--of", choices=studies.FAMILIES, default="both",
-        help="fixed points, exact orbits (which take longer), or both (default)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--seeds", type=int, default=5, metavar="N", help="values at which branches are looked for (default: 5)"
-    )
-
-
-def _response(system, options):
-    """Rows in their order along each piece of a branch; the last step of a branch may go beyond the range."""
-    low, high = real("from", options.low), real("to", options.high)
-    if not low < high:
-        raise ValueError(f"to: {high} is not above {low}, where the path begins")
-    try:
-        found = studies.branches(system, options.along, (low, high), options.of, options.seeds, notice=_notice)
-    except ValueError as error:
-        raise ValueError(str(error).replace("between:", "from, to:", 1)) from None
-    kept = [row for k, branch in enumerate(found) for row in branch_rows(branch, k) if low <= row["p"] <= high]
-    moved = " = ".join(options.along)
-    columns = ("family", "branch", "piece", moved, "C1", "C2", "stable", "admissible", "special")
-    return Table(columns, [tuple(row.values()) for row in kept])
-
-
 def _design_options(parser):
-    """One machine in SI units, the band, and what to choose from."""
+    """One machine in SI units, the band, what to choose from, and a picture."""
     group = parser.add_argument_group("machine", "all needed, in SI units")
     for name, words in MACHINE.items():
         kind = _range if name == "m" else float
@@ -180,6 +146,7 @@ def _design_options(parser):
         "--restitution", type=float, nargs="+", metavar="E", default=one_machine.RESTITUTIONS,
         help=f"restitution coefficients to choose from (default: {' '.join(map(str, one_machine.RESTITUTIONS))})",
     )  # fmt: skip
+    parser.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
 
 
 def _range(text) -> tuple[float, ...]:
@@ -189,6 +156,10 @@ def _range(text) -> tuple[float, ...]:
 
 def _design(options):
     """A row per frequency; the answer is the text of a Design."""
+    if options.plot is not None and options.plot.suffix not in PICTURES:
+        raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
+    if options.plot is not None:
+        need("figures", "matplotlib")
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
         raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")
@@ -197,13 +168,8 @@ def _design(options):
         raise ValueError(f"m: {least:g}..{most:g}; needs 0 <= A < B [kg]")
     masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASSES + 1) if m > 0]
     machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
-    choice = options.clearance, options.restitution, sys.stderr.isatty(), masses
-    found = one_machine.design(machine, (low, high), *choice)
-    return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found))
-
-
-def _notice(family):
-    print(f"looking for every {family} ...", file=sys.stderr)
+    found = one_machine.design(machine, (low, high), options.clearance, options.restitution, masses=masses)
+    return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found), found.plot)
 
 
 COMMANDS = {
@@ -215,11 +181,6 @@ COMMANDS = {
     ),
     "simulate": Command(
         "integrate the exact system from a start, impacts, chatter and sticking included", _simulate_options, _simulate
-    ),
-    "response": Command(
-        "C over a parameter: all branches of fixed points and of exact orbits, with stability and special points",
-        _response_options,
-        _response,
     ),
     "design": Command(
         "the ball for one machine in kilograms, newtons and hertz: clearance, restitution, what they achieve",

@@ -11,8 +11,6 @@ from pathlib import Path
 import vibroimpact
 from vibroimpact.cli.commands import COMMANDS, Table, add_system_options, system_of
 
-PICTURES = (".png", ".pdf", ".svg")
-
 
 class _Parser(argparse.ArgumentParser):
     """An error is one line; -1e-3 is a number, as -0.001 is."""
@@ -44,7 +42,6 @@ def parser() -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=command.help, description=command.help, allow_abbrev=False)
         command.add_options(own)
         own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV to this file")
-        own.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
         if command.of_system:
             add_system_options(own)
         own.set_defaults(run=_tell, command=name, parser=own)
@@ -61,12 +58,11 @@ def _compile(options) -> int:
 def _tell(options) -> int:
     """Compute the table of a command and put it where it belongs."""
     try:
-        plots = _plots(options)
         _check_folders(options)
         command = COMMANDS[options.command]
         table = command.compute(*([system_of(options)] if command.of_system else []), options)
-        if plots:
-            plots.DRAW[options.command](table).savefig(options.plot)
+        if getattr(options, "plot", None):
+            table.plot().savefig(options.plot)
         _put(table, options.output)
     except BrokenPipeError:  # the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -77,24 +73,10 @@ def _tell(options) -> int:
     return 0
 
 
-def _plots(options):
-    """The module that draws, if a picture is asked for.
-
-    Raises:
-        ValueError: no kind of picture is known by this ending.
-        ModuleNotFoundError: the extra `figures` is not installed.
-    """
-    if options.plot is None:
-        return None
-    if options.plot.suffix not in PICTURES:
-        raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
-    return import_module("vibroimpact.cli.plots")
-
-
 def _check_folders(options):
     """Refuse an output file whose folder cannot be written to, before anything is computed."""
     for name in ("output", "plot"):
-        path = getattr(options, name)
+        path = getattr(options, name, None)
         if path is not None and not path.parent.is_dir():
             raise ValueError(f"{name}: there is no folder {path.parent}")
         if path is not None and path.is_dir():

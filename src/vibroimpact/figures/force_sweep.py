@@ -14,7 +14,7 @@ from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_pan
 from vibroimpact.figures.kit.tables import join
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
-from vibroimpact.theory.criteria import CRITERIA, fast_and_slow, of_fixed_point
+from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
 from vibroimpact.theory.fixed_points.search import fixed_points, labels
 
 SPEC = {
@@ -36,10 +36,7 @@ SPEC = {
             "unit": "number"},
         "C1, B1, C2, B2": {},
         "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
-        "printed_10_26, masri_derived, slow_flow": {},
-        "fast_and_slow": {"meaning": "by both time scales of the theory, Masri's analysis and the slow flow",
-            "unit": "text", "values": ["stable", "unstable", "undecided"]},
-        "floquet": {},
+        "printed_10_26, fast, slow, theory, exact": {},
     },
 }  # fmt: skip
 
@@ -49,7 +46,7 @@ EVERY = 6
 """Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
 PAIR = 0
 """Track of the asymmetric orbits, which belong to no fixed point."""
-VERDICTS = (*CRITERIA, "fast_and_slow", "floquet")
+VERDICTS = (*CRITERIA, EXACT)
 
 
 def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
@@ -63,7 +60,7 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
     C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
     both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "orbits": a
     row per multiplier of each exact orbit, columns value, track (that of its fixed point; PAIR of the stable asymmetric
-    orbits and what becomes of them), C1, C2, floquet, real, imag; "manifold": columns series, C, B as in figure 10.4.
+    orbits and what becomes of them), C1, C2, exact, real, imag; "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
@@ -76,21 +73,21 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         for track, point, label, orbit in zip(names, points, labels(system, points), exact, strict=True):
             says = of_fixed_point(system, point)
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
-            row |= {"B2": point.B[1], "label": label, **says, "fast_and_slow": fast_and_slow(says)}
-            rows.append(row | {"floquet": floquet(orbit) if orbit else NO_ORBIT})
+            row |= {"B2": point.B[1], "label": label, **says}
+            rows.append(row | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
             multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
     for value, orbit in followed(systems):
         multipliers += _multipliers(value, PAIR, orbit)
     points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
     end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
     kappa = next(iter(systems.values())).kappa
-    orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", "floquet", "real", "imag"])
+    orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", EXACT, "real", "imag"])
     return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
 
 
 def _draw_pair(axes, orbits, C):
     pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
-    stable = pair["floquet"] == STABLE
+    stable = pair[EXACT] == STABLE
     for shown, grey, name in ((stable, "0.6", "asymmetric, stable"), (~stable, "0.85", "asymmetric, unstable")):
         dots = {"color": grey, "linestyle": "none", "marker": "o", "markersize": 3.5}
         axes.plot(pair["value"][shown], pair[C][shown], label=name, **dots)
@@ -130,7 +127,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
             for value, C, label in renamed[["value", "C2", "label"]].itertuples(index=False):
                 axes.annotate(label, (value, C), (3, 4), textcoords="offset points", color=colour, fontsize=8)
             marked = rows.iloc[::EVERY]
-            theory, exact = (marked[name] == STABLE for name in ("fast_and_slow", "floquet"))
+            theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
             for shown, face, size in ((theory, colour, 3.6), (~theory, "white", 3.6), (exact, "none", 6.6)):
                 style = {"color": colour, "markerfacecolor": face, "markersize": size, "linestyle": "none"}
                 axes.plot(marked["value"][shown], marked[f"C{module}"][shown], marker=marker, **style)

@@ -1,6 +1,6 @@
 """Branches of 1:1 responses along a path through the parameters, with stability and special points."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -63,8 +63,28 @@ class Branch:
                 found.append((inner, piece))
         return found
 
+    def rows(self, number: int = 0) -> list[dict]:
+        """A row per node, along the pieces between special points, which belong to the pieces they join."""
+        return [
+            {
+                "family": self.family.name,
+                "branch": number,
+                "piece": piece,
+                "p": node.p,
+                "C1": float(node.amplitudes[0]),
+                "C2": float(node.amplitudes[1]),
+                "stable": inner.stable,
+                "admissible": inner.admissible,
+                "special": node.kind,
+            }
+            for piece, (inner, nodes) in enumerate(self.pieces())
+            for node in nodes
+        ]
 
-def branches(family, path: Path, interval, seeds: Iterable[float], longest: float) -> list[Branch]:
+
+def branches(
+    family, path: Path, interval, seeds: Iterable[float], longest: float, tell: Callable = lambda p: None
+) -> list[Branch]:
     """All branches of a family within an interval of p that pass one of the seeds (values of p).
 
     A branch ends at the ends of the interval, where a ball speed vanishes, and, for asymmetric orbits, where it meets
@@ -74,31 +94,34 @@ def branches(family, path: Path, interval, seeds: Iterable[float], longest: floa
     Args:
         family: one of `families.FAMILIES`. path: gives the system at p.
         longest: longest step along the curve.
+        tell: called with p at each seed and node, for a report of progress.
     """
     found = []
     for p in seeds:
+        tell(p)
         system = path(p)
         for root in family.roots(system):
             known = any(_passes(branch, path, p, image) for branch in found for image in family.images(system, root))
             if family.speed(root) > 0 and not known:
-                found.append(_branch(family, path, interval, np.append(root, p), longest))
+                found.append(_branch(family, path, interval, np.append(root, p), longest, tell))
     return found
 
 
-def _branch(family, path, interval, start, longest):
+def _branch(family, path, interval, start, longest, tell):
     """The branch through a root, followed both ways."""
     ahead = np.eye(len(start))[-1]
-    there, back = (_half(family, path, interval, start, sign * ahead, longest) for sign in (1, -1))
+    there, back = (_half(family, path, interval, start, sign * ahead, longest, tell) for sign in (1, -1))
     return Branch(family, back[:0:-1] + there)
 
 
-def _half(family, path, interval, start, ahead, longest):
+def _half(family, path, interval, start, ahead, longest, tell):
     """Nodes on one side of the start."""
     low, high = interval
     curve = Curve(lambda x, p: family.equations(_system(path, p), x))
     nodes, before = [], None
     for place in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
+        tell(float(z[-1]))
         system = path(z[-1])
         if family.speed(z[:-1]) <= 0:
             end = curve.zero(lambda at: family.speed(at[:-1]), before[0], z)

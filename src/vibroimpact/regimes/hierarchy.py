@@ -58,7 +58,7 @@ def levels(system, harmonics) -> dict[str, Level]:
         harmonics: the numbers N, odd, ascending.
     """
     points = fixed_points(system)
-    leading = [criteria.fast_and_slow(criteria.of_fixed_point(system, point)) for point in points]
+    leading = [criteria.of_fixed_point(system, point)["theory"] for point in points]
     found = {LEADING: Level(_stack([point.C for point in points]), leading, 1), TWO_TERMS: _two_terms(system, points)}
     found |= {harmonics_name(N): of_harmonics(system, N, free_mass=True) for N in harmonics}
     roots, evaluations = _solved(system, impulse_response(system, -1))

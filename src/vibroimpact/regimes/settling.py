@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vibroimpact.exact.engine.ensemble import finals
-from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, simulate
 from vibroimpact.regimes.character import character
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
+from vibroimpact.system.arguments import real, whole
 
 MOST_WITNESSES = 5
 
@@ -19,18 +20,27 @@ MOST_WITNESSES = 5
 class Observation:
     """Settings of an observation: lengths of runs, in cycles, and tolerance.
 
-    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness: as in
-    `observe`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
+    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness:
+    as in `observe`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
     retest: cycles over which such a name is tried.
+
+    Raises:
+        ValueError: one of them is not a number, or below the least with a meaning.
     """
 
-    cycles: int
-    rounds: int
-    window: int
-    nearness: float
-    blocks: int
-    block: int
-    retest: int
+    cycles: int = 250
+    rounds: int = 3
+    window: int = 24
+    nearness: float = 0.02
+    blocks: int = 6
+    block: int = 20
+    retest: int = 10_000
+
+    def __post_init__(self):
+        for name, least in {"cycles": 1, "rounds": 1, "window": 4, "blocks": 2, "block": 1, "retest": 1}.items():
+            whole(name, getattr(self, name), least, MOST_CYCLES)
+        if real("nearness", self.nearness) <= 0:
+            raise ValueError(f"nearness: {self.nearness} is not above 0")
 
 
 def settle(system, states, observation: Observation) -> list[Regime]:

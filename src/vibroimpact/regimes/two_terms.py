@@ -40,7 +40,7 @@ def verdict(system, point, C) -> str:
     the slow one, and has no second term of its own.
     """
     fast = (lower_limit(system.kappa) < C) & (symmetry_breaking(system.epsilon) > C)
-    slow = criteria.of_fixed_point(system, point)["slow_flow"]
+    slow = criteria.of_fixed_point(system, point)["slow"]
     return STABLE if fast.all() and slow == STABLE else UNSTABLE
 
 

@@ -1,9 +1,11 @@
 """Stability criteria for a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
 Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
-threshold. Both modules must be stable.
+threshold. Both modules must be stable. A verdict has one name everywhere: fast (Masri's analysis, derived anew), slow
+(the slow flow), theory (both together) and exact (the Floquet multipliers of the exact orbit).
 """
 
+import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +17,10 @@ from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import equations, linearisation
 
-CRITERIA = ("printed_10_26", "masri_derived", "slow_flow")
+FAST, SLOW, THEORY, EXACT = "fast", "slow", "theory", "exact"
+PRINTED = "printed_10_26"
+CRITERIA = (PRINTED, FAST, SLOW, THEORY)
+"""Verdicts of the theory, in the order of tables."""
 _STEP = 1e-6
 _ULPS = 16 * np.finfo(float).eps
 
@@ -27,12 +32,18 @@ class Stability(NamedTuple):
     slow: str
 
     @property
-    def both(self) -> str:
+    def theory(self) -> str:
         """The verdict of both together."""
         return all_stable(self)
 
+    @property
+    def both(self) -> str:
+        """The former name of `theory`."""
+        warnings.warn("Stability.both is now Stability.theory", DeprecationWarning, stacklevel=2)
+        return self.theory
+
     def __str__(self) -> str:
-        return f"{self.both} (fast {self.fast}, slow {self.slow})"
+        return f"{self.theory} (fast {self.fast}, slow {self.slow})"
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
@@ -71,11 +82,6 @@ def of_orbit(orbit) -> dict[str, str]:
     return _of(orbit.system, psi, C, error)
 
 
-def fast_and_slow(says) -> str:
-    """The theory's verdict on both time scales, from verdicts by criterion: Masri's analysis and the slow flow."""
-    return Stability(says["masri_derived"], says["slow_flow"]).both
-
-
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
     """(psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
 
@@ -99,8 +105,8 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    verdicts = printed_10_26(C, system.kappa, error), masri_derived(C, system.kappa, error)
-    return dict(zip(CRITERIA, (*verdicts, slow_flow(system, psi, C, error)), strict=True))
+    both = Stability(masri_derived(C, system.kappa, error), slow_flow(system, psi, C, error))
+    return {PRINTED: printed_10_26(C, system.kappa, error), FAST: both.fast, SLOW: both.slow, THEORY: both.theory}
 
 
 def _eigenvalues(system, psi, C, error):

@@ -29,7 +29,9 @@ class Exponent(Section):
 class Observation(Exponent):
     """Length of the observation of one start."""
 
-    cycles: kinds.count("A start is simulated for so long before it is looked at [forcing periods]")
+    cycles: kinds.count(
+        "A start is simulated for so long before it is looked at; see docs/howto_sweep.md [forcing periods]"
+    )
     rounds: kinds.count("At most so many times, until it repeats", 1, 1000)
     window: kinds.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
     nearness: kinds.real(NEAR, 1e-6, 0.5)

@@ -74,7 +74,7 @@ class Sweep(Section):
     starts: kinds.Starts | None = None
     seed: kinds.Seed | None = None
     cycles: kinds.count("Length of a run that is observed [forcing periods]") | None = None
-    settle: kinds.count("Cycles of it that are left out [forcing periods]", 0) | None = None
+    settle: kinds.count("Cycles of it that are left out; see docs/howto_sweep.md [forcing periods]", 0) | None = None
     band: Axis | None = Field(None, description="What moves at every point while the worst peak is sought")
 
     def moving(self) -> list[Axis]:

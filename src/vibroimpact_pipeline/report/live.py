@@ -5,7 +5,6 @@ import json
 import numpy as np
 
 from vibroimpact.system.verdict import STABLE
-from vibroimpact.theory.criteria import fast_and_slow
 from vibroimpact_pipeline.specs import case_parameters
 
 MAP = "companion_regime_map"
@@ -44,16 +43,15 @@ def verdict_data(results, config: dict) -> str:
     of the theory, call stable, [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
-    table["both"] = [fast_and_slow(row) for row in table.to_dict("records")]
     by_epsilon = [
         (value, table[table["epsilon"] == value]) for value in sorted(table["epsilon"].unique(), reverse=True)
     ]
     points = {
         criterion: [
-            rows.loc[rows[criterion] == STABLE, ["f10_hat", "f20_hat", "floquet"]].round(6).to_numpy().tolist()
+            rows.loc[rows[criterion] == STABLE, ["f10_hat", "f20_hat", "exact"]].round(6).to_numpy().tolist()
             for _, rows in by_epsilon
         ]
-        for criterion in ("both", "printed_10_26")
+        for criterion in ("theory", "printed_10_26")
     }
     ends = [min(grid["f10_range"][0], grid["f20_range"][0]), max(grid["f10_range"][1], grid["f20_range"][1])]
     scale = {"epsilon": [float(value) for value, _ in by_epsilon], "ends": ends, "points": grid["points"]}

@@ -7,9 +7,6 @@ from vibroimpact.figures.kit.markdown import plain
 GREEK = {"kappa": r"\kappa", "epsilon": r"\varepsilon", "tau": r"\tau", "Omega": r"\Omega"}
 WHOLE = {
     "printed_10_26": "by (10.26)",
-    "masri_derived": "by Masri's analysis",
-    "slow_flow": "by the slow flow",
-    "floquet": "by the exact orbit",
     "M / m": "$M/m$",
     "m / M": "$m/M$",
     "k12 / k": "$k_{12}/k$",

@@ -136,7 +136,7 @@ class Results:
         values of the sweep; of the exact system the onset of the torus, which has no `stable`.
         """
         sweep, special = self.table("force_sweep/force_sweep.csv"), self.table("regimes/special_points.csv")
-        stable = sweep["fast_and_slow"].eq(STABLE).groupby(sweep["value"]).sum()
+        stable = sweep["theory"].eq(STABLE).groupby(sweep["value"]).sum()
         special = special[(special["path"] == "f20_hat") & special["admissible"]]
         onsets = special[(special["family"] == "asymmetric orbit") & (special["kind"] == "Neimark-Sacker")]
         special = special[special["family"] == "fixed point"]

@@ -89,7 +89,7 @@ class Orbit(Representation):
             **dict(zip(names, numbers, strict=True)),
             "largest_multiplier": float(abs(self.multipliers[0])),
             "residual": self.residual,
-            "stability": self.stability,
+            "exact": self.stability,
             "proved": self.proved,
         }
 

@@ -35,7 +35,7 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
     """Return the verdicts of all criteria on each fixed point, from inputs["verdicts"] if that is given.
 
-    Columns label, orbit (label of the exact orbit that goes with the point), floquet (verdict of its multipliers), ...
+    Columns label, orbit (label of the exact orbit that goes with the point), exact (verdict of its multipliers), ...
 
     Raises:
         ValueError: the file holds another case, or other points.
@@ -49,11 +49,11 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
 
 
 def exact(verdicts: pd.DataFrame) -> str:
-    """Return the verdict of the Floquet multipliers of exact orbits on fixed points; columns label, orbit, floquet."""
+    """Return the verdict of the Floquet multipliers of exact orbits on fixed points; columns label, orbit, exact."""
     if verdicts.empty:
         return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
     said = []
-    for verdict, rows in verdicts.groupby("floquet", sort=False):
+    for verdict, rows in verdicts.groupby("exact", sort=False):
         names = [f"**{plain(label)}**" for label in rows["label"]]
         if verdict == NO_ORBIT:
             said.append(f"{', '.join(names)}: **no orbit**")

@@ -15,7 +15,7 @@ import numpy as np
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
 from vibroimpact.system.representation import Representation, brief
-from vibroimpact.theory.criteria import Stability, of_fixed_point
+from vibroimpact.theory.criteria import FAST, SLOW, THEORY, Stability, of_fixed_point
 from vibroimpact.theory.fixed_points.balance import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -56,14 +56,14 @@ class FixedPoint(Representation):
     def stability(self) -> Stability:
         """Verdicts of the theory: fast (Masri's analysis, derived anew), slow (the slow flow), and both together."""
         says = of_fixed_point(self.system, self)
-        return Stability(says["masri_derived"], says["slow_flow"])
+        return Stability(says[FAST], says[SLOW])
 
     def row(self) -> dict:
         """Numbers and verdicts by name, as `to_frame` tells them."""
         numbers = {f"{name}{i}": float(x) for name in ("C", "B", "psi") for i, x in enumerate(getattr(self, name), 1)}
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
-        verdicts = {"fast": fast, "slow": slow, "both": stability.both}
+        verdicts = {FAST: fast, SLOW: slow, THEORY: stability.theory}
         return {"label": self.label, **numbers, **verdicts, "slow_growth": growth, "multiple": self.multiple}
 
     def _shown(self):

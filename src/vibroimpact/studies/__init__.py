@@ -1,0 +1,1 @@
+"""Studies of a system in one call: continuation, sweeps, attractors, sections, exponents, linear absorbers."""

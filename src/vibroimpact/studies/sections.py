@@ -1,0 +1,40 @@
+"""Stroboscopic sections of many runs at once."""
+
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.simulation import MOST_CYCLES
+from vibroimpact.system.arguments import whole
+from vibroimpact.system.progress import counted
+
+
+def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
+    """Stroboscopic Poincare sections of many runs: their states at the end of every forcing cycle once settled.
+
+    Over a list of systems in which one parameter moves this is a bifurcation diagram:
+
+    >>> forces = np.linspace(0.90, 0.96, 4)
+    >>> found = sections([system.with_(f20_hat=f) for f in forces], [0.0] * 8, cycles=320, settle=300)
+    >>> X2 = found[:, :, 2]  # plot this over forces[:, None]
+    >>> X2.shape
+    (4, 20)
+
+    Args:
+        systems, states: combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0.
+        cycles: forcing periods of each run; settle: those of them that are left out.
+        progress: count the cycles on standard error, if that is a terminal.
+
+    Returns:
+        States (..., cycles - settle, 8), dimensionless, in the shape of the combination; nan once a run has failed
+        (`ensemble` says why).
+
+    Raises:
+        ValueError: an argument is malformed, or systems and states cannot be combined.
+    """
+    cycles = whole("cycles", cycles, 1, MOST_CYCLES)
+    settle = whole("settle", settle, 0, cycles - 1)
+    states = ensemble(systems, states, settle, settle=settle)["final"]
+    systems, found = np.array(systems, dtype=object), np.empty((*states.shape[:-1], cycles - settle, 8))
+    for k in counted(range(cycles - settle), "sections: cycle", progress):
+        states = found[..., k, :] = ensemble(systems, states, 1, settle=1)["final"]
+    return found
