@@ -118,6 +118,7 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
     digests = {path: digest_of(path) for path in map(str, paths) if is_result(path)}
     for path, digest in digests.items():
         if read_record(path).get("sha256") != digest:
+            _mark(path)
             raise ModifiedResult(f"{path}: not what its job wrote. Build again: it is made anew.")
     return digests
 
@@ -132,10 +133,15 @@ def distrust(outputs: Iterable) -> list[str]:
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
     for path in found:
-        marker = _of_snakemake("incomplete", path)
-        marker.parent.mkdir(parents=True, exist_ok=True)
-        marker.write_text("{}", encoding="utf-8")
+        _mark(path)
     return found
+
+
+def _mark(path: str) -> None:
+    """Mark a result as incomplete."""
+    marker = _of_snakemake("incomplete", path)
+    marker.parent.mkdir(parents=True, exist_ok=True)
+    marker.write_text("{}", encoding="utf-8")
 
 
 def _as_recorded(path: str) -> bool:

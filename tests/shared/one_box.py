@@ -1,24 +1,25 @@
-"""One undamped box without force or coupling and its ball, kappa next to 1: thousands of impacts that forget nothing.
+"""Undamped boxes without force or coupling, one or both with its ball moving, kappa next to 1: nothing is forgotten.
 
 Its motion in closed form with 45 digits: the gap is monotone between the times at which box and ball are equally fast.
 """
 
 import math
 
+import numpy as np
 from flint import arb, ctx
 from scipy.optimize import brentq
 
 import vibroimpact as vi
 
 BITS = 150
-GENES = 9
+GENES = 10
 DEFECTS = (2**-53, 2**-52, 3 * 2**-53, 2**-51, 2**-50, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6)  # 1 - kappa
 
 
-def one_box(epsilon, kappa, sigma_e_hat):
-    """The system: box 2 and its ball stay at rest."""
+def one_box(epsilon, kappa, sigma_e_hat, gamma2_hat=0.25):
+    """The system: two boxes without coupling, of which the second may be damped."""
     return vi.System(
-        epsilon=epsilon, kappa=kappa, alpha12_hat=0, gamma1_hat=0, gamma2_hat=0.25, gamma12_hat=0, sigma20_hat=0,
+        epsilon=epsilon, kappa=kappa, alpha12_hat=0, gamma1_hat=0, gamma2_hat=gamma2_hat, gamma12_hat=0, sigma20_hat=0,
         sigma_e_hat=sigma_e_hat, f10_hat=0, f20_hat=0,
     )  # fmt: skip
 
@@ -76,27 +77,39 @@ def _refined(x, y, v, u, guess, wall):
     raise ArithmeticError("Newton's method has not converged")
 
 
-def judged(system, start, cycles):
-    """True error of the final state over the told one of a decided run, else None; its events must be the true ones."""
-    x, y, v, u = start
-    run = vi.simulate(system, [x, y, 0, 0, v, u, 0, 0], cycles)
+def judged(system, start, cycles, second=(0, 0, 0, 0)):
+    """True error of the final state over the told one of a decided run, else None; its events must be the true ones.
+
+    second: start of box 2 and its ball, which move as those of box 1 do in an undamped system.
+    """
+    starts = np.array([start, second], dtype=float)
+    run = vi.simulate(system, [*starts[:, :2].ravel(), *starts[:, 2:].ravel()], cycles)
     if not run.certificate.decided:
         return None
-    impacts, final = motion(system, start, cycles)
-    assert len(run.events) == impacts, (system, start, cycles)
-    errors = [abs(float(exact - arb(float(got)))) for exact, got in zip(final, run.final[[0, 1, 4, 5]], strict=True)]
-    return max(errors) / run.certificate.error
+    worst, impacts = 0.0, 0
+    for module, one in enumerate(starts):
+        if one.any():
+            count, final = motion(system, one.tolist(), cycles)
+            impacts += count
+            got = run.final.reshape(2, 2, 2)[:, module].ravel()
+            worst = max([worst, *(abs(float(exact - arb(float(x)))) for exact, x in zip(final, got, strict=True))])
+    assert len(run.events) == impacts, (system, starts, cycles)
+    return worst / run.certificate.error
 
 
 def true_over_told(genes, most_impacts=30_000):
     """`judged` for genes (GENES,) between 0 and 1; None of a run that is not decided, or long."""
     epsilon, omega, size = 10 ** (-2 + 3 * genes[1]), 10 ** (-0.5 + 0.8 * genes[2]), 10 ** (-1 + 2.2 * genes[3])
-    x, v = (size * (2 * gene - 1) * (abs(2 * gene - 1) > 0.3) for gene in genes[4:6])
-    u, gap, cycles = size * (2 * genes[6] - 1), 0.999 * (2 * genes[7] - 1), int(10 ** (1.5 + 1.5 * genes[8]))
-    if (abs(u) + math.hypot(x, v)) * cycles * math.pi / omega > most_impacts:
-        return None
+    starts, both, cycles = [], genes[9] > 0.5, int(10 ** (1.5 + 1.5 * genes[8]))
+    for four in (genes[4:8], genes[[6, 4, 5, 7]] if both else 0.5 * np.ones(4)):
+        x, v = (size * (2 * gene - 1) * (abs(2 * gene - 1) > 0.3) for gene in four[:2])
+        u, gap = size * (2 * four[2] - 1), 0.999 * (2 * four[3] - 1)
+        starts.append([x, x - gap, v, u])
+        if (abs(u) + math.hypot(x, v)) * cycles * math.pi / omega > most_impacts:
+            return None
     try:
-        system = one_box(epsilon, 1 - DEFECTS[int(9.999 * genes[0])], (omega - 1) / epsilon)
-        return judged(system, [x, x - gap, v, u], cycles)
+        defect = DEFECTS[int(9.999 * genes[0])]
+        system = one_box(epsilon, 1 - defect, (omega - 1) / epsilon, 0.0 if both else 0.25)
+        return judged(system, starts[0], cycles, starts[1])
     except (ValueError, ArithmeticError):  # such a system resonates, or the run has too many events
         return None

@@ -26,9 +26,9 @@ SPEC = {
     "caption": r"Peaks of :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat f_{i0}`, "
         "in a band of frequencies: at its worst frequency, what one cycle in a hundred exceeds. a: over the clearance; "
         "triangles: from rest only one ball ever meets a wall; lines: linear systems in closed form, the absorbers of "
-        "the mass of the balls. b: the lowest peak over the clearance, for each restitution, measured again from rest "
-        "and seven other starts at twice as many frequencies; upright bars: its standard error to either side. c: the "
-        "peak over both, lighter is better. Stars: where a sweep has its lowest peak, in a and b as high as measured "
+        "the mass of the balls. b: for each restitution the lowest peak over the clearances of c, measured again from "
+        "rest and seven other starts at twice as many frequencies; upright bars: its standard error to either side. c: "
+        "the peak over both, lighter is better. Stars: where a sweep has its lowest peak, in a and b as high as measured "
         "again; level bars: clearances whose peak is at most 1.25 times as high.",
     "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
@@ -52,11 +52,11 @@ SPEC = {
             "compared": {"lowest peak": "extremes", "others": "algebra"}},
         "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more; of balls what one "
             "cycle in a hundred of all starts exceeds", "unit": "dimensionless", "compared": {
-            "best absorbers": "trajectory", "balls": "extremes", "one ball": "extremes", "lowest peak": "extremes",
+            "best absorbers": "trajectory", "balls": "extremes", "one ball": "extremes", "lowest peak": "peaks",
             "others": "algebra"}},
         "kappa": {"compared": "algebra"},
         "low, high": {"meaning": "of a lowest peak: less and more its standard error, the `spread` of `absorber.csv`",
-            "unit": "dimensionless", "compared": "extremes"},
+            "unit": "dimensionless", "compared": "peaks"},
     },
     "tables": {
         "summary": {
@@ -80,17 +80,19 @@ SPEC = {
                     "absorbers of the textbook", "best absorbers"]},
                 "value": {"meaning": "what the quantity says; of a peak of balls measured again where the sweep has "
                     "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
-                    "as in the sweep, from rest", "unit": "dimensionless", "compared": {"frequencies won": "free",
-                    "others": "extremes"}},
+                    "as in the sweep, from rest", "unit": "dimensionless", "compared": {"without balls": "algebra",
+                    "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
+                    "frequencies won": "free", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
                     "unit": "dimensionless", "compared": "free"},
                 "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
-                    "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "extremes"},
+                    "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "peaks"},
                 "swept": {"meaning": "the lowest peak as the sweep has it; lower than `value` where chance chose the "
-                    "place", "unit": "dimensionless", "compared": "extremes"},
+                    "place", "unit": "dimensionless", "compared": "peaks"},
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
-                    "over that without balls", "unit": "dimensionless", "compared": "extremes"},
-                "kappa, f10_hat, f20_hat": {"compared": "extremes"},
+                    "over that without balls", "unit": "dimensionless", "compared": "peaks"},
+                "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
+                "f10_hat, f20_hat": {"compared": "extremes"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
                     "unit": "dimensionless", "compared": "free"},
                 "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "

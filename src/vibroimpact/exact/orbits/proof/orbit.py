@@ -19,7 +19,7 @@ from vibroimpact.system.verdict import STABLE, UNSTABLE
 _BITS = 128
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths that are tried
 _TIGHT = 2.0**-90
-_SPOILT = 1e-4
+_SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
 """A listed state or multiplier this far from the proved one, relative to its size where that is above 1, belongs to
 another orbit; computed ones are off by rounding, double multipliers by its root."""
 _STEPS = 20  # at most, to narrow a box: quadratic, but for the first ones
@@ -103,17 +103,19 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 def _has_state(orbit, passage):
     """Return True if the listed state is next to the proved one."""
     listed = orbit.state.tolist()
-    return any(all(map(_near, listed, proved.entries()[:8])) for proved in passage.states())
+    return any(all(map(_near, listed, proved.entries()[:8], [_SPOILT_STATE] * 8)) for proved in passage.states())
 
 
 def _has_multipliers(orbit, proved):
     """Return True if every listed multiplier is next to a proved one and every proved one next to a listed one."""
-    near = np.array([[_near(one, other) for other in proved] for one in map(acb, orbit.multipliers.tolist())])
+    near = np.array(
+        [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
+    )
     return not proved or bool(near.any(axis=0).all() and near.any(axis=1).all())
 
 
-def _near(listed, proved):
-    return bool(abs(proved - listed) < _SPOILT * max(1.0, float(abs(acb(listed)).mid())))
+def _near(listed, proved, spoilt):
+    return bool(abs(proved - listed) < spoilt * max(1.0, float(abs(acb(listed)).mid())))
 
 
 def _distance(enclosures, listed):
