@@ -221,6 +221,12 @@ def caption(figure):
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec(figure)["caption"])
 
 
+def left_over():
+    """Figures of builds before, which this config does not make."""
+    found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
+    return sorted(found.difference(ALL_FIGURES))
+
+
 # Rules before these are those of another workflow, which has these as a module.
 OTHERS = {rule.name for rule in workflow.rules}
 

@@ -5,6 +5,7 @@
 POINTS = {
     "points": "results/fixed_points/{case}.csv",
     "verdicts": "results/verdicts/{case}.csv",
+    "orbits": "results/orbits/{case}.csv",
 }
 MOTION = {
     "points": "results/fixed_points/{case}.csv",
