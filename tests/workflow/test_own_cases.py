@@ -101,7 +101,9 @@ def test_own_cases_and_figures_go_through_figures_check_and_report(edited):
 
     reasons = ["there is no case unequal", "there is no case weak"]
     claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
-    assert {claim["verdict"] for claim in claims} == {"not judged"}
+    verdicts = {claim["id"]: claim["verdict"] for claim in claims}
+    assert verdicts["two-branches"] == "holds in part"  # which no case decides on
+    assert {claim["verdict"] for claim in claims if "weak" in str(claim.get("arguments"))} == {"not judged"}
     pages = [path for path in (results / "report").glob("*.html") if path.name != "search.html"]  # the generator's own
     pages.append(results / "claims.md")
     for page in pages:
