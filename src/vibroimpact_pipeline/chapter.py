@@ -42,6 +42,37 @@ def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
     return [f"{path} is not the one that docs/claims.yaml knows" for path in others]
 
 
+TABLES = {
+    "cases.equal.simulation": ("simulations.equal",),
+    "cases.weak.simulation": ("simulations.weak",),
+    "stability.verdict_grid": ("verdict_grid",),
+    "regimes.observation": ("modulation", "special_points", "absorber", "clearance"),
+    "regimes.branches": ("special_points",),
+    "regimes.modulation": ("modulation",),
+    "regimes.epsilon": ("epsilon_orders",),
+    "sweeps.frequency_response": ("absorber",),
+    "sweeps.clearance": ("absorber", "clearance"),
+    "sweeps.design": ("absorber",),
+}
+"""What of the evidence an entry of the config decides on."""
+
+
+def unlike(config: dict, seen: dict[str, str]) -> dict[str, str]:
+    """Return why parts of the evidence are not about the chapter, a line by part: see vibroimpact.claims.evidence.
+
+    Args:
+        seen: as in `unknown_entries`.
+    """
+    found = {}
+    for line in departures(config):
+        place = line.removeprefix("there is no case ").split(" ")[0].split(".")
+        found.setdefault("system" if place[0] == "system" else place[-1] if len(place) == 1 else place[1], line)
+    for line in unknown_entries(config, seen):
+        for part in TABLES[line.split(" ")[0]]:
+            found.setdefault(part, line)
+    return found
+
+
 def _digest_at(config, path):
     for key in path.split("."):
         if key not in config:

@@ -16,15 +16,23 @@ TABLES = (
 )
 
 
-def evidence(config: dict, inputs: dict) -> Evidence:
-    """Return the evidence on the chapter's cases; `inputs` names the simulations <case>_samples, and so on."""
+def evidence(config: dict, inputs: dict, unlike: dict[str, str]) -> Evidence:
+    """Return the evidence on the chapter's cases; `inputs` names the simulations <case>_samples, and so on.
+
+    Args:
+        unlike: why parts of it are not about the chapter; what a build does not make is one of them.
+    """
+    cases = [case for case in CASES if case in config["cases"]]
     simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
     proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
+    missing = {name: f"{name} is not made" for name in TABLES if name not in inputs}
     return Evidence(
-        systems={case: System(**case_parameters(config, case)) for case in CASES},
-        proofs={case: proofs[case] for case in CASES},
+        systems={case: System(**case_parameters(config, case)) for case in cases},
+        proofs={case: proofs[case] for case in cases},
         simulations={case: simulation(case, inputs) for case in sorted(simulated)},
-        **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES},
+        **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES if name in inputs},
+        **dict.fromkeys(missing),
+        unlike=missing | unlike,
     )
 
 

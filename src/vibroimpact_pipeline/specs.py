@@ -1,15 +1,10 @@
 """The SPEC of every figure, read from the source without importing it. Standard library only.
 
-A SPEC is a literal with these entries.
+A SPEC is a literal with these entries; what the figure is computed from says its rule, in workflow/rules/.
 
 - title, caption, alt, equations: what is written of the figure; own: the same words for a figure of the config that is
-  drawn likewise.
-- method: how it is computed. notebook: what draws it, if a notebook does; made_by: a rule of its own, if it has one.
-- case: path in the config to the name of a case, whose System is the argument `system` of `compute`, if it has one;
-  systems: those of all cases are its argument `systems`.
-- settings: path in the config by argument. inputs: path of a table by argument. {figure} and {case} are filled in.
-- notebook_settings, notebook_inputs: the same for what the notebook reads besides. needs: further paths in the config
-  without which the figure is not made. sweeps: of sweeps that it draws what they move along each axis, and observe.
+  drawn likewise. method: how it is computed.
+- sweeps: of sweeps that it draws what they move along each axis, and observe.
 - columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
   figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere;
   on_demand: the command that makes it, if a plain build does not.
@@ -20,7 +15,6 @@ Equations, columns or own words may be the name of a figure that has the same. A
 
 import ast
 from functools import cache
-from pathlib import Path
 
 from vibroimpact_pipeline.cases import own_parameters
 from vibroimpact_pipeline.code import folder
@@ -62,51 +56,15 @@ def drawn_by(figure: str, scene: dict, known: dict) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure of the config; if another figure's module draws it, with its own files and words."""
+    """Return the SPEC of a figure and its "module"; where that is another figure's, the own words and files."""
     module = drawn_by(figure, scene, known)
     if module == figure:
-        return known[figure]
+        return known[figure] | {"module": module}
     tables = {
         name: table | {"file": table["file"].replace(f"/{module}.", f"/{figure}.")}
         for name, table in known[module]["tables"].items()
     }
-    return known[module] | known[module]["own"] | {"tables": tables}
-
-
-def request(figure: str, spec: dict, config: dict) -> dict:
-    """Return case, settings with their config paths, and inputs of a figure, including those of its notebook.
-
-    Raises:
-        LookupError: the config lacks one of these, so that the figure is not made.
-    """
-    known = {"figure": figure}
-    if "case" in spec:
-        known["case"] = at(config, spec["case"].format(**known))
-    paths = spec.get("settings", {}) | spec.get("notebook_settings", {})
-    paths = {name: path.format(**known) for name, path in paths.items()}
-    inputs = spec.get("inputs", {}) | spec.get("notebook_inputs", {})
-    inputs = {name: path.format(**known) for name, path in inputs.items()}
-    for path in inputs.values():
-        if path.startswith("results/sweeps/"):
-            at(config, f"sweeps.{Path(path).stem}")
-    for path in spec.get("needs", []):
-        at(config, path.format(**known))
-    settings = {name: at(config, path) for name, path in paths.items()}
-    return {"case": known.get("case"), "paths": paths, "settings": settings, "inputs": inputs}
-
-
-def made(config: dict, known: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure that a config makes, with its "module" and its "request"."""
-    scenes = config["figures"] | {name: {} for name, spec in known.items() if not {"notebook", "made_by"} & spec.keys()}
-    found = {}
-    for figure, scene in scenes.items():
-        spec = spec_of(figure, scene, known)
-        try:
-            needed = request(figure, spec, config)
-        except LookupError:
-            continue
-        found[figure] = spec | {"module": drawn_by(figure, scene, known), "request": needed}
-    return found
+    return known[module] | known[module]["own"] | {"tables": tables, "module": module}
 
 
 def at(config: dict, path: str):

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from scipy.optimize import fsolve, newton
@@ -16,7 +17,7 @@ from vibroimpact.claims import equations as claims_equations
 from vibroimpact.claims import manifold as claims_manifold
 from vibroimpact.claims import points as claims_points
 from vibroimpact.claims.finding import HOLDS, IN_PART, MISPRINT, OPEN, REFUTED, VERDICTS, Finding, as_printed
-from vibroimpact.claims.judge import CHECKS, facts, judge, problems, to_markdown
+from vibroimpact.claims.judge import CHECKS, NOT_JUDGED, facts, judge, problems, to_markdown
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -32,8 +33,8 @@ REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 
 @pytest.fixture(scope="module")
-def evidence(built):
-    """What the pipeline has found."""
+def inputs(built):
+    """Files of a build by name."""
     results = built / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
@@ -42,7 +43,13 @@ def evidence(built):
     for case in ("equal", "weak"):
         files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
         inputs |= {f"{case}_{file.stem}": file for file in files}
-    return evidence_of({"system": PARAMETERS, "cases": CASES}, inputs)
+    return inputs
+
+
+@pytest.fixture(scope="module")
+def evidence(inputs):
+    """What the pipeline has found."""
+    return evidence_of({"system": PARAMETERS, "cases": CASES}, inputs, {})
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +59,47 @@ def verdicts(evidence):
 
 def verdict(claim, evidence):
     return judge([CLAIMS[claim]], evidence)[0]["verdict"]
+
+
+# Other parameters
+
+
+def judged_with(changed, inputs):
+    """Verdict by claim in a build whose config has other parameters or settings, by the part of the evidence."""
+    evidence = evidence_of({"system": PARAMETERS, "cases": CASES}, inputs, dict.fromkeys(changed, "is another"))
+    return {claim["id"]: claim["verdict"] for claim in judge(list(CLAIMS.values()), evidence)}
+
+
+def test_what_does_not_depend_on_a_changed_case_is_judged(inputs, tmp_path):
+    others = dict(inputs)
+    for name in ("fixed_points", "orbits", "modulation", "epsilon_orders"):
+        table = pd.read_csv(inputs[name])
+        others[name] = tmp_path / f"{name}.csv"
+        table[table["case"] != "weak"].to_csv(others[name], index=False)
+    others["special_points"] = tmp_path / "special_points.csv"
+    pd.read_csv(inputs["special_points"]).head(0).to_csv(others["special_points"], index=False)
+    others = {name: path for name, path in others.items() if not name.startswith("weak_")}
+    found = judged_with(["weak"], others)
+    assert {claim: verdict for claim, verdict in found.items() if verdict != NOT_JUDGED}.items() <= EXPECTED.items()
+    of_weak = {name for name, claim in CLAIMS.items() if "weak" in str(claim.get("arguments", {}))}
+    assert {found[name] for name in of_weak} == {NOT_JUDGED}
+    alone = {name for name, claim in CLAIMS.items() if claim.get("arguments", {}).get("case") == "equal"}
+    of_all_cases = {"singular-bifurcation", "two-stable-equal"}
+    assert {name for name in alone if found[name] == NOT_JUDGED} == of_all_cases
+
+
+def test_with_another_system_only_what_needs_none_is_judged(inputs):
+    found = judged_with(["system"], inputs)
+    assert {claim: verdict for claim, verdict in found.items() if verdict != NOT_JUDGED}.items() <= EXPECTED.items()
+    assert found["leading-order-solution"] == EXPECTED["leading-order-solution"]
+    assert found["printed-condition"] == found["efficient-absorber"] == NOT_JUDGED
+
+
+def test_what_leans_on_a_changed_setting_is_not_judged(inputs):
+    found = judged_with(["verdict_grid"], inputs)
+    assert {name for name, verdict in found.items() if verdict == NOT_JUDGED} == {
+        name for name, claim in CLAIMS.items() if claim["check"] in ("assesses_stability", "periodic_solutions")
+    }
 
 
 # The list

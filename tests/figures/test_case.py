@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import vibroimpact as vi
 from chapter import PARAMETERS
 from scripts import run
 from vibroimpact.figures.kit import case_motion, case_points
@@ -102,3 +103,18 @@ def test_words_on_repetition_fit_the_window(repeats, displacements, said):
     assert said in sentence
     if "does not repeat" in sentence:
         assert float(sentence.split()[-1]) > 0.02
+
+
+def test_why_a_fixed_point_is_unstable_is_said_with_the_multipliers_of_a_simulated_period(made):
+    system = System(**EQUAL)
+    points = case_points.fixed_points("equal", system, made)
+    shown = case_points.why(case_points.verdicts("equal", system, points, made))
+    symmetric = [orbit for orbit in vi.orbits(system) if orbit.symmetric]
+    for name, largest in zip(shown["exact orbit"], shown["its largest multiplier"], strict=True):
+        jacobian = vi.simulate(system, symmetric[int(name[1:]) - 1].state, 1).jacobian
+        assert largest == pytest.approx(abs(np.linalg.eigvals(jacobian)).max(), abs=1e-4)
+    assert shown.loc["b", ["impacts, by (10.26)", "slow flow", "the exact system"]].tolist() == [
+        "stable",
+        "unstable",
+        "unstable",
+    ]

@@ -56,7 +56,7 @@ def swept():
 
 @pytest.fixture(scope="module")
 def balls():
-    spec = {"band": BAND, "observation": OBSERVATION, "number": 2, "seed": 1, "cycles": 60, "settle": 40}
+    spec = {"band": BAND, "observation": OBSERVATION, "starts": 2, "seed": 1, "cycles": 60, "settle": 40}
     return tables_of(SYSTEMS["equal"], OBSERVATION) | spec
 
 

@@ -50,17 +50,11 @@ def test_stripped(notebook):
             assert cell.execution_count is None
 
 
-def test_parameters_are_those_that_the_pipeline_sets(of_a_figure):
+def test_parameters_are_plain_names_with_values(of_a_figure):
     (source,) = code(of_a_figure, "parameters")
-    assignments = ast.parse(source).body
-    assert [statement.targets[0].id for statement in assignments] == [
-        "figure",
-        "alt",
-        "settings",
-        "inputs",
-        "outputs",
-    ]
-    values = {statement.targets[0].id: ast.literal_eval(statement.value) for statement in assignments}
+    values = {node.targets[0].id: ast.literal_eval(node.value) for node in ast.parse(source).body}
+    assert list(values)[:2] == ["figure", "alt"]
+    assert "refuse_unknown(" in code(of_a_figure)[2]
     assert values["inputs"] == values["outputs"] == {}  # a reader's run is a reader's own
 
 

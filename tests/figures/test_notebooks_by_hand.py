@@ -1,9 +1,12 @@
 """Notebooks with parameters that a reader has changed: what they say follows from these, and no file is written."""
 
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
+from nbclient.exceptions import CellExecutionError
 from PIL import Image
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
@@ -11,17 +14,18 @@ from scipy.optimize import fsolve
 from by_hand import BoxesByHand
 from chapter import PARAMETERS
 from opened_notebooks import printed
+from pipeline_trees import ROOT
 from vibroimpact.system import System
 
-LESS = {'"f20_hat": 1.0': '"f20_hat": 0.72'}
+LESS = {"f20_hat = 1.0": "f20_hat = 0.72"}
 RUNS = {
     "points": ("fixed_points", LESS),
-    "no points": ("fixed_points", LESS | {'"kappa": 0.65': '"kappa": 0.3'}),
-    "response": ("theoretical_response", LESS | {'"fixed_point": "c"': '"fixed_point": "b"'}),
-    "motion": ("simulation", {'"f20_hat": 1.0': '"f20_hat": 0.5'}),
-    "manifold": ("closed_form", {'"kappa": 0.65': '"kappa": 0.3'}),
+    "no points": ("fixed_points", LESS | {"kappa = 0.65": "kappa = 0.3"}),
+    "response": ("theoretical_response", LESS | {'fixed_point = "c"': 'fixed_point = "b"'}),
+    "motion": ("simulation", {"f20_hat = 1.0": "f20_hat = 0.5"}),
+    "manifold": ("closed_form", {"kappa = 0.65": "kappa = 0.3"}),
     "drawing": ("drawings", {'"fig10_01"': '"fig10_02"'}),
-    "machines": ("physical_units", {'"k12": 100.0': '"k12": 300.0', '"values": 13': '"values": 3'}),
+    "machines": ("physical_units", {"k12 = 100.0": "k12 = 300.0", '"values": 13': '"values": 3'}),
 }
 WEAK = {'"f10_hat": 1.0': '"f10_hat": 0.5', '"f20_hat": 1.0': '"f20_hat": 0.5', '"play.gif"': '""'}
 STICKING = {'"kappa": 0.65': '"kappa": 0.1', '"f10_hat": 1.0': '"f10_hat": 3.0', '"f20_hat": 1.0': '"f20_hat": 3.0'}
@@ -243,3 +247,34 @@ def test_scipy_written_out_agrees_until_chaos_parts_it(played):
         assert re.search(r"^(\d+) impacts by SciPy, \1 events by the library", text, re.MULTILINE)
     assert apart(weak)[0] < 1e-8
     assert apart(weak)[1] > 0.01
+
+
+def papermill(folder, *arguments):
+    """Exit status and output of papermill on the notebook of fixed points, and what the executed one shows."""
+    notebook = folder / "executed.ipynb"
+    given = [str(ROOT / "notebooks/fixed_points.ipynb"), str(notebook), "--no-progress-bar", *arguments]
+    done = subprocess.run(
+        [sys.executable, "-m", "papermill", *given], cwd=folder, capture_output=True, text=True, check=False
+    )
+    return done, notebook.read_text(encoding="utf-8")
+
+
+def test_papermill_sets_a_parameter_by_its_name(tmp_path):
+    done, executed = papermill(tmp_path, "-p", "kappa", "0.5", "-p", "f20_hat", "0.9")
+    assert done.returncode == 0, done.stderr
+    expected = solutions(0.5, [1.0, 0.9])
+    assert expected
+    assert expected != solutions(0.65, [1.0, 0.9])
+    table = re.findall(rf"^ *\"\d+ +equal +\w +{NUMBER} +{NUMBER}", executed, re.MULTILINE)
+    np.testing.assert_allclose(sorted([float(C1), float(C2)] for C1, C2 in table), expected, atol=2e-5)
+
+
+def test_papermill_is_refused_a_parameter_that_the_notebook_has_not(tmp_path):
+    done, _ = papermill(tmp_path, "-p", "kapa", "0.5")
+    assert done.returncode != 0
+    assert "ValueError: parameters: unknown kapa; this notebook has C_max, epsilon, kappa" in done.stderr
+
+
+def test_a_reader_is_refused_it_too(tmp_path):
+    with pytest.raises(CellExecutionError, match="parameters: unknown kapa; this notebook has C_max"):
+        printed({"typo": ("fixed_points", {"kappa = 0.65": "kappa = 0.65\nkapa = 0.5"})}, tmp_path)

@@ -6,7 +6,6 @@ import matplotlib
 import matplotlib.colors
 import numpy as np
 import pytest
-import yaml
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
@@ -14,9 +13,9 @@ from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_04
 from vibroimpact.figures.kit import style, tables
 from vibroimpact_pipeline.figure_check.check import kept
-from vibroimpact_pipeline.specs import made, specs
+from vibroimpact_pipeline.specs import spec_of, specs
 
-FIGURES = made(yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8")), specs())
+FIGURES = {path.stem: spec_of(path.stem, {}, specs()) for path in sorted((ROOT / "figures").glob("*.png"))}
 
 
 @pytest.fixture(scope="module", params=FIGURES)

@@ -1,23 +1,48 @@
-"""What holds of every SPEC: literals that need no library, arguments of `compute`, columns of the published tables."""
+"""Rules and SPECs of figures: literals that need no library, arguments of `compute`, columns of published tables."""
 
 import inspect
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
+import papermill
 import pytest
 import yaml
+from snakemake.api import SnakemakeApi
+from snakemake.settings.types import ConfigSettings, ResourceSettings
 
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit.tables import read
 from vibroimpact_pipeline.figure_check.check import kept
-from vibroimpact_pipeline.specs import columns, each, made, request, specs
+from vibroimpact_pipeline.specs import columns, each, spec_of, specs
 
 SPECS = specs()
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 DATA = yaml.safe_load((ROOT / "report/data.yaml").read_text(encoding="utf-8"))
-COMPUTED = [name for name, spec in SPECS.items() if spec["tables"] and "made_by" not in spec]
-PUBLISHED = [(name, file) for name, spec in SPECS.items() if name in COMPUTED for file, _ in kept(name, spec).values()]
+DRAWN = sorted(path.stem for path in (ROOT / "figures").glob("*.png"))
+PUBLISHED = [(name, file) for name in DRAWN for file, _ in kept(name, SPECS[name]).values()]
+OWN = {"notebook": "theoretical_response", "case": "weak", "fixed_point": "a", "periods": 1}
+
+
+def rules(folder: Path, config: dict | None = None) -> dict:
+    """The rules for a config, by name."""
+    given = folder / "config.yaml"
+    given.write_text(yaml.safe_dump(config or CONFIG), encoding="utf-8")
+    settings = ConfigSettings(configfiles=[given], replace_workflow_config=True)
+    with SnakemakeApi() as api:
+        workflow = api.workflow(
+            resource_settings=ResourceSettings(cores=1),
+            config_settings=settings,
+            snakefile=ROOT / "Snakefile",
+            workdir=folder,
+        )
+        return {rule.name: rule for rule in workflow._workflow.rules}
+
+
+@pytest.fixture(scope="module")
+def of_the_chapter(tmp_path_factory):
+    return rules(tmp_path_factory.mktemp("chapter"))
 
 
 def test_they_are_read_where_no_package_is_installed():
@@ -31,14 +56,41 @@ def test_its_words_are_there(figure):
     assert all(SPECS[figure][name].strip() for name in ("title", "caption", "alt", "method"))
 
 
-@pytest.mark.parametrize("figure", COMPUTED)
-def test_compute_takes_what_is_given_and_nothing_else(figure):
-    spec = SPECS[figure]
-    parameters = inspect.signature(import_module(f"vibroimpact.figures.{figure}").compute).parameters
-    given = {*spec.get("settings", {}), *spec.get("inputs", {})} | ({"systems"} if spec.get("systems") else set())
-    if "case" in spec and figure != "fig10_08":  # which shows a motion as it is
-        given.add("system")
-    assert {name for name, entry in parameters.items() if entry.default is entry.empty} <= given <= set(parameters)
+@pytest.mark.parametrize("figure", [name for name in DRAWN if SPECS[name]["tables"]])
+def test_compute_takes_what_its_rule_gives(figure, of_the_chapter):
+    rule, compute = of_the_chapter[figure], import_module(f"vibroimpact.figures.{figure}").compute
+    arguments = inspect.signature(compute).parameters
+    given = {
+        *rule.input.keys(),
+        *rule.params.settings,
+        *(name for name in ("system", "systems") if rule.params.get(name)),
+    }
+    assert {name for name, entry in arguments.items() if entry.default is entry.empty} <= given
+    if not rule.input.get("notebook"):  # which shows more than the figure does
+        assert given - {"system"} <= set(arguments)
+
+
+@pytest.mark.parametrize("notebook", sorted({scene["notebook"] for scene in CONFIG["figures"].values()}))
+def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the_chapter):
+    """All of them, or the rest stays at None or is of another figure of the notebook."""
+    known = papermill.inspect_notebook(str(ROOT / f"notebooks/{notebook}.ipynb"))
+    given = {}
+    for figure in (figure for figure, scene in CONFIG["figures"].items() if scene["notebook"] == notebook):
+        params = of_the_chapter[figure].params
+        system = {"case": params.case, **params.system} if params.case else {}
+        given[figure] = {
+            "figure",
+            "alt",
+            "inputs",
+            "outputs",
+            *system,
+            *params.settings,
+            *params.settings.get("plant", {}),
+        }
+    assert set().union(*given.values()) - {"plant"} == known.keys()
+    if notebook != "closed_form":
+        for names in given.values():
+            assert {known[name]["default"] for name in known.keys() - names} <= {"None"}
 
 
 @pytest.mark.parametrize(("figure", "file"), PUBLISHED)
@@ -57,9 +109,16 @@ def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is
         assert not isinstance(kinds, dict) or set(kinds) - {"others"} <= set(table.get("series", table.get("quantity")))
 
 
-def test_the_config_of_the_chapter_makes_all_figures_but_those_with_a_rule_of_their_own():
-    assert set(made(CONFIG, SPECS)) == {name for name, spec in SPECS.items() if "made_by" not in spec}
-    assert {path.stem for path in (ROOT / "figures").glob("*.png")} == set(made(CONFIG, SPECS))
+def made(found):
+    """The figures that rules make of the config, with their outputs."""
+    return {
+        Path(path).stem for rule in ("figures", "companions") for path in found[rule].input if path.endswith(".png")
+    }
+
+
+def test_the_config_of_the_chapter_makes_the_reference_set(of_the_chapter):
+    assert sorted(made(of_the_chapter)) == DRAWN
+    assert all(of_the_chapter[figure].output.png == f"results/figures/{figure}.png" for figure in DRAWN)
 
 
 @pytest.mark.parametrize(
@@ -68,31 +127,35 @@ def test_the_config_of_the_chapter_makes_all_figures_but_those_with_a_rule_of_th
         (("sweeps", "design"), {"companion_absorber"}),
         (("sweeps", "regime_map"), {"companion_regime_map"}),
         (("figures", "fig10_08"), {"fig10_08", "companion_10_08"}),
+        (("figures", "fig10_06"), {"fig10_06"}),
+        (("cases", "weak"), {"fig10_10", "fig10_11", "companion_horizon"}),
         (("cases", "weak", "simulation", "digits"), {"companion_horizon"}),
     ],
 )
-def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone):
+def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp_path):
     config = yaml.safe_load(yaml.safe_dump(CONFIG))
     section = config
     for key in lacking[:-1]:
         section = section[key]
     del section[lacking[-1]]
-    assert set(made(CONFIG, SPECS)) - set(made(config, SPECS)) == gone
+    assert set(DRAWN) - made(rules(tmp_path, config)) == gone
 
 
-def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own():
-    scene = {"notebook": "theoretical_response", "case": "weak", "fixed_point": "a", "periods": 1}
-    planes = made(CONFIG | {"figures": {"mine": scene | {"C_max": 2.0}}}, SPECS)["mine"]
-    lines = made(CONFIG | {"figures": {"mine": scene}}, SPECS)["mine"]
-    assert (planes["module"], lines["module"]) == ("fig10_10", "fig10_07")
+def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
+    planes = spec_of("mine", OWN | {"C_max": 2.0}, SPECS)
+    assert (planes["module"], spec_of("mine", OWN, SPECS)["module"]) == ("fig10_10", "fig10_07")
     assert planes["tables"]["csv"]["file"] == "results/figures/mine.csv"
     assert planes["caption"] == SPECS["fig10_07"]["own"]["caption"]
-    assert lines["request"]["inputs"]["points"] == "results/fixed_points/weak.csv"
-    assert lines["request"]["settings"] == {"fixed_point": "a", "periods": 1}
+    rule = rules(tmp_path, CONFIG | {"figures": {"mine": OWN | {"model": "slow_flow"}}})["mine"]
+    assert rule.input.points == "results/fixed_points/weak.csv"
+    assert rule.output.csv == "results/figures/mine.csv"
+    assert rule.params.settings == {"fixed_point": "a", "periods": 1}
 
 
-def test_a_request_names_the_places_in_the_config():
-    found = request("companion_horizon", SPECS["companion_horizon"], CONFIG)
-    assert found["paths"]["state"] == "cases.weak.simulation.initial_state"
-    assert found["inputs"] == {"strobe": "results/simulations/weak/strobe.csv"}
-    assert found["settings"]["transient_cycles"] == CONFIG["cases"]["weak"]["simulation"]["transient_cycles"]
+def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_chapter):
+    params = of_the_chapter["companion_horizon"].params
+    run = CONFIG["cases"]["weak"]["simulation"]
+    assert of_the_chapter["companion_horizon"].input.strobe == "results/simulations/weak/strobe.csv"
+    assert params.settings == {name: run[name] for name in ("initial_state", "transient_cycles")}
+    assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
+    assert params.config["cases.weak"] == params.system

@@ -9,7 +9,9 @@ ALL_CORES = workflow.resource_settings.cores or 1
 
 rule work_precision:
     output:
-        **in_report(figure_files("results/accuracy/work_precision", SPECS["work_precision"]), "Accuracy and speed"),
+        **in_report(
+            figure_files("results/accuracy/work_precision", SPECS["work_precision"]["tables"]), "Accuracy and speed"
+        ),
     params:
         figure="work_precision",
         problems={
@@ -33,7 +35,7 @@ rule work_precision:
 
 rule hazards:
     output:
-        **in_report(figure_files("results/accuracy/hazards", SPECS["hazards"]), "Accuracy and speed"),
+        **in_report(figure_files("results/accuracy/hazards", SPECS["hazards"]["tables"]), "Accuracy and speed"),
     params:
         figure="hazards",
         full=FULL,
@@ -50,12 +52,12 @@ rule hazards:
 
 
 # For each figure the cheapest model that its lines cannot tell from the exact result.
-MODELLED = {figure: scene for figure, scene in CHAPTER.items() if "model" in scene and figure in MADE}
+MODELLED = {figure: scene for figure, scene in config["figures"].items() if "model" in scene}
 
 
 rule scene_models:
     input:
-        [path for figure in MODELLED for path in MADE[figure]["request"]["inputs"].values()],
+        [path for figure in MODELLED for path in getattr(rules, figure).input if "results/" in path],
         expand("results/fixed_points/{case}.csv", case=all_systems()),
         expand(
             "results/orbits/{case}.csv",
@@ -65,7 +67,10 @@ rule scene_models:
     output:
         **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
     params:
-        figures={figure: [scene, figure_params(figure, MADE[figure])] for figure, scene in MODELLED.items()},
+        figures={
+            figure: [scene, {name: getattr(rules, figure).params.get(name) for name in ("settings", "system")}]
+            for figure, scene in MODELLED.items()
+        },
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=ACCURACY["short_seconds"],
         code=FIGURES,

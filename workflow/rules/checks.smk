@@ -7,7 +7,7 @@ rule figure_check:
         rules.figures.input,
         rules.companions.input,
     params:
-        config={name: entry for name, entry in config.items() if name != "captions"},
+        figures=config["figures"] | dict.fromkeys(MADE, {}),
         strict=False,
         code=PIPELINE,
     threads: ALL_CORES
@@ -22,7 +22,7 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        config={name: entry for name, entry in config.items() if name != "captions"},
+        figures=config["figures"] | dict.fromkeys(MADE, {}),
         strict=True,
         code=PIPELINE,
     log:

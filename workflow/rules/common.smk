@@ -8,7 +8,9 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
+from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, update_config, validate
 
 # Snakemake evaluates a module in a namespace of its own, under its name; since 9.27 the workflow itself under none.
@@ -36,7 +38,7 @@ elif importlib.util.find_spec("vibroimpact_pipeline") is None:
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact_pipeline.specs import case_parameters, made, specs
+from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
@@ -110,10 +112,15 @@ def all_systems():
 SPECS = specs()
 
 
-def figure_files(stem, spec):
+def spec(figure):
+    """The words and columns of a figure, and the module that draws it."""
+    return spec_of(figure, config["figures"].get(figure, {}), SPECS)
+
+
+def figure_files(stem, tables):
     """The files of a figure by kind: pictures, where they come from, and its tables."""
     kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
-    return kinds | {name: table["file"] for name, table in spec["tables"].items()}
+    return kinds | {name: table["file"] for name, table in tables.items()}
 
 
 def in_report(outputs, category):
@@ -135,35 +142,89 @@ def sweep_request(sweep):
     return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
 
 
-def figure_params(figure, spec):
-    """The settings of a figure, its systems, and what decides on it: entries of the config by their paths."""
-    asked, case = spec["request"], spec["request"]["case"]
-    decides = {path: asked["settings"][name] for name, path in asked["paths"].items()}
-    systems = {}
+def entries(paths):
+    """Entries of the config by path; a * stands for all settings of a section."""
+    found = {}
+    for path in paths:
+        section, _, name = path.rpartition(".")
+        names = (
+            [key for key in at(config, section) if key not in ("notebook", "model", "case")] if name == "*" else [name]
+        )
+        found |= {f"{section}.{key}": at(config, f"{section}.{key}") for key in names}
+    return found
+
+
+def figure_params(figure, paths, case=None, systems=False):
+    """Settings of a figure, named as the last key of their paths, and its systems; `config`: all of it, by path."""
+    decides = entries(paths)
+    params = {"figure": figure, "case": case, "config": decides}
+    params["settings"] = {path.rpartition(".")[2]: entry for path, entry in decides.items()}
     if case:
-        systems["system"] = decides[f"cases.{case}"] = system_of(case)
-    if spec.get("systems"):
-        systems["systems"] = decides["cases"] = all_systems()
-    return {"figure": figure, "case": case, "settings": asked["settings"], "config": decides, **systems}
+        params["system"] = decides[f"cases.{case}"] = system_of(case)
+    if systems:
+        params["systems"] = decides["cases"] = all_systems()
+    return params
 
 
-def titled(case):
-    """What words call the case of a figure, if it has one."""
-    return {"case": title_of(config, case)} if case else {}
+def of_case(figure, paths):
+    """Results for the case that a figure of the config shows."""
+    case = config["figures"].get(figure, {}).get("case")
+    return {name: path.format(case=case) for name, path in paths.items()} if case else {}
 
 
-def caption(figure, spec):
+def page_and_files(figure):
+    """What a notebook makes: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page."""
+    files = in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Figures of the chapter")
+    return files | {"html": f"results/notebooks/{figure}.html"}
+
+
+def scene(figure, *paths):
+    """Params of a figure of the config: its own settings, those at further paths, and the system of its case."""
+    if figure not in config["figures"]:
+        return {"scene": absent(figure)}
+    own_settings = config["figures"][figure]
+    case, notebook = own_settings.get("case"), own_settings["notebook"]
+    params = figure_params(figure, [f"figures.{figure}.*", *(path.format(case=case) for path in paths)], case)
+    said = {"case": title_of(config, case)} if case else {}
+    return params | {
+        "scene": own_settings | said,
+        "code": PIPELINE | fingerprints(f"notebooks/{notebook}.ipynb"),
+    }
+
+
+def absent(figure):
+    """A function for Snakemake that says why a figure cannot be made."""
+
+    def refused(wildcards):
+        raise WorkflowError(f"figures.{figure}: the config has no such figure, or not its case.")
+
+    return refused
+
+
+def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
+    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
+    try:
+        case = at(config, case) if case else None
+        inputs = {name: path.format(case=case) for name, path in inputs.items()}
+        swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
+        entries([*swept, *(path.format(case=case) for path in needs)])
+        params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
+    except LookupError:
+        return None
+    return SimpleNamespace(inputs=inputs, params=params)
+
+
+def caption(figure):
     """The caption of a figure, with the numbers that it asks for."""
-    case = spec["request"]["case"]
-    known = config["figures"].get(figure, {}) | (system_of(case) if case else config["system"]) | titled(case)
-    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec["caption"])
+    params = getattr(rules, figure).params
+    known = config["figures"].get(figure, {}) | (params.get("system") or config["system"]) | params.get("scene", {})
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec(figure)["caption"])
 
 
-def files_of_figures(of_notebooks):
-    figures = {figure: spec for figure, spec in MADE.items() if ("notebook" in spec) == of_notebooks}
-    return [
-        path for figure, spec in figures.items() for path in figure_files(f"results/figures/{figure}", spec).values()
-    ]
+def left_over():
+    """Figures of builds before, which this config does not make."""
+    found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
+    return sorted(found.difference(ALL_FIGURES))
 
 
 # Rules before these are those of another workflow, which has these as a module.

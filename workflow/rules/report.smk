@@ -57,9 +57,9 @@ rule report:
     output:
         site=directory("results/report"),
     params:
-        figures=list(MADE),
+        figures=ALL_FIGURES,
         tables=sorted(
-            {table["file"] for spec in MADE.values() for name, table in spec["tables"].items() if name != "csv"}
+            {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
         code=PIPELINE | fingerprints("docs", "report"),

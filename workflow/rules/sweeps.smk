@@ -57,9 +57,7 @@ for name, sweep in SWEEPS.items():
         input:
             table=f"results/sweeps/{name}.csv",
         output:
-            **figure_files(
-                f"results/sweeps/{name}/figure", {"tables": {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}}
-            ),
+            **figure_files(f"results/sweeps/{name}/figure", {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}),
         params:
             figure="sweep",
             settings={"axes": sweep["axes"]},
@@ -81,6 +79,6 @@ rule sweeps:
         [
             f"results/sweeps/{name}/figure.{kind}"
             for name in SWEEPS
-            if not any(name in spec.get("sweeps", {}) for spec in SPECS.values())
+            if not any(name in drawn.get("sweeps", {}) for drawn in SPECS.values())
             for kind in ("png", "csv")
         ],

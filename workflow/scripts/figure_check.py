@@ -10,14 +10,15 @@ from vibroimpact_pipeline.figure_check.check import PASSED, check_all, has_faile
 from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results import replacing
-from vibroimpact_pipeline.specs import made, specs
+from vibroimpact_pipeline.specs import spec_of, specs
 
 BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module
 FOLDER = BUILD / "results/figure_check"
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
 
 with running(snakemake):
-    found = check_all(made(snakemake.params.config, specs()), ROOT / "figures", BUILD, snakemake.threads)
+    made = {figure: spec_of(figure, scene, specs()) for figure, scene in snakemake.params.figures.items()}
+    found = check_all(made, ROOT / "figures", BUILD, snakemake.threads)
     texts = {
         "index.html": page(found, ROOT / "figures", BUILD),
         "figure_check.json": json.dumps(found, indent=1, allow_nan=False) + "\n",

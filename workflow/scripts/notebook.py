@@ -16,23 +16,19 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.report.figure_texts import words
 from vibroimpact_pipeline.report.offline import page
 
-PARAMETERS = {"figure", "alt", "settings", "inputs", "outputs"}
-
 
 def execute(notebook, executed, parameters: dict):
-    """Return the executed notebook; its declared parameters must be exactly the given ones.
+    """Return the executed notebook; it must have the parameters that are given.
 
     Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
     path of 107 characters at most.
 
     Raises:
-        ValueError: the parameters of the notebook are others, of which papermill itself would only warn; or a cell has
-            found one of them wrong.
+        ValueError: it has not, of which papermill itself would only warn; or a cell has found one of them wrong.
         papermill.PapermillExecutionError: a cell failed.
     """
-    for names, of in ((papermill.inspect_notebook(str(notebook)), f"{notebook} has"), (parameters, "given are")):
-        if set(names) != PARAMETERS:
-            raise ValueError(f"notebook: {of} the parameters {sorted(names)}, needed are {sorted(PARAMETERS)}")
+    if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
+        raise ValueError(f"notebook: {notebook} has no parameters {', '.join(unknown)}")
     with TemporaryDirectory() as folder:
         os.environ["JUPYTER_RUNTIME_DIR"] = folder
         sockets = {"transport": "ipc", "ip": f"@vibroimpact-{uuid4()}", "connection_file": f"{folder}/kernel.json"}
@@ -61,11 +57,13 @@ def the_same_in_each_build(notebook, paths: dict):
 with running(snakemake) as out:
     params, outputs = snakemake.params, vars(out)
     said = words(params.figure, params.scene, params.get("system") or {})
-    systems = {"case": params.case, "system": params.system} if params.case else {}
+    settings = dict(params.settings)
     parameters = {
         "figure": params.figure,
         "alt": said["alt"],
-        "settings": {**systems, **params.settings},
+        **({"case": params.case, **params.system} if params.case else {}),
+        **settings.pop("plant", {}),
+        **settings,
         "inputs": {name: path for name, path in snakemake.input.items() if name != "notebook"},
         "outputs": {name: path for name, path in outputs.items() if name not in ("html", "provenance")},
     }

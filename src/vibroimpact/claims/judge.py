@@ -7,13 +7,13 @@ returns a Finding.
 """
 
 from vibroimpact.claims import absorber, equations, manifold, motion, points
-from vibroimpact.claims.evidence import Evidence
+from vibroimpact.claims.evidence import Evidence, NotOfTheChapter
 from vibroimpact.claims.finding import REFUTED, VERDICTS
 
 MODULES = (equations, manifold, points, motion, absorber)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
 NOT_JUDGED = "not judged"
-NOT_ABOUT = "Not judged: the claims are about the chapter's parameters and lean on settings that are others here:"
+NOT_ABOUT = "Not judged are claims that depend on what is not as in the chapter, or not as they were written for:"
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 
 
@@ -35,6 +35,8 @@ def problems(claims: list[dict]) -> list[str]:
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
     """The claims, each with its verdict, the parts that hold or do not, and the numbers.
 
+    One that reads evidence which is not about the chapter is not judged.
+
     Raises:
         ValueError: the list of claims has problems.
     """
@@ -43,22 +45,19 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
         raise ValueError("claims: " + "; ".join(found))
     judged = []
     for claim in claims:
-        finding = CHECKS[claim["check"]](evidence, **claim.get("arguments", {}))
-        judged.append({**claim, "verdict": finding.verdict, "parts": finding.parts, "numbers": finding.numbers})
+        try:
+            finding = CHECKS[claim["check"]](evidence, **claim.get("arguments", {}))
+        except NotOfTheChapter:
+            judged.append({**claim, "verdict": NOT_JUDGED, "parts": {}, "numbers": {}})
+        else:
+            judged.append({**claim, "verdict": finding.verdict, "parts": finding.parts, "numbers": finding.numbers})
     return judged
 
 
-def leave_open(claims: list[dict]) -> list[dict]:
-    """The claims in a build that they are not about: each not judged, without parts or numbers."""
-    return [{**claim, "verdict": NOT_JUDGED, "parts": {}, "numbers": {}} for claim in claims]
-
-
 def to_markdown(judged: list[dict], unlike=()) -> str:
-    """A readable table of judged claims, after counts of verdicts and facts; or why they were not judged."""
-    if unlike:
-        lines = ["# The claims of the chapter", "", NOT_ABOUT, "", *(f"- {line}" for line in unlike)]
-        return "\n".join(lines) + "\n"
-    counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in VERDICTS}
+    """A readable table of judged claims, after counts of verdicts and facts; and why some were not judged."""
+    verdicts = (*VERDICTS, NOT_JUDGED) if unlike else VERDICTS
+    counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in verdicts}
     lines = [
         "# The claims of the chapter",
         "",
@@ -66,8 +65,9 @@ def to_markdown(judged: list[dict], unlike=()) -> str:
         + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
         + ".",
         "",
+        *([NOT_ABOUT, "", *(f"- {line}" for line in unlike), ""] if unlike else []),
         *_facts(judged),
-        "| claim | place | what it says | verdict | parts and numbers | refuted by |",
+        "| claim | place | what it says | verdict | parts and numbers | would be refuted by |",
         "| --- | --- | --- | --- | --- | --- |",
     ]
     return "\n".join(lines + [_row(claim) for claim in judged]) + "\n"

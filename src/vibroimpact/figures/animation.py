@@ -14,7 +14,6 @@ SPEC = {
     "alt": "Six small pictures of two boxes on springs with a ball in each, at successive instants of the motion of "
         "case {case}.",
     "method": "the window of a simulation, frame by frame",
-    "made_by": "animation",
 }  # fmt: skip
 
 PLACES = {1: -3.0, 2: 3.0}

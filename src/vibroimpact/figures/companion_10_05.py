@@ -19,7 +19,6 @@ SPEC = {
     "equations": [r"p\cot p = \frac{1}{1+\kappa}, \qquad \frac{1}{C_{\mathrm g}} = 1 - "
         r"\frac{2p}{\pi}\big(1+\kappa\cot^2p\big)"],
     "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
-    "settings": {"C_range": "stability.companion_10_05.C_range"},
     "columns": {
         "panel": {},
         "series": {"meaning": r"outline of the stable region; lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of the $C$ "

@@ -21,9 +21,6 @@ SPEC = {
         "motion.",
     "equations": [r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}"],
     "method": "(10.10) at the fixed point nearest to the simulated motion, and that motion",
-    "case": "figures.fig10_08.case",
-    "inputs": {"points": "results/fixed_points/{case}.csv", "samples": "results/simulations/{case}/samples.csv",
-        "events": "results/simulations/{case}/events.csv"},
     "columns": {
         "panel": {"values": ["theory", "simulation"]},
         "series": {"meaning": "the motion; its mirror image, half a period later with all signs changed; the impacts",

@@ -16,7 +16,7 @@ from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, LEAST, LINES, MOS
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.figures.sweep import SYMBOLS, edges
-from vibroimpact.regimes.classification import starts
+from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.regimes.settling import settle as settled
 from vibroimpact.sweeps.grid import LOGARITHMIC, axis
@@ -34,12 +34,6 @@ SPEC = {
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
         "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
     "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
-    "case": "sweeps.clearance.case",
-    "settings": {"band": "sweeps.clearance.band", "number": "sweeps.clearance.starts", "seed": "sweeps.clearance.seed",
-        "cycles": "sweeps.clearance.cycles", "settle": "sweeps.clearance.settle",
-        "observation": "regimes.observation"},
-    "inputs": {"response": "results/sweeps/frequency_response.csv", "clearance": "results/sweeps/clearance.csv",
-        "design": "results/sweeps/design.csv"},
     "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
         "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
@@ -127,7 +121,7 @@ TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", 
 
 
 def compute(
-    system, response, clearance, design, band: dict, observation: dict, number: int, seed: int, cycles: int, settle: int
+    system, response, clearance, design, band: dict, observation: dict, starts: int, seed: int, cycles: int, settle: int
 ) -> dict:
     """Return results of the sweeps with balls, per force, beside linear systems in closed form.
 
@@ -140,7 +134,7 @@ def compute(
         response: table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
         clearance, design: of peaks along `band`, over both forces; over kappa, then both forces.
         band: arguments of `sweeps.grid.axis`, along sigma_e_hat.
-        observation, number: how long, and from how many starts, the regime at an optimum is looked for.
+        observation, starts: how long, and from how many starts, the regime at an optimum is looked for.
         seed: of the starts of the sweeps. cycles, settle: of their runs.
 
     Returns "csv": columns panel ("clearance", "restitution" or "design"), series, clearance, kappa, ratio (X / f), low
@@ -151,12 +145,12 @@ def compute(
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
     clearance, design = (_peaks(system, table) for table in (clearance, design))
     alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
-    again = {"band": band, "states": starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
+    again = {"band": band, "states": spread_starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
     own = _again(system, _lowest(clearance), **again)
     restitution = [_again(system, _lowest(mine), **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     # By the sweep: what is measured again decides nothing, or the lowest would be where chance was kind, again.
     best = min(restitution, key=lambda place: place["swept"])
-    optima = {BALLS: (own, number), BEST_KAPPA: (best, number)}
+    optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
     if len(alone):  # from rest only: there are no starts to draw again
         one_ball = _lowest(alone)
         optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
@@ -218,7 +212,7 @@ def _told(place):
 def _regime(system, place, observation, number, seed):
     """The regime that most starts end in at a place, at the frequency of its peak."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
-    names = Counter(regime.name for regime in settled(there, starts(number, seed), Observation(**observation)))
+    names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
     return names.most_common(1)[0][0]
 
 

@@ -32,11 +32,6 @@ SPEC = {
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
-    "systems": True,
-    "settings": {"kappa": "system.kappa", "epsilon": "regimes.asymmetric.epsilon",
-        "values": "regimes.asymmetric.values",
-        "fit_below": "regimes.asymmetric.fit_below", "C_max": "regimes.asymmetric.C_max"},
-    "inputs": {"orbits": "results/orbits.csv"},
     "columns": {
         "panel": {"meaning": "manifold, or the case"},
         "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair as "

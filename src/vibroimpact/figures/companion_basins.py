@@ -33,9 +33,6 @@ SPEC = {
     "alt": "Map of a plane of starts, each cell in the shade of the response in which the start ends, with the case as "
         "heading. A circle marks the stable orbit in its own shade, a diamond its mirror image. Below, a key.",
     "method": "direct integration of (10.1) from many starts, until it repeats",
-    "case": "regimes.basins.case",
-    "settings": {"case": "regimes.basins.case", "points": "regimes.basins.points", "observation": "regimes.observation"
-        },
     "columns": {
         "panel": {"meaning": "the case"},
         "series": {"meaning": r"a start, the stable asymmetric orbit at $\tau = 0$, its mirror image there, or what "

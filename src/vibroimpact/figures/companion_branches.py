@@ -38,11 +38,6 @@ SPEC = {
         "points, thin vertical lines at the cases, and dots where simulations from several starts end.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
         "many starts, until it repeats",
-    "case": "regimes.branches.case",
-    "systems": True,
-    "settings": {"paths": "regimes.branches.paths", "longest_step": "regimes.branches.longest_step",
-        "seeds": "regimes.branches.seeds", "attractors": "regimes.branches.attractors",
-        "observation": "regimes.observation"},
     "columns": {
         "panel": {"meaning": "a letter for each path, in the order of the config"},
         "series": {"meaning": "family of the branch, attractor, or a case",

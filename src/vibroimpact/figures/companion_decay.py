@@ -20,9 +20,6 @@ SPEC = {
         "impulse of about 1, drop to less than half of it, and rise slowly from there; the tuned absorbers stay below "
         "them throughout.",
     "method": "free flights in closed form between impacts; linear systems in closed form",
-    "case": "regimes.decay.case",
-    "settings": {"impulses": "regimes.decay.impulses", "values": "regimes.decay.values",
-        "fraction": "regimes.decay.fraction", "band": "sweeps.clearance.band"},
     "columns": {
         "panel": {"values": ["module 1", "module 2"]},
         "series": {"meaning": "balls, where balls are quickest, or the linear system", "values": ["balls", "shortest",

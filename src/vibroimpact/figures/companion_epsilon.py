@@ -20,9 +20,6 @@ SPEC = {
     "alt": "Errors of the theory over epsilon on logarithmic axes: three straight lines of slope 1, for fast "
         "multipliers, slow rates, and amplitudes and phases; a fourth, grey, falls twice as steeply.",
     "method": "fixed points and exact symmetric responses at every epsilon",
-    "systems": True,
-    "settings": {"epsilon": "regimes.epsilon.epsilon", "values": "regimes.epsilon.values",
-        "fit_below": "regimes.epsilon.fit_below", "mixed": "regimes.epsilon.mixed"},
     "columns": {
         "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted slow rate "
             "or fast multiplier; two terms: distance with the term of first order added to the fixed point",

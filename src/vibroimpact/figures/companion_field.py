@@ -21,7 +21,6 @@ SPEC = {
         "a lower one, unstable. From the point of change a stable grey line leads on, hardly rising, below the filled "
         "circles and through the crosses. Below, the grey line rises from 0 like a root, through the crosses.",
     "method": "exact responses; values of the program CC",
-    "needs": ["cases.equal"],  # stands beside the chapter's figures, not beside those of other cases
     "columns": {
         "panel": {"meaning": "exact, or of the program", "values": ["response", "program"]},
         "series": {"meaning": "of the exact responses; of the program", "values": ["lower", "upper",

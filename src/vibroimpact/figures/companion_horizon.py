@@ -17,11 +17,6 @@ SPEC = {
     "alt": "Distance between the trajectory in double precision and the proved one over forcing cycles, on a "
         "logarithmic axis: it grows from rounding to the size of the motion, then stays there.",
     "method": "the same in float64, and the error that the certificate of every run expects",
-    "case": "figures.fig10_11.case",
-    "settings": {"state": "cases.{case}.simulation.initial_state",
-        "transient_cycles": "cases.{case}.simulation.transient_cycles"},
-    "needs": ["cases.{case}.simulation.digits"],
-    "inputs": {"strobe": "results/simulations/{case}/strobe.csv"},
     "columns": {
         "panel": {}, "series": {"values": ["measured", "expected", "horizon", "window"]},
         "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$, in "
@@ -34,14 +29,14 @@ SPEC = {
 }  # fmt: skip
 
 
-def compute(system: System, state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
+def compute(system: System, initial_state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
     """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.
 
     strobe: the true states there (columns tau and `NAMES`). Returns columns panel ("error"), series ("measured",
     "expected": curves; "horizon", "window": the cycle at which the expected error passes 1e-3, and those at which the
     window of figure 10.11 starts and ends), cycle, error.
     """
-    difference, expected, horizon = departure(system, state, strobe[list(NAMES)].to_numpy(float))
+    difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))
     known = np.isfinite(expected)
     return join(

@@ -28,10 +28,6 @@ SPEC = {
         "and two lines of marks for growing numbers of harmonics that fall, the one of harmonics of U ten times lower. "
         "Other panels: maps of the plane of forces in shades of grey, one shade for each rung.",
     "method": "fixed points to leading and next order, N harmonics with exact receptances, exact symmetric responses",
-    "systems": True,
-    "settings": {"harmonics": "regimes.ladder.harmonics", "f10_range": "regimes.ladder.f10_range",
-        "f20_range": "regimes.ladder.f20_range", "points": "regimes.ladder.points",
-        "fold_range": "regimes.ladder.fold_range"},
     "columns": {
         "panel": {"meaning": "cases: errors and costs; plane: the cheapest rung", "values": ["cases", "plane"]},
         "series": {"meaning": "in cases the kind of rung; in plane how far off it may be", "values": ["theory",

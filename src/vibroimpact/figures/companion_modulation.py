@@ -40,11 +40,6 @@ SPEC = {
         "of the window.",
     "method": "direct integration of (10.1) from many starts, until it repeats; Lyapunov exponents along the "
         "linearised flow",
-    "systems": True,
-    "settings": {"starts": "regimes.modulation.starts", "seed": "regimes.modulation.seed",
-        "cycles": "regimes.modulation.cycles", "blocks": "regimes.modulation.blocks",
-        "block": "regimes.modulation.block", "windows": "regimes.modulation.windows",
-        "observation": "regimes.observation"},
     "columns": {
         "panel": {"values": ["bursts"]},
         "series": {"meaning": "the case with the module, or the window that bursts are watched over"},

@@ -39,10 +39,6 @@ SPEC = {
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
         "stable fixed point; chaos has an island below.",
     "method": "the points of a sweep, with the cases; borders of the theory by bisection",
-    "case": "sweeps.regime_map.case",
-    "systems": True,
-    "settings": {"starts": "sweeps.regime_map.starts"},
-    "inputs": {"table": "results/sweeps/regime_map.csv"},
     "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
         "observe": ["regimes", "fixed_points"]}},
     "columns": {

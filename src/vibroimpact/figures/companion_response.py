@@ -37,9 +37,6 @@ SPEC = {
         "all dots. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
         "slowly.",
     "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
-    "case": "sweeps.frequency_response.case",
-    "settings": {"band": "sweeps.clearance.band"},
-    "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
     "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
         "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
     "columns": {

@@ -33,8 +33,6 @@ SPEC = {
         "to their exact orbits, black for stable and white for unstable, in a ring where the exact orbit refutes the "
         "theory.",
     "method": "verdicts and places as computed, limits in closed form",
-    "systems": True,
-    "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
     "columns": {
         "panel": {"meaning": "the case"},
         "series": {"meaning": "fixed points, exact orbits that are motions of the system, links from one to the other, "

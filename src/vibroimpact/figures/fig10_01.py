@@ -18,7 +18,6 @@ SPEC = {
         r"k_{12}(x_2 - x_1) &= F_{20}\sin(\omega_2 t) \\ m\ddot y_1 = 0, \qquad m\ddot y_2 &= 0 \end{aligned} "
         r"\tag{10.1}"],
     "method": "drawn to scale, nothing computed",
-    "notebook": "drawings",
 }  # fmt: skip
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 39.0

@@ -19,9 +19,6 @@ SPEC = {
         "theta + pi and so on.",
     "equations": [r"Z_i = \frac{2}{\pi}\,C_i \arcsin\left[\cos(\tau_0 - \theta_i)\right] \tag{10.11}"],
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
-    "notebook": "closed_form",
-    "settings": {"amplitude": "figures.{figure}.amplitude", "theta": "figures.{figure}.theta",
-        "tau0_max": "figures.{figure}.tau0_max"},
     "columns": {
         "panel": {}, "series": {"values": ["Z", "impacts"]},
         "tau0": {"meaning": r"fast time $\tau_0$ as a phase; impacts at $\theta + j\pi$", "unit": "radians",

@@ -21,8 +21,6 @@ SPEC = {
         r"B_{\min} = \frac{\rho}{\sqrt{1+\rho^2}}, \qquad C_{\min} = \frac{1}{1+\rho^2} \tag{10.25}",
     ],
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
-    "notebook": "closed_form",
-    "settings": {"kappa": "system.kappa", "C_max": "figures.{figure}.C_max"},
     "columns": {
         "panel": {},
         "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)", "values": [

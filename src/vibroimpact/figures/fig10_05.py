@@ -18,8 +18,6 @@ SPEC = {
         "C_min of kappa runs inside the shaded region and meets the line at kappa = 1.",
     "equations": [r"C_i > \frac{4}{4 + \pi\rho} \tag{10.26}"],
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
-    "notebook": "closed_form",
-    "settings": {"C_range": "figures.{figure}.C_range"},
     "columns": {
         "panel": {},
         "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ of "

@@ -34,11 +34,6 @@ SPEC = {
         r"h_1(B_1, C_1, B_2, C_2) = 0, \quad h_2(B_1, C_1, B_2, C_2) = 0 \tag{10.24}",
     ],
     "method": "manifold in closed form, singular points as real zeros of (10.24)",
-    "notebook": "fixed_points",
-    "case": "figures.{figure}.case",
-    "settings": {"C_max": "figures.{figure}.C_max"},
-    "inputs": {"points": "results/fixed_points/{case}.csv"},
-    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "columns": {
         "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
         "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection P_i, "

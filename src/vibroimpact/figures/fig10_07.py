@@ -28,11 +28,6 @@ SPEC = {
         r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}",
     ],
     "method": "leading order, (10.9) and (10.10), at a fixed point",
-    "notebook": "theoretical_response",
-    "case": "figures.{figure}.case",
-    "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods"},
-    "inputs": {"points": "results/fixed_points/{case}.csv"},
-    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "columns": {
         "panel": {"values": ["module 1", "module 2"]},
         "series": {"values": ["U_1", "X_1", "W_1", "Y_1", "U_2", "X_2", "W_2", "Y_2"]}, "tau": {"compared": "roots"},

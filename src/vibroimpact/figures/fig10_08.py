@@ -18,12 +18,6 @@ SPEC = {
     "equations": [r"W_i^{\prime +} = -\kappa\,W_i^{\prime -}, \qquad X_i^{\prime +} + \varepsilon Y_i^{\prime +} = "
         r"X_i^{\prime -} + \varepsilon Y_i^{\prime -}"],
     "method": "motion of the second module as simulated, with its events as corners",
-    "notebook": "simulation",
-    "case": "figures.{figure}.case",
-    "inputs": {"samples": "results/simulations/{case}/samples.csv", "events": "results/simulations/{case}/events.csv"},
-    "notebook_settings": {"simulation": "cases.{case}.simulation", "observation": "regimes.observation"},
-    "notebook_inputs": {"points": "results/fixed_points/{case}.csv",
-        "summary": "results/simulations/{case}/summary.json"},
     "columns": {
         "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "trajectory"},
         "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "

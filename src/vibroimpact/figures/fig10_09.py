@@ -14,11 +14,6 @@ SPEC = {
     "own": "fig10_06",
     "equations": "fig10_06",
     "method": "manifold in closed form, singular points as real zeros of (10.24)",
-    "notebook": "fixed_points",
-    "case": "figures.{figure}.case",
-    "settings": {"C_max": "figures.{figure}.C_max"},
-    "inputs": {"points": "results/fixed_points/{case}.csv"},
-    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "columns": "fig10_06",
 }  # fmt: skip
 

@@ -17,12 +17,6 @@ SPEC = {
     "own": "fig10_07",
     "equations": "fig10_07",
     "method": "leading order, (10.9) and (10.10), at a fixed point",
-    "notebook": "theoretical_response",
-    "case": "figures.{figure}.case",
-    "settings": {"fixed_point": "figures.{figure}.fixed_point", "periods": "figures.{figure}.periods",
-        "C_max": "figures.{figure}.C_max"},
-    "inputs": {"points": "results/fixed_points/{case}.csv"},
-    "notebook_inputs": {"verdicts": "results/verdicts/{case}.csv"},
     "columns": {
         "panel": {"meaning": "label of the fixed point and module; of its response the module"},
         "series": {"meaning": "as in figures 10.6 and 10.7"}, "C, B, tau": {"compared": "roots"},

@@ -27,7 +27,6 @@ SPEC = {
         "both time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad "
         "pale dots for the asymmetric orbits.",
     "method": "fixed points and exact orbits at every value of the force",
-    "made_by": "force_sweep",
     "file": "results/force_sweep/force_sweep.csv",
     "on_demand": "make report",
     "columns": {

@@ -15,7 +15,6 @@ SPEC = {
         "verdict: a question mark reported undecidable, an exclamation mark refused, an infinity sign did not finish, "
         "a cross silently wrong.",
     "method": "error against a reference of extended precision",
-    "made_by": "hazards",
     "file": "results/accuracy/hazards.csv",
     "columns": {
         "group": {"meaning": "what is hard", "unit": "text"},

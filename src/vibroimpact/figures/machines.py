@@ -32,10 +32,6 @@ SPEC = {
     "equations": [r"\tau = \omega_{10} t, \quad \omega_{10}^2 = k_1/M, \quad X_i = x_i/L, \quad \varepsilon = m/M, "
         r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
     "method": "direct integration of (10.1) from rest; linear systems in closed form",
-    "notebook": "physical_units",
-    "settings": {"plant": "figures.{figure}.plant", "clearances": "figures.{figure}.clearances",
-        "frequencies": "figures.{figure}.frequencies", "cycles": "figures.{figure}.cycles",
-        "settle": "figures.{figure}.settle", "shown": "figures.{figure}.shown"},
     "columns": {
         "panel": {},
         "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in panel b",

@@ -19,7 +19,6 @@ SPEC = {
         "logarithmic axes, one marked line per method. Runs that failed stand in a "
         "lane at the right, numbered.",
     "method": "error against a reference of extended precision, run time as measured",
-    "made_by": "work_precision",
     "file": "results/accuracy/work_precision.csv",
     "columns": {
         "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},

@@ -54,11 +54,13 @@ def markdown_to_html(source: str) -> str:
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook with a link from its first line to the page of its figure."""
+    """Return the page of a notebook for the report, with a link from its first line to the page of its figure."""
+    page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
 
 def page(notebook, title: str) -> str:
     """Return the HTML page of an executed notebook; the title is that of its figure."""
     html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}, "mathematics": STYLE})
-    return guarded(html)
+    beside_results = html.replace('href="../docs/', 'href="../../docs/').replace('href="../results/', 'href="../')
+    return guarded(beside_results)

@@ -5,19 +5,17 @@ import shutil
 from types import SimpleNamespace
 
 import pytest
-import yaml
 
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import accept
 from vibroimpact_pipeline.figure_check.check import check, kept
-from vibroimpact_pipeline.specs import made, specs
+from vibroimpact_pipeline.specs import spec_of, specs
 
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-SPECS = made(CONFIG, specs())
 FIGURES = ["fig10_02", "fig10_04", "fig10_06", "fig10_11"]
 """Without a table, with one, with markers and arrows, with two tables."""
+SPECS = {figure: spec_of(figure, {}, specs()) for figure in FIGURES}
 DAY = datetime.date(2020, 2, 29)
 
 

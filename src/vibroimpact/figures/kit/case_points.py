@@ -33,19 +33,41 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
-    """Return the verdicts of all criteria on each fixed point, from inputs["verdicts"] if that is given.
+    """Return the verdicts of all criteria on each fixed point, from files of a build if these are given.
 
-    Columns label, orbit (label of the exact orbit that goes with the point), exact (verdict of its multipliers), ...
+    Columns label, orbit (label of the exact orbit that goes with the point), exact (verdict of its multipliers),
+    largest multiplier (their largest modulus), ...
 
     Raises:
         ValueError: the file holds another case, or other points.
     """
     if inputs:
-        given = tables.read(inputs["verdicts"])
+        orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["verdicts"])
         _expect_same_points(given, points, inputs["verdicts"])
-        return given
-    labelled = [(point.label, point) for point in labelled_points(points)]
-    return fixed_point_rows(case, system, labelled, orbit_rows(case, search(system).orbits))
+    else:
+        labelled = [(point.label, point) for point in labelled_points(points)]
+        orbits = orbit_rows(case, search(system).orbits)
+        given = fixed_point_rows(case, system, labelled, orbits)
+    largest = orbits.set_index("label")["modulus_1"].astype(float)
+    return given.assign(**{"largest multiplier": given["orbit"].map(largest)})
+
+
+WHY = {
+    "label": "fixed point",
+    "printed_10_26": "impacts, by (10.26)",
+    "fast": "impacts, as derived",
+    "slow": "slow flow",
+    "orbit": "exact orbit",
+    "largest multiplier": "its largest multiplier",
+    "exact": "the exact system",
+}
+"""Columns of the table of reasons, and what its heads call them."""
+
+
+def why(verdicts: pd.DataFrame) -> pd.DataFrame:
+    """Return the verdict of every criterion on each fixed point, with the largest multiplier of its exact orbit."""
+    shown = verdicts[[*WHY]].round({"largest multiplier": 4}).rename(columns=WHY).set_index("fixed point")
+    return shown.astype(object).where(shown.notna() & (shown != ""), "–")
 
 
 def exact(verdicts: pd.DataFrame) -> str:

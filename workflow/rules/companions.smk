@@ -1,0 +1,103 @@
+# Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/figures/.
+
+# What `compute` of each takes: settings of the config, named as the last key of their paths (a * for all of a section);
+# inputs; `system`, that of a case; `systems`, those of all cases. Without one of these entries it is not made.
+COMPANIONS = {
+    "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
+    "companion_10_08": {
+        "case": "figures.fig10_08.case",
+        "inputs": {
+            "points": "results/fixed_points/{case}.csv",
+            "samples": "results/simulations/{case}/samples.csv",
+            "events": "results/simulations/{case}/events.csv",
+        },
+    },
+    "companion_absorber": {
+        "case": "sweeps.clearance.case",
+        "settings": [
+            *(f"sweeps.clearance.{name}" for name in ("band", "starts", "seed", "cycles", "settle")),
+            "regimes.observation",
+        ],
+        "inputs": {
+            "response": "results/sweeps/frequency_response.csv",
+            "clearance": "results/sweeps/clearance.csv",
+            "design": "results/sweeps/design.csv",
+        },
+    },
+    "companion_asymmetric": {
+        "systems": True,
+        "settings": ["system.kappa", "regimes.asymmetric.*"],
+        "inputs": {"orbits": "results/orbits.csv"},
+    },
+    "companion_basins": {
+        "case": "regimes.basins.case",
+        "settings": ["regimes.basins.case", "regimes.basins.points", "regimes.observation"],
+    },
+    "companion_branches": {
+        "case": "regimes.branches.case",
+        "systems": True,
+        "settings": ["regimes.branches.*", "regimes.observation"],
+    },
+    "companion_decay": {"case": "regimes.decay.case", "settings": ["regimes.decay.*", "sweeps.clearance.band"]},
+    "companion_epsilon": {"systems": True, "settings": ["regimes.epsilon.*"]},
+    "companion_field": {"needs": ["cases.equal"]},
+    "companion_horizon": {
+        "case": "figures.fig10_11.case",
+        "settings": ["cases.{case}.simulation.initial_state", "cases.{case}.simulation.transient_cycles"],
+        "inputs": {"strobe": "results/simulations/{case}/strobe.csv"},
+        "needs": ["cases.{case}.simulation.digits"],
+    },
+    "companion_ladder": {"systems": True, "settings": ["regimes.ladder.*"]},
+    "companion_modulation": {"systems": True, "settings": ["regimes.modulation.*", "regimes.observation"]},
+    "companion_regime_map": {
+        "case": "sweeps.regime_map.case",
+        "systems": True,
+        "settings": ["sweeps.regime_map.starts"],
+        "inputs": {"table": "results/sweeps/regime_map.csv"},
+    },
+    "companion_response": {
+        "case": "sweeps.frequency_response.case",
+        "settings": ["sweeps.clearance.band"],
+        "inputs": {
+            "frequency": "results/sweeps/frequency_response.csv",
+            "force": "results/sweeps/clearance.csv",
+        },
+    },
+    "companion_stability": {
+        "systems": True,
+        "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+    },
+}
+MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
+
+for figure, found in MADE.items():
+
+    rule:
+        name:
+            figure
+        input:
+            **found.inputs,
+        output:
+            **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures"),
+        params:
+            **found.params,
+            code=FIGURES,
+        log:
+            f"results/logs/figures/{figure}.log",
+        benchmark:
+            f"results/benchmarks/figures/{figure}.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
+        script:
+            "../scripts/figure.py"
+
+
+rule companions:
+    input:
+        [getattr(rules, figure).output for figure in MADE],
+
+
+# All figures that the config makes; for `snakemake --report`, their captions.
+ALL_FIGURES = [*config["figures"], *MADE]
+config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
+config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
