@@ -28,8 +28,8 @@ SPEC = {
         "triangles: from rest only one ball ever meets a wall; lines: linear systems in closed form, the absorbers of "
         "the mass of the balls. b: for each restitution the lowest peak over the clearances of c, measured again from "
         "rest and seven other starts at twice as many frequencies; upright bars: its standard error to either side. c: "
-        "the peak over both, lighter is better. Stars: where a sweep has its lowest peak, in a and b as high as measured "
-        "again; level bars: clearances whose peak is at most 1.25 times as high.",
+        "the peak over both, lighter is better. Stars: where a sweep has its lowest peak, in a and b as high as "
+        "measured again; level bars: clearances whose peak is at most 1.25 times as high.",
     "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
         "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
         "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
@@ -81,10 +81,10 @@ SPEC = {
                     "unit": "dimensionless", "compared": "free"},
                 "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
                     "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "peaks"},
-                "swept": {"meaning": "the lowest peak as the sweep has it; lower than `value` where chance chose the "
-                    "place", "unit": "dimensionless", "compared": "peaks"},
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
                     "over that without balls", "unit": "dimensionless", "compared": "peaks"},
+                "swept": {"meaning": "the lowest peak as the sweep has it; lower than `value` where chance chose the "
+                    "place", "unit": "dimensionless", "compared": "peaks"},
                 "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
                 "f10_hat, f20_hat": {"compared": "extremes"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",

@@ -61,7 +61,7 @@ SPEC = {
                 "slope": {"meaning": r"its change per $\varepsilon$", "unit": "dimensionless", "compared": "roots"},
                 "two_terms": {"meaning": r"to the next order, at the $\varepsilon$ of the system",
                     "unit": "dimensionless", "compared": "roots"},
-                "exact": {"meaning": "of exact orbits", "unit": "dimensionless", "compared": "roots"},
+                "exact": {"meaning": "of exact orbits", "unit": "dimensionless", "values": [], "compared": "roots"},
             },
         },
     },

@@ -25,7 +25,7 @@ TABLES = {
     if (ROOT / "figures" / file).is_file()
 }
 """Columns by name of each published table."""
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "sample", "extremes", "life", "free"}
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "sample", "extremes", "peaks", "free"}
 
 
 @pytest.fixture
