@@ -76,7 +76,7 @@ SPEC = {
                     "its lowest, from rest and seven other starts, at frequencies half-way between, too; with one ball "
                     "as in the sweep, from rest", "unit": "dimensionless", "compared": {"without balls": "algebra",
                     "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
-                    "frequencies won": "free", "others": "peaks"}},
+                    "frequencies won": "free", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
                     "unit": "dimensionless", "compared": "free"},
                 "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
