@@ -74,7 +74,8 @@ SPEC = {
                     "absorbers of the textbook", "best absorbers"]},
                 "value": {"meaning": "what the quantity says; of a peak of balls the lower of two measured again where "
                     "the sweep has its lowest, from rest and seven other starts, at frequencies half-way between, too; "
-                    "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {"without balls": "algebra",
+                    "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {
+                    "without balls": "algebra",
                     "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
                     "frequencies won": "free", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
@@ -84,7 +85,7 @@ SPEC = {
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
                     "over that without balls", "unit": "dimensionless", "compared": "peaks"},
                 "swept": {"meaning": "the peak there as the sweep has it", "unit": "dimensionless",
-                    "compared": "peaks"},
+                    "compared": "extremes"},
                 "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
                 "f10_hat, f20_hat": {"compared": "extremes"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
