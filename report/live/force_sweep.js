@@ -145,7 +145,6 @@ class ForceSweep {
     this.data = JSON.parse(document.getElementById(root.dataset.source).textContent);
     this.slider = root.querySelector("input");
     this.output = root.querySelector("output");
-    this.heads = root.querySelectorAll("th");
     this.rows = root.querySelector("tbody");
     const [first, second, third, fourth] = root.querySelectorAll(".planes svg");
     this.planes = [first, second].map((svg, module) => new Plane(svg, module, this.data.manifold));
@@ -153,7 +152,6 @@ class ForceSweep {
     this.circle = new Circle(fourth, this.data);
     this.badges = new Badges(root.querySelector(".badges"));
     this.names = this.branchNames(this.nearest(Number(root.dataset.start)));
-    this.stations = [...document.querySelectorAll(".station")];
     this.slider.max = this.data.values.length - 1;
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
     for (const button of root.querySelectorAll("button")) {
@@ -193,13 +191,10 @@ class ForceSweep {
       [name, ...places, ...Object.values(verdicts)].forEach((text, n) => {
         const cell = row.insertCell();
         cell.textContent = text;
-        cell.dataset.of = this.heads[n].textContent;
       });
       return row;
     }));
     // Of the sentences, in the order of their values, the last whose value is passed.
-    const passed = this.stations.filter(({ dataset }) => !(this.data.values[index] < Number(dataset.above ?? -Infinity)));
-    for (const station of this.stations) station.closest("li").hidden = station !== passed.at(-1);
   }
 }
 
