@@ -104,7 +104,8 @@ class Pages:
         if self.results.notebook(name):
             links.append(f"[the notebook that draws it](beside:notebooks/{quote(name)}.html)")
         links.append("[what the columns mean](data.md)")
-        origin = [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
+        origin = [plain(about["method"])] if "method" in about else []
+        origin += [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
         origin += [f"config {', '.join(map(code, record['config']))}"] if record.get("config") else []
         origin += [f"{plain(part)} {plain(number)}" for part, number in record.get("versions", {}).items()]
         return "\n\n".join(
@@ -113,7 +114,7 @@ class Pages:
                 *(f"$$\n{formula.strip()}\n$$" for formula in about.get("equations", [])),
                 self.picture(name, files),
                 f"**Files:** {' · '.join(links)}",
-                f"**Where it comes from:** {plain(about['method'])}; {'; '.join(origin)}" if origin else "",
+                f"**Where it comes from:** {'; '.join(origin)}" if record else "",
             ]
         )
 

@@ -47,6 +47,7 @@ SPHINX = {
     "html_domain_indices": False,
     "html_permalinks": False,
     "default_role": "literal",
+    "smartquotes": False,  # texts from elsewhere are shown as they are
     "autodoc_member_order": "bysource",
     "python_use_unqualified_type_names": True,
 }
@@ -67,7 +68,7 @@ def write(folder, root, pages, built: str, departures=()) -> None:
     write_article(Path(folder), Path(root), pages, built, notice)
 
 
-def write_site(folder: Path, root: Path, pages, built: str, notice: str = "", with_library: bool = True) -> None:
+def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
     """Write all documents, the pages of report/pages, and a page for each part of the library."""
     settings, told = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
@@ -79,8 +80,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "", wi
         (scratch / "figures").symlink_to(folder.resolve() / "figures")
         shutil.copytree(root / "report/live", static)
         (static / "mathematics.css").write_text(STYLE, encoding="utf-8")
-        if with_library:
-            write_library(scratch / "api", settings["left_out"])
+        write_library(scratch / "api", settings["left_out"])
         options = SPHINX | {
             "project": settings["title"],
             "html_title": settings["title"],
@@ -96,7 +96,6 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "", wi
             app.connect("source-read", lambda app, name, source: fill(pages, name, source))
             app.connect("doctree-read", lambda app, tree: explain(tree, settings["equations"]))
             app.build()
-    open("/tmp/sphinx.log","w").write(told.getvalue())
     if of_pages := [line for line in told.getvalue().splitlines() if OF_PAGE.search(line)]:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
 
