@@ -13,7 +13,8 @@ from vibroimpact_pipeline.report.results import Results
 EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
 DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md")))
-SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", DOCUMENTS)
+PLACES = yaml.safe_load((ROOT / "docs/numbers.yaml").read_text(encoding="utf-8"))
+SOURCED = [(number, PLACES[key]) for number, key in re.findall(r"\[(−?[\d.]+)\]\(numbers\.yaml#([\w.-]+)\)", DOCUMENTS)]
 """Numbers of documents with the place in a build that each is from."""
 CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
 LARGEST_OF_FEW = (

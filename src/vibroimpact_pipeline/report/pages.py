@@ -62,7 +62,7 @@ class Pages:
             "table": table,
             "data": data,
             "dictionary": lambda: data_dictionary.page(*data_dictionary.read(self.root)),
-            "live_data": lambda: live_data(results, config, self.pictures),
+            "live_data": lambda: live_data(config),
             "verdict_data": lambda: verdict_data(results, config),
         }
 
@@ -86,7 +86,8 @@ class Pages:
             shown = f"{value:.{len(number.partition('.')[2])}f}".replace("-", "−")
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
             return number
-        return shown if paper else f"{{abbr}}`{shown} ({value:.6g}: results/{place.removeprefix('percent | ')})`"
+        source = place.removeprefix("percent | ").replace(" | ", ", ")  # a bar would end the cell of a table
+        return shown if paper else f"{{abbr}}`{shown} ({value:.6g}: results/{source})`"
 
     def _picture(self, paper, text, name):
         if text.startswith("!"):
@@ -103,9 +104,12 @@ class Pages:
         ]
         if self.results.notebook(name):
             links.append(f"[the notebook that draws it](beside:notebooks/{quote(name)}.html)")
-        links.append("[what the columns mean](data.md)")
+        if "csv" in files:
+            links.append("[what the columns mean](data.md)")
         origin = [plain(about["method"])] if "method" in about else []
-        origin += [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
+        origin += (
+            [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
+        )
         origin += [f"config {', '.join(map(code, record['config']))}"] if record.get("config") else []
         origin += [f"{plain(part)} {plain(number)}" for part, number in record.get("versions", {}).items()]
         return "\n\n".join(
