@@ -162,7 +162,7 @@ def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, pa
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
     assert browser.run("getComputedStyle(document.querySelector('.skip-to-content')).position") == "fixed"
     drawn = browser.run(
-        "[...document.querySelectorAll('.live svg, .live output, #play-machine')].map(e => e.innerHTML.length)"
+        "[...document.querySelectorAll('.live svg, .live output, .play svg')].map(e => e.innerHTML.length)"
     )
     assert all(length > 3 for length in drawn)
     assert bool(drawn) == (page in LIVE)

@@ -57,7 +57,7 @@ def test_links_are_alive_and_none_leads_outside(pages):
             parts = urlsplit(link)
             if parts.scheme == "data":
                 continue
-            assert not (parts.scheme or parts.netloc), f"{path}: {link} leads to another host"
+            assert not parts.scheme + parts.netloc, f"{path}: {link} leads to another host"
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             assert target.is_file(), f"{path}: {link} leads nowhere"
             if parts.fragment and target in pages:

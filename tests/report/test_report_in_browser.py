@@ -56,7 +56,8 @@ def test_formulas_are_set_in_the_font_that_is_shipped(browser, site, page):
     fonts = "document.fonts.ready.then(fonts => [...fonts].map(font => [font.family, font.status]))"
     assert [(name.strip('"'), status) for name, status in browser.run(fonts)] == [("STIX Two Math", "loaded")]
     fractions = """[...document.querySelectorAll('mfrac')].map(fraction =>
-      [...fraction.children].map(part => part.getBoundingClientRect())).map(([over, under]) => over.bottom <= under.top + 1)"""
+      [...fraction.children].map(part => part.getBoundingClientRect())
+    ).map(([over, under]) => over.bottom <= under.top + 1)"""
     assert all(browser.run(fractions))
     assert len(browser.run(fractions)) > 0
 
@@ -84,9 +85,11 @@ def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
     assert browser.barriers()
 
 
-ROWS = "[...document.querySelectorAll('[data-force-sweep] tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))"
+ROWS = """[...document.querySelectorAll('[data-force-sweep] tbody tr')].map(
+  row => [...row.cells].map(cell => cell.textContent))"""
 LETTERS = """Object.fromEntries([...document.querySelectorAll('[data-force-sweep] .planes svg')[1]
-  .querySelectorAll('[data-label]')].map(disc => [disc.dataset.label, [disc.getAttribute('stroke'), Number(disc.getAttribute('cx'))]]))"""
+  .querySelectorAll('[data-label]')].map(disc =>
+    [disc.dataset.label, [disc.getAttribute('stroke'), Number(disc.getAttribute('cx'))]]))"""
 
 
 def test_the_slider_of_the_force_shows_the_points_of_the_results_by_keyboard(browser, site):
@@ -227,7 +230,8 @@ def test_the_trace_is_the_motion_of_the_library(still):
     system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
     run = vi.simulate(system, [0, 0, 0, 0, 0, 2.0, 0, 2.0], 2, sample_times=[1.5 * system.period])
     X2, Y2 = run.samples[0, 2:4]
-    scale = "Number([...document.querySelectorAll('#play-box text')].find(t => t.textContent.startsWith('−')).textContent.slice(1))"
+    lowest = "[...document.querySelectorAll('#play-box text')].find(t => t.textContent.startsWith('−'))"
+    scale = f"Number({lowest}.textContent.slice(1))"
     for part, end, expected in (("box", scale, X2), ("ball", "1.12", X2 - Y2)):
         last = f"[...document.querySelector('#play-{part} .exact').points].at(-1).y"
         top, height = (

@@ -150,4 +150,4 @@ def test_predictions_of_the_page_play_are_saw_tooths_on_the_manifold():
             first = 2 / SAMPLES * abs(np.exp(-2j * np.pi * np.arange(SAMPLES) / SAMPLES) @ U)
             assert first == pytest.approx(B_of_C(C, rho(system.kappa)), abs=1e-3)
             limit = 4 / (4 + np.pi * rho(system.kappa))
-            assert (point["printed"] == "stable") == (points[point["label"]].C > limit).all()
+            assert (point["printed"] == "stable") == (limit < points[point["label"]].C).all()
