@@ -1,5 +1,5 @@
-// What is wider than the window scrolls by itself; then it can be reached by keyboard, too.
-const mayScroll = document.querySelectorAll("article p, article ul, article ol, article pre, article .scroll");
+// What is wider than the window scrolls by itself: it can be reached by keyboard, too. Captions are headings of a level.
+const mayScroll = document.querySelectorAll(".table-wrapper, .math-wrapper, .scroll, pre");
 
 function reachable() {
   for (const part of mayScroll) {
@@ -8,6 +8,6 @@ function reachable() {
   }
 }
 
+for (const caption of document.querySelectorAll("p[role=heading]")) caption.ariaLevel = 2;
 reachable();
 addEventListener("resize", reachable);
-document.addEventListener("toggle", reachable, true);

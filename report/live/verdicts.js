@@ -4,7 +4,7 @@
 class Verdicts extends Chart {
   constructor(root) {
     super(root.querySelector("svg"), 0);
-    Object.assign(this, { data: JSON.parse(document.getElementById(root.dataset.source).textContent), bottom: 36, criterion: "theory" });
+    Object.assign(this, { data: dataOf(root), bottom: 36, criterion: "theory" });
     [this.slider, this.output, this.count] = ["input", "output", "#verdicts-count"].map((name) => root.querySelector(name));
     this.buttons = [...root.querySelectorAll("[data-criterion]")];
     this.slider.max = this.data.epsilon.length - 1;

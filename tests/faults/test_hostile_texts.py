@@ -6,9 +6,11 @@ from urllib.parse import urlsplit
 
 import nbformat
 import pandas as pd
+import pypdfium2 as pdfium
 import pytest
-import yaml
+from docutils.core import publish_string
 from IPython.display import Markdown
+from myst_parser.parsers.docutils_ import Parser
 
 import hostile
 from headless_browser import Browser, executable
@@ -20,22 +22,11 @@ from vibroimpact_pipeline.report import offline
 from vibroimpact_pipeline.report.pages import Pages, anchor, attribute, data
 from vibroimpact_pipeline.report.policy import guarded
 from vibroimpact_pipeline.report.results import Results
-from vibroimpact_pipeline.report.site import FILLED, PDF, READER, convert, write_document, write_site
+from vibroimpact_pipeline.report.site import SPHINX, write_article, write_site
 
-SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
-FILLED_PAGES = [page for page in SETTINGS["pages"] if page["source"].startswith("report/")]
-SOURCES = ROOT / "report"
-TITLES = {"site": SETTINGS["title"], "footer": f"Built from {plain(HOSTILE)}."}
-OWN_SCRIPTS = {
-    "motion": ["shape.js", "animation.js"],
-    "fixed_points": ["shape.js", "force_sweep.js", "chart.js", "verdicts.js"],
-    "claims": ["filter.js"],
-    "play": ["exact.js", "theory.js", "chart.js", "play.js"],
-}
-GENERATED = 5
-"""Scripts that Sphinx and its theme put into every page."""
+FILLED_PAGES = sorted(path.stem for path in (ROOT / "report/pages").glob("*.md"))
+LIVE = ("motion", "fixed_points", "play")
 DATA = {"type": "application/json"}
-KNOWN = {"page": "here", "pagetitle": "Here", "site": "Site", "footer": ""}
 KINDS = ("iframe", "object", "embed", "base", "form", "marquee")
 """Elements that no page has of its own."""
 MARKS = (
@@ -49,21 +40,14 @@ TEXTS = [HOSTILE, *(HOSTILE[start : start + 25] for start in range(0, len(HOSTIL
 def site(tmp_path_factory):
     """The pages that are filled from results, where every text from elsewhere is hostile."""
     folder = tmp_path_factory.mktemp("hostile") / "site"
-    pages = hostile_pages(folder)
-    written = SETTINGS | {"pages": [SETTINGS["pages"][0], *FILLED_PAGES]}
-    write_site(folder, SOURCES, pages, written, TITLES)
-    return folder
-
-
-def hostile_pages(folder):
-    """Pages from results beside a folder, which gets their pictures."""
     results = hostile.results(folder.parent / "results")
     (folder / "figures").mkdir(parents=True)
-    tables = [results / "fixed_points.csv"]
-    pages = Pages(ROOT, Results(results), SETTINGS, hostile.config(), hostile.SHOWN, tables, [HOSTILE])
+    pages = Pages(ROOT, Results(results), hostile.config(), hostile.SHOWN, [HOSTILE])
     for name in pages.about:
         (folder / f"figures/{name}.svg").write_text(hostile.PICTURE)
-    return pages
+    write_site(folder, ROOT, pages, HOSTILE, HOSTILE)
+    write_article(folder, ROOT, pages, HOSTILE, HOSTILE)
+    return folder
 
 
 def notebook(folder):
@@ -97,29 +81,28 @@ def assert_nothing_is_live(markup, scripts=0):
     odd = [values for tag, values in markup.elements if tag in KINDS]
     assert [values for values in odd if values.get("action") != "search.html"] == []
     programs = [values for tag, values in markup.elements if tag == "script" and not values.items() >= DATA.items()]
-    assert programs == [{} for _ in range(scripts)]
+    assert [values for values in programs if not values.get("src", "").startswith("_static/")] == [{}] * scripts
     assert markup.programs == []
     assert {urlsplit(link).scheme for link in markup.links} <= {"", "data"}
     assert [values for tag, values in markup.elements if tag == "img" and values["src"] == "x"] == []
-    assert re.search(r"script-src ('none'|('sha256-[^']{44}' ?)+);", markup.policy)
+    assert re.search(r"script-src ('none'|'self' file: 'sha256-[^']{44}');", markup.policy)
     assert markup.policy.startswith("default-src 'none'; ")
-    first_of_head = [tag for tag, _ in markup.elements].index("head") + 1
-    assert markup.elements[first_of_head][1].get("content") == markup.policy
 
 
-@pytest.mark.parametrize("page", [page["name"] for page in FILLED_PAGES])
+@pytest.mark.parametrize("page", FILLED_PAGES)
 def test_a_page_of_the_report_shows_texts_as_texts(site, page):
-    html_text = (site / f"{page}.html").read_text(encoding="utf-8")
-    markup = Markup(html_text)
-    assert_nothing_is_live(markup, GENERATED + len(OWN_SCRIPTS.get(page, [])) + len(SETTINGS["scripts"]))
-    assert one_line(HOSTILE) in markup.text
+    text = (site / f"{page}.html").read_text(encoding="utf-8")
+    markup, article = Markup(text), Markup(text[text.index("<article") : text.index("</article>")])
+    assert_nothing_is_live(markup, scripts=1)  # that of the theme
+    assert markup.text.count(one_line(HOSTILE)) >= 2  # where the build departs from the chapter, and what it is from
+    if page in ("accuracy", "figures", "fixed_points", "motion", "rerun"):
+        assert one_line(HOSTILE) in article.text
 
 
-def test_the_report_is_printed_with_texts_as_texts(tmp_path):
+def test_the_article_shows_texts_as_texts(site):
     """In Typst, too, a text could be a program, which would fail here: there is nothing for it to read."""
-    pages = hostile_pages(tmp_path / "site")
-    write_document(tmp_path / "site", SOURCES, pages, SETTINGS, TITLES)
-    assert (tmp_path / "site" / PDF).read_bytes().startswith(b"%PDF")
+    first = pdfium.PdfDocument(site / "findings.pdf")[0].get_textpage().get_text_bounded()
+    assert "#read('x')" in first
 
 
 @pytest.mark.parametrize("made", [notebook, figure_check])
@@ -129,14 +112,15 @@ def test_other_pages_show_texts_as_texts(made, tmp_path):
     assert one_line(HOSTILE) in markup.text
 
 
-@pytest.mark.parametrize("reader", [READER, FILLED])
-@pytest.mark.parametrize("written", [plain, code])
-def test_any_text_is_shown_by_pandoc_as_it_is(written, reader):
-    """In a cell of a table, which is the narrowest place."""
-    rows = "\n".join(f"| {written(text)} |" for text in TEXTS)
-    page = convert(f"# Here\n\n| head |\n| --- |\n{rows}\n", "html", SOURCES, KNOWN, reader=reader)
-    cells = re.findall(r"<td[^>]*>(.*?)</td>", page, re.DOTALL)
-    assert [" ".join(Markup(cell).text.split()) for cell in cells] == [one_line(text) for text in TEXTS]
+@pytest.mark.parametrize(("written", "line", "tag"), [(plain, "| {} |", "td"), (code, "{}\n", "p")])
+def test_any_text_is_shown_by_sphinx_as_it_is(written, line, tag):
+    """Plain also in a cell of a table, which is the narrowest place."""
+    lines = "\n".join(line.format(written(text)) for text in TEXTS)
+    settings = {f"myst_{name}": SPHINX[f"myst_{name}"] for name in ("enable_extensions", "disable_syntax")}
+    source = f"# Here\n\n{'| head |' if tag == 'td' else ''}\n{'| --- |' if tag == 'td' else ''}\n{lines}\n"
+    page = publish_string(source, parser=Parser(), writer="html5", settings_overrides=settings).decode()
+    shown = re.findall(rf"<{tag}\b[^>]*>(.*?)</{tag}>", page, re.DOTALL)
+    assert [" ".join(Markup(text).text.split()) for text in shown] == [one_line(text) for text in TEXTS]
 
 
 @pytest.mark.parametrize("written", [plain, code])
@@ -150,9 +134,9 @@ def test_any_text_is_shown_by_a_notebook_as_it_is(written):
 def test_values_in_other_places_stay_there():
     assert Markup(f'<p title="{attribute(HOSTILE)}">').elements == [("p", {"title": one_line(HOSTILE)})]
     assert re.fullmatch(r"[\w-]+", anchor(HOSTILE))
-    assert "<" not in data('{"a": "</script>"}')
+    assert data("a", '{"a": "</script>"}').count("<") == 2
     with pytest.raises(ValueError, match="Expecting"):
-        data("</script><script>")
+        data("a", "</script><script>")
 
 
 def test_a_page_without_a_head_gets_no_policy_and_is_refused():
@@ -170,7 +154,7 @@ def browser():
     browser.close()
 
 
-@pytest.mark.parametrize("page", [page["name"] for page in FILLED_PAGES])
+@pytest.mark.parametrize("page", FILLED_PAGES)
 def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, page):
     browser.open((site / f"{page}.html").as_uri())
     assert browser.problems == []
@@ -178,10 +162,10 @@ def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, pa
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
     assert browser.run("getComputedStyle(document.querySelector('.skip-to-content')).position") == "fixed"
     drawn = browser.run(
-        "[...document.querySelectorAll('.live svg, .live output, #play-machine')].map(e => e.innerHTML.length)"
+        "[...document.querySelectorAll('.live svg, .live output, .play svg')].map(e => e.innerHTML.length)"
     )
     assert all(length > 3 for length in drawn)
-    assert bool(drawn) == (page in OWN_SCRIPTS)
+    assert bool(drawn) == (page in LIVE)
 
 
 def test_the_slider_moves_the_points_of_hostile_results(browser, site):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from configs import GOOD
+from vibroimpact.claims.judge import to_markdown
 
 RUN = "void(document.title='taken')"
 HOSTILE = (
@@ -104,6 +105,7 @@ def results(folder: Path) -> Path:
             [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
         ),
     }
+    texts["claims.md"] = to_markdown([claim | {"id": "some", "parts": {}, "numbers": {}, "verdict": "holds"}])
     tables = {
         "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE} | numbers],
         "verdict_grid.csv": [

@@ -13,7 +13,8 @@ from vibroimpact_pipeline.report.results import Results
 EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
 FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
 DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md")))
-SOURCED = re.findall(r"(−?[\d.]+)<!-- (.+?) -->", DOCUMENTS)
+PLACES = yaml.safe_load((ROOT / "docs/numbers.yaml").read_text(encoding="utf-8"))
+SOURCED = [(number, PLACES[key]) for number, key in re.findall(r"\[(−?[\d.]+)\]\(numbers\.yaml#([\w.-]+)\)", DOCUMENTS)]
 """Numbers of documents with the place in a build that each is from."""
 CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
 LARGEST_OF_FEW = (
@@ -80,17 +81,17 @@ def test_a_number_of_the_findings_is_that_of_the_results(built, quoted, source):
     15 % where they come from a single run. A spread of a few starts is known to its order of magnitude.
     """
     decimals = len(quoted.partition(".")[2])
-    scale = 100 if source.startswith("percent | ") else 1
-    place = source.removeprefix("percent | ").split(" | ")
+    percent = "percent | " * source.startswith("percent | ")
+    place = source.removeprefix(percent).split(" | ")
     results = Results(built / "results")
-    found = results.value(*place)
+    found = results.value(source)
     spread = 0.0
     if place[0].startswith(CHAOTIC) and " | ".join(place) not in LONG:
-        spread = 5 * results.value(*place[:-1], "uncertainty")
+        spread = 5 * results.value(percent + " | ".join([*place[:-1], "uncertainty"]))
         spread = 0.15 * abs(found) if pd.isna(spread) else spread
     elif " | ".join(place).startswith(LARGEST_OF_FEW):
         spread = (1.0 if place[-1] == "spread" else 0.15) * abs(found)
-    assert abs(scale * found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + scale * spread
+    assert abs(found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + spread
 
 
 def test_long_runs_are_among_the_sources():
@@ -100,7 +101,7 @@ def test_long_runs_are_among_the_sources():
 def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_findings(built):
     bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", DOCUMENTS).groups()
     place = "regimes/spectra.csv", 'case == "weak" and start == "spread" and quantity == "Kaplan-Yorke dimension"'
-    mean, error = (Results(built / "results").value(*place, column) for column in ("mean", "uncertainty"))
+    mean, error = (Results(built / "results").value(" | ".join([*place, column])) for column in ("mean", "uncertainty"))
     assert float(bounds[0]) < mean - 5 * error < mean + 5 * error < float(bounds[1])
 
 

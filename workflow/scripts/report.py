@@ -1,13 +1,10 @@
-"""Results -> the report: a site that reads offline, and a PDF."""
+"""Results -> the report: a site that reads offline, and its article as PDF."""
 
 import json
 import shutil
 from pathlib import Path
 
-import yaml
-
 from vibroimpact.claims.judge import NOT_JUDGED
-from vibroimpact.figures.kit.markdown import plain
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.git import git
@@ -17,22 +14,19 @@ from vibroimpact_pipeline.report.pages import Pages, anchor
 from vibroimpact_pipeline.report.results import Results
 from vibroimpact_pipeline.report.site import write
 
-SETTINGS = "report/report.yaml"
 
-
-def collect(results, figure: str, folder: Path) -> None:
-    """Copy the files of a figure and its notebook into the report."""
-    for path in results.files(figure).values():
-        copy(path, folder / "figures")
-    if notebook := results.notebook(figure):
-        text = linked(notebook.read_text(encoding="utf-8"), f"../figures.html#{anchor(figure)}")
-        (folder / "notebooks").mkdir(exist_ok=True)
-        (folder / "notebooks" / notebook.name).write_text(text, encoding="utf-8")
-
-
-def copy(path, folder: Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    shutil.copy(path, folder)
+def collect(results, figures, tables, folder: Path) -> None:
+    """Copy the files of figures, their notebooks and further tables into the report."""
+    for part in ("figures", "notebooks", "data"):
+        (folder / part).mkdir(parents=True)
+    for figure in figures:
+        for path in results.files(figure).values():
+            shutil.copy(path, folder / "figures")
+        if notebook := results.notebook(figure):
+            text = linked(notebook.read_text(encoding="utf-8"), f"../figures.html#{anchor(figure).replace('_', '-')}")
+            (folder / "notebooks" / notebook.name).write_text(text, encoding="utf-8")
+    for table in tables:
+        shutil.copy(results.root / Path(table).relative_to("results"), folder / "data")
 
 
 def version(root) -> str:
@@ -60,16 +54,10 @@ def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
 
 with running(snakemake) as out:
     params, folder = snakemake.params, Path(out.site)
-    results_folder = Path(snakemake.output.site).parent
-    settings = yaml.safe_load((ROOT / SETTINGS).read_text(encoding="utf-8"))
-    judged = all(claim["verdict"] != NOT_JUDGED for claim in json.loads((results_folder / "claims.json").read_text()))
-    results, shown = Results(results_folder, judged), groups(params.figures, params.config)
+    claims = json.loads((Path(snakemake.output.site).parent / "claims.json").read_text(encoding="utf-8"))
+    judged = all(claim["verdict"] != NOT_JUDGED for claim in claims)
+    results, shown = Results(Path(snakemake.output.site).parent, judged), groups(params.figures, params.config)
     tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
-    for figure in (figure for group in shown.values() for figure in group):
-        collect(results, figure, folder)
-    for picture in (ROOT / "docs").glob("*.png"):
-        copy(picture, folder / "figures")
-    for table in tables:
-        copy(results_folder / Path(table).relative_to("results"), folder / "data")
-    pages = Pages(ROOT, results, settings, params.config, shown, tables, departures(params.config))
-    write(folder, ROOT, pages, settings, f"Built from {plain(version(ROOT))}.")
+    pages = Pages(ROOT, results, params.config, shown, [Path(table).name for table in tables])
+    collect(results, pages.pictures, tables, folder)
+    write(folder, ROOT, pages, version(ROOT), departures(params.config))

@@ -1,41 +1,43 @@
-"""Data of the live pages: parameters, cases, the map of regimes; verdicts over both forces."""
+"""Data of the live pages: parameters, cases with the theory's prediction, verdicts over both forces."""
 
 import json
 
 import numpy as np
 
+from vibroimpact.system.chapter import PARAMETERS
+from vibroimpact.system.parameters import System
 from vibroimpact.system.verdict import STABLE
+from vibroimpact.theory.criteria import of_fixed_point
+from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.response import leading_order
 from vibroimpact_pipeline.specs import case_parameters
 
-MAP = "companion_regime_map"
+FORCES = ("f10_hat", "f20_hat")
+SAMPLES = 200
+"""Of a predicted response, over one cycle."""
 
 
-def live_data(results, config: dict, figures) -> str:
-    """Return the data of the page Play as JSON.
+def live_data(config: dict) -> str:
+    """Return the data of the page Play as JSON: parameters, and of each case its forces and predicted responses.
 
-    Args:
-        results: a `results.Results`. config: of the pipeline; cases that differ from the first in more than forces
-            are left out.
-        figures: names of the companion figures; without the map of regimes, the page has none.
+    Cases that differ from the first in more than forces are left out.
     """
-    first = next(iter(config["cases"]))
-    systems = {name: case_parameters(config, name) for name in config["cases"]}
-    forces = {name: [system.pop("f10_hat"), system.pop("f20_hat")] for name, system in systems.items()}
-    cases = {name: forces[name] for name, system in systems.items() if system == systems[first]}
-    regimes = regime_map(results.table(f"figures/{MAP}.csv")) if MAP in figures else None
-    return json.dumps({"system": systems[first], "cases": cases, "first": first, "map": regimes})
+    given = {case: case_parameters(config, case) for case in config["cases"]}
+    systems = {case: System(**{name: known[name] for name in (*PARAMETERS, *FORCES)}) for case, known in given.items()}
+    first, *_ = systems.values()
+    cases = {}
+    for name, system in systems.items():
+        if system == first.with_(f10_hat=system.f10_hat, f20_hat=system.f20_hat):
+            points = sorted(fixed_points(system), key=lambda point: point.label)
+            told = [_point(system, point) for point in points]
+            cases[name] = {"forces": [system.f10_hat, system.f20_hat], "points": told}
+    return json.dumps({"system": {name: getattr(first, name) for name in PARAMETERS}, "cases": cases})
 
 
-def regime_map(table) -> dict:
-    """Return the map of regimes: forces of the columns (f10) and rows (f20), names of the regimes with their numbers of
-    cells, the commonest first, and for each row of cells the indices of their names, -1 for none.
-    """
-    cells = table[table["series"] == "cell"]
-    counts = cells["regime"].value_counts()
-    grid = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
-    places = counts.index.get_indexer(grid.to_numpy().ravel()).reshape(grid.shape)
-    forces = {"f10": np.round(grid.columns, 6).tolist(), "f20": np.round(grid.index, 6).tolist()}
-    return forces | {"regimes": counts.index.tolist(), "counts": counts.to_dict(), "cells": places.tolist()}
+def _point(system, point):
+    response = leading_order(system, point, np.arange(SAMPLES) / SAMPLES * system.period)
+    told = {name: getattr(response, name)[:, 1].round(4).tolist() for name in ("X", "W")}
+    return told | {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
 
 
 def verdict_data(results, config: dict) -> str:

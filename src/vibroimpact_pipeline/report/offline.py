@@ -24,9 +24,7 @@ class MathMLRenderer(markdown_mistune.IPythonRenderer):
         return mathml(body, display=False)
 
     def block_math(self, body):
-        numbered = r"\tag" in body
-        formula = rf"\begin{{equation}}{body}\end{{equation}}" if numbered else body
-        return mathml(formula, display=True)
+        return mathml(body, display=True)
 
     def latex_environment(self, name, body):
         formula = rf"\begin{{{name}}}{body}\end{{{name}}}"

@@ -1,137 +1,145 @@
-"""Pages of the report as Markdown: templates and documents, filled from results."""
+"""Pages of the report as Markdown: documents with the numbers of this build, templates filled from results."""
 
 import json
-import math
 import re
-from collections import Counter
-from functools import lru_cache
 from html import escape
-from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
 import jinja2
-import pypandoc
+import yaml
 
-from vibroimpact.claims.finding import VERDICTS
-from vibroimpact.claims.judge import facts
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.live import live_data, verdict_data
-from vibroimpact_pipeline.report.notation import named
 
-HEADING = re.compile(r"^# .*$", re.MULTILINE)
-PICTURE = re.compile(r"^!\[.*?\]\(\.\./results/\w+/(?P<name>\w+)\.png\)$", re.MULTILINE)
-"""A picture of a document; left out where the config does not make the figure."""
-SOURCED = re.compile(r"(?P<number>−?[\d.]+)<!-- (?P<percent>percent \| )?(?P<place>.+?) -->(?P<mark>[.,;:)]*)")
-"""A number of a document, in a comment behind it the file that it comes from and the place there, and what ends it."""
-SOURCE = (
-    '`<span class="kept"><button type="button" class="sourced" title="{value} in results/{file}: {place}" '
-    'popovertarget="source-{id}">{number}</button>'
-    '<span popover class="source" id="source-{id}"><b>{value}</b> in <code>results/{file}</code>: {place}. '
-    "Made by <code>snakemake --cores 2 results/{file}</code></span>{mark}</span>`{{=html}}"
-)
-NOTICE = (
-    "**This build has other parameters than the chapter.** Its figures and tables are its own; claims were not judged, "
-    "and what documents, findings and errata say is about the chapter's parameters. What differs:"
-)
+TEMPLATES = "report/pages"
+NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\(numbers\.yaml#(?P<key>[\w.-]+)\)")
+"""A number of a document, with the key to its place among the results."""
+PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\(\.\./results/\w+/(?P<name>\w+)\.png\)")
+"""A figure that a document shows or links to."""
+FIGURE = """\
+.. figure:: figures/{name}.svg
+   :alt: {alt}
+   :target: figures/{name}.svg
+
+   {caption}"""
+"""In reStructuredText, in which captions are, for Snakemake's own report, too."""
 
 
 class Pages:
-    """Pages of the report, filled from results.
+    """Pages of the report.
 
     Args:
         root: the checkout.
-        results: a `report_results.Results`.
-        settings: report/report.yaml.
+        results: a `Results`.
         config: the config of the pipeline.
         shown: names of figures by group, in the order in which they are shown.
-        tables: paths of further results to download.
-        departures: where the config departs from the chapter's parameters, a line each; every page then says so.
+        tables: names of further results to download.
     """
 
-    def __init__(self, root, results, settings: dict, config: dict, shown: dict, tables=(), departures=()):
-        self.root, self.results, self.settings, self.config = Path(root), results, settings, config
-        self.departures = departures
+    def __init__(self, root, results, config: dict, shown: dict, tables=()):
+        self.root, self.results = Path(root), results
+        self.names = sorted(path.stem for path in (self.root / TEMPLATES).glob("*.md"))
         self.pictures = {figure for group in shown.values() for figure in group}
         self.about = figure_texts(self.root, config)
+        self.places = yaml.safe_load((self.root / "docs/numbers.yaml").read_text(encoding="utf-8"))
         self.environment = jinja2.Environment(
-            loader=jinja2.FileSystemLoader(self.root),
+            loader=jinja2.FileSystemLoader(self.root / "report"),
             undefined=jinja2.StrictUndefined,
-            comment_start_string="{##",  # since {# begins the name of a heading
-            comment_end_string="##}",
             trim_blocks=True,
             lstrip_blocks=True,
-            keep_trailing_newline=True,
         )
         self.environment.filters |= FILTERS
         self.environment.globals |= {
             "results": results,
             "config": config,
-            "settings": settings,
             "shown": shown,
-            "tables": [Path(path) for path in tables],
+            "tables": tables,
             "about": self.about,
+            "figure": self.figure,
+            "table": table,
+            "data": data,
             "dictionary": lambda: data_dictionary.page(*data_dictionary.read(self.root)),
-            "caption": lru_cache(self.caption),
-            "count": Counter,
-            "infinity": math.inf,
-            "live_data": live_data,
-            "verdict_data": verdict_data,
-            "table": markdown_table,
-            "verdicts": verdicts,
-            "facts": facts,
+            "live_data": lambda: live_data(config),
+            "verdict_data": lambda: verdict_data(results, config),
         }
 
-    def markdown(self, page: dict, target: str) -> str:
-        """Return one page for a target, "html" or "pdf". Documents stay as they are, templates are filled."""
-        if is_template(page):
-            text = self.environment.get_template(page["source"]).render(target=target)
-        else:
-            text = (self.root / page["source"]).read_text(encoding="utf-8")
-            text = PICTURE.sub(lambda picture: picture[0] if picture["name"] in self.pictures else "", text)
-            if target == "html" and self.results.judged:
-                numbers = count(1)
-                text = SOURCED.sub(lambda found: self._with_source(found, next(numbers)), text)
-        return HEADING.sub(lambda heading: heading[0] + self._notice(), text, count=1) if self.departures else text
+    def filled(self, name: str) -> str:
+        """Return a page of report/pages."""
+        return self.environment.get_template(f"pages/{name}.md").render()
 
-    def _with_source(self, found, number):
-        """Return a number of a document as a button that shows its value, its place, and the command that makes it.
+    def with_numbers(self, text: str, paper: bool = False) -> str:
+        """Return a document with the numbers and figures of this build.
 
-        The number is that of the build, to as many decimals as the document gives. In a build with other settings there
-        may be no such value: then the number stays as it is.
+        A number has as many decimals as the document gives, and but on paper says where it is from. In a build with
+        other settings there may be no such value: then it stays as it is written.
         """
-        file, *place = found["place"].split(" | ")
+        text = NUMBER.sub(lambda found: self._number(paper, **found.groupdict()), text)
+        return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
+
+    def _number(self, paper, number, key):
+        place = self.places[key]
         try:
-            value = self.results.value(file, *place)
-            decimals = len(found["number"].partition(".")[2])
-            inserted = f"{value * (100 if found['percent'] else 1):.{decimals}f}".replace("-", "−")
+            value = self.results.value(place)
+            shown = f"{value:.{len(number.partition('.')[2])}f}".replace("-", "−")
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
-            return found["number"] + found["mark"]
-        told = {"number": inserted, "mark": found["mark"], "value": f"{value:.6g}"}
-        told |= {"file": file, "place": ", ".join(place), "id": number}
-        return SOURCE.format(**{name: escape(str(text)) for name, text in told.items()})
+            return number
+        source = place.removeprefix("percent | ").replace(" | ", ", ")  # a bar would end the cell of a table
+        return shown if paper else f"{{abbr}}`{shown} ({value:.6g}: results/{source})`"
 
-    def _notice(self):
-        """Return the notice that begins every page if the config departs from the chapter."""
-        return f"\n\n::: notice\n{NOTICE} {'; '.join(map(plain, self.departures))}.\n:::\n"
+    def _picture(self, paper, text, name):
+        if text.startswith("!"):
+            return f"{text}(figures/{name}.svg)" if name in self.pictures else ""
+        return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
-    def caption(self, figure: str) -> str:
-        """Return the caption of a figure, written in reStructuredText, as Markdown in one line."""
-        text = self.about[figure]["caption"]
-        return pypandoc.convert_text(text, "markdown", "rst", ["--wrap=none"]).strip().replace("\n", " ")
+    def figure(self, name: str, level: int = 2) -> str:
+        """Return the section of a figure: equations, picture, files, origin."""
+        about, record = self.about[name], self.results.provenance(name)
+        files = self.results.files(name)
+        links = [
+            f"[{kind.upper() if path.suffix == f'.{kind}' else plain(kind)}](beside:figures/{quote(path.name)})"
+            for kind, path in files.items()
+        ]
+        if self.results.notebook(name):
+            links.append(f"[the notebook that draws it](beside:notebooks/{quote(name)}.html)")
+        if "csv" in files:
+            links.append("[what the columns mean](data.md)")
+        origin = [plain(about["method"])] if "method" in about else []
+        origin += (
+            [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
+        )
+        origin += [f"config {', '.join(map(code, record['config']))}"] if record.get("config") else []
+        origin += [f"{plain(part)} {plain(number)}" for part, number in record.get("versions", {}).items()]
+        return "\n\n".join(
+            [
+                f"({anchor(name)})=\n{'#' * level} {plain(about['title'])}",
+                *(f"$$\n{formula.strip()}\n$$" for formula in about.get("equations", [])),
+                self.picture(name, files),
+                f"**Files:** {' · '.join(links)}",
+                f"**Where it comes from:** {'; '.join(origin)}" if record else "",
+            ]
+        )
+
+    def picture(self, name: str, files) -> str:
+        """Return the caption of a figure with its picture, if it has one."""
+        caption = " ".join(self.about[name]["caption"].split())
+        if "svg" in files:
+            caption = FIGURE.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=caption)
+        return f"``````````{{eval-rst}}\n{caption}\n``````````"
 
 
-def is_template(page: dict) -> bool:
-    """Return True for a page filled from results, False for a document."""
-    return not page["source"].startswith("docs/")
+WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"}
+"""What is said in place of a value that is no number."""
 
 
 def digits(value, number: int = 3) -> str:
-    """Return a number with so many significant digits; tiny and huge ones as a power of ten in a formula."""
-    if value is None or value != value:
-        return "–"
+    """Return a number with so many significant digits, tiny and huge ones with a power of ten; other values as text."""
+    if isinstance(value, str):
+        return plain(value)
+    if str(value) in WORDS:
+        return WORDS[str(value)]
     rounded = float(f"{value:.{number}g}")
     if rounded == 0 or 1e-4 <= abs(rounded) < 1e6:
         return f"{rounded:.15g}"
@@ -140,53 +148,15 @@ def digits(value, number: int = 3) -> str:
     return rf"${factor}10^{{{int(exponent)}}}$"
 
 
-def setting(value) -> str:
-    """Return a setting of a method, a number or a word."""
-    try:
-        return digits(float(value))
-    except ValueError:
-        return plain(value)
+def table(frame, heads: dict, number: int = 3) -> str:
+    """Return columns of a DataFrame as a pipe table, with a head in Markdown for each."""
+    rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 
 
 def cell(text) -> str:
     """Return Markdown of the repository for a cell of a table."""
     return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
-
-
-def said(numbers) -> str:
-    """Return numbers and answers behind a claim in one line."""
-    if numbers is None or isinstance(numbers, bool):
-        return {True: "yes", False: "no", None: "open"}[numbers]
-    if isinstance(numbers, dict):
-        return "; ".join(f"{named(name)}: {said(value)}" for name, value in numbers.items())
-    if isinstance(numbers, list):
-        return ", ".join(said(value) for value in numbers)
-    if not isinstance(numbers, int | float):
-        return plain(numbers)
-    return digits(numbers, 4)
-
-
-def section_of(place: str) -> str:
-    """Return the section of the chapter that a claim's place names, or that of its equation or figure."""
-    if found := re.search(r"section (10\.\d)", place):
-        return found[1]
-    found = re.search(r"(?P<figure>Fig\w*\. )?\(?10\.(?P<number>\d+)", place)
-    if not found:
-        return "elsewhere"
-    first_of = {"10.4": 6, "10.3": 4} if found["figure"] else {"10.3": 7}
-    return next((section for section, first in first_of.items() if int(found["number"]) >= first), "10.2")
-
-
-def markdown_table(heads: list[str], rows) -> str:
-    """Return a pipe table of plain texts."""
-    lines = [map(plain, heads), ["---"] * len(heads), *(map(plain, row) for row in rows)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def verdicts(claims: list[dict]) -> list[tuple[str, int]]:
-    """Return each verdict given with its number of claims, in the order of presentation."""
-    given = Counter(claim["verdict"] for claim in claims)
-    return [(verdict, given[verdict]) for verdict in VERDICTS if verdict in given]
 
 
 def anchor(name) -> str:
@@ -199,27 +169,15 @@ def attribute(text) -> str:
     return escape(one_line(text))
 
 
-def data(text: str) -> str:
-    """Return JSON that can stand in a page: nothing in it ends the element.
+def data(name: str, text: str) -> str:
+    """Return JSON as an element of a page: nothing in it ends the element.
 
     Raises:
         ValueError: it is no JSON.
     """
-    return json.dumps(json.loads(text), separators=(",", ":")).replace("<", r"\u003c")
+    inert = json.dumps(json.loads(text), separators=(",", ":")).replace("<", r"\u003c")
+    return f'<script type="application/json" id="{attribute(name)}">{inert}</script>'
 
 
-FILTERS = {
-    "anchor": anchor,
-    "attribute": attribute,
-    "cell": cell,
-    "code": code,
-    "data": data,
-    "digits": digits,
-    "named": named,
-    "plain": plain,
-    "said": said,
-    "section": section_of,
-    "setting": setting,
-    "url": quote,
-}
+FILTERS = {"anchor": anchor, "attribute": attribute, "cell": cell, "code": code, "digits": digits, "plain": plain}
 """Filters for values in a page; every value that is not a number goes through one."""

@@ -19,8 +19,6 @@ STYLE = f"""\
 math {{ font-family: "STIX Two Math", math, serif; }}
 .kept {{ white-space: nowrap; }}
 math[display="block"] {{ margin: 0.7rem 0; }}
-p:has(> math[display="block"]) {{ overflow-x: auto; overflow-y: hidden; }}
-@media print {{ p:has(> math[display="block"]) {{ overflow: visible; }} }}
 """
 """Style of every page with formulas; it contains the font, since browsers load none from a disk."""
 _CONVERTER = LatexToMathML(fancy_error=False)
@@ -31,11 +29,13 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    """Return a LaTeX formula as MathML, within a line or displayed on its own.
+    """Return a LaTeX formula as MathML, within a line or displayed on its own, where it may have a \\tag.
 
     Raises:
         math_core.LatexError: the formula cannot be translated.
     """
+    if display and r"\tag" in tex:
+        tex = rf"\begin{{equation}}{tex}\end{{equation}}"
     return OVERLINE.sub("\u203e", _CONVERTER.convert_with_local_state(tex, displaystyle=display))
 
 

@@ -13,8 +13,8 @@ function frame(svg, title) {
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
   svg.setAttribute("font-size", 13);
   svg.setAttribute("font-family", "system-ui, sans-serif");
-  shape(svg, "text", { x: LEFT, y: TOP - 11, "font-weight": 600 }, title);
-  shape(svg, "rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
+  mark(svg, "text", "", { x: LEFT, y: TOP - 11, "font-weight": 600 }, title);
+  mark(svg, "rect", "", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
 }
 
 class Plane {
@@ -25,18 +25,18 @@ class Plane {
     this.x = (C) => LEFT + (C / ends[0]) * (WIDTH - LEFT - RIGHT);
     this.y = (B) => HEIGHT - BOTTOM - (B / ends[1]) * (HEIGHT - BOTTOM - TOP);
     frame(svg, `Fixed points, module ${module + 1}`);
-    for (let C = 0; C <= ends[0]; C += 0.5) shape(svg, "text", { x: this.x(C), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, C);
-    for (let B = 0; B <= ends[1]; B += 0.5) shape(svg, "text", { x: LEFT - 6, y: this.y(B) + 4, "text-anchor": "end" }, B);
-    shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, `C${"₁₂"[module]}`);
-    shape(svg, "text", { x: 2, y: TOP + 30, "font-style": "italic" }, `B${"₁₂"[module]}`);
+    for (let C = 0; C <= ends[0]; C += 0.5) mark(svg, "text", "", { x: this.x(C), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, C);
+    for (let B = 0; B <= ends[1]; B += 0.5) mark(svg, "text", "", { x: LEFT - 6, y: this.y(B) + 4, "text-anchor": "end" }, B);
+    mark(svg, "text", "", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, `C${"₁₂"[module]}`);
+    mark(svg, "text", "", { x: 2, y: TOP + 30, "font-style": "italic" }, `B${"₁₂"[module]}`);
     for (const [series, line] of Object.entries(manifold)) {
       const stable = series === "SIM stable";
-      shape(svg, "polyline", {
+      mark(svg, "polyline", "", {
         points: line.map(([C, B]) => `${this.x(C)},${this.y(B)}`).join(" "), fill: "none", stroke: "#1a1a1a",
         "stroke-width": stable ? 2.4 : 1.3, "stroke-dasharray": stable ? "none" : "6 4",
       });
     }
-    this.layer = shape(svg, "g", {});
+    this.layer = mark(svg, "g", "", {});
   }
 
   // Letters stand below the curve, outside the bend; where two would meet, the second stands above it.
@@ -46,13 +46,13 @@ class Plane {
     for (const { name, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
       const hue = colour(track), [x, y] = [this.x(C[module]), this.y(B[module])];
       const fill = verdicts.theory === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
-      shape(this.layer, "circle", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": name });
+      mark(this.layer, "circle", "", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": name });
       if (verdicts.exact in RINGS) {
-        shape(this.layer, "circle", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.exact], "data-exact": verdicts.exact });
+        mark(this.layer, "circle", "", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.exact], "data-exact": verdicts.exact });
       }
       const below = x - last > 20;
       last = x;
-      shape(this.layer, "text", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: hue, "font-weight": 600 }, name);
+      mark(this.layer, "text", "", { x: x + (below ? 11 : -11) * side, y: y + (below ? 18 : -11), "text-anchor": "middle", fill: hue, "font-weight": 600 }, name);
     }
   }
 }
@@ -66,15 +66,15 @@ class Branches {
     this.x = (value) => LEFT + ((value - low) / (high - low)) * (WIDTH - LEFT - RIGHT);
     const y = (C) => HEIGHT - BOTTOM - (C / top) * (HEIGHT - BOTTOM - TOP);
     frame(svg, "Exact orbits over the force");
-    for (let value = Math.ceil(5 * low); value <= 5 * high; value++) shape(svg, "text", { x: this.x(value / 5), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, (value / 5).toFixed(1));
-    for (let C = 0; C <= top; C += 0.5) shape(svg, "text", { x: LEFT - 6, y: y(C) + 4, "text-anchor": "end" }, C);
-    shape(svg, "text", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, "f̂₂₀");
-    shape(svg, "text", { x: 2, y: TOP + 30, "font-style": "italic" }, "C₂");
+    for (let value = Math.ceil(5 * low); value <= 5 * high; value++) mark(svg, "text", "", { x: this.x(value / 5), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, (value / 5).toFixed(1));
+    for (let C = 0; C <= top; C += 0.5) mark(svg, "text", "", { x: LEFT - 6, y: y(C) + 4, "text-anchor": "end" }, C);
+    mark(svg, "text", "", { x: WIDTH - 60, y: HEIGHT - 4, "font-style": "italic" }, "f̂₂₀");
+    mark(svg, "text", "", { x: 2, y: TOP + 30, "font-style": "italic" }, "C₂");
     for (const { track, C, value, exact } of all) {
       const stable = exact === "stable";
-      shape(svg, "circle", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": exact });
+      mark(svg, "circle", "", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": exact });
     }
-    this.cursor = shape(svg, "line", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: "#4a4a4a", "stroke-width": 1.2 });
+    this.cursor = mark(svg, "line", "", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: "#4a4a4a", "stroke-width": 1.2 });
   }
 
   show(index) {
@@ -90,9 +90,9 @@ class Circle {
     this.unit = (HEIGHT - BOTTOM - TOP) / 2 / FAR;
     this.centre = [LEFT + 8 + FAR * this.unit, (TOP + HEIGHT - BOTTOM) / 2];
     const [cx, cy] = this.centre;
-    for (const x of [-1, 0, 1]) shape(svg, "text", { x: cx + x * this.unit, y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, x);
-    shape(svg, "circle", { cx, cy, r: this.unit, fill: "none", stroke: "#1a1a1a", "stroke-width": 1.3 });
-    this.layer = shape(svg, "g", {});
+    for (const x of [-1, 0, 1]) mark(svg, "text", "", { x: cx + x * this.unit, y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, x);
+    mark(svg, "circle", "", { cx, cy, r: this.unit, fill: "none", stroke: "#1a1a1a", "stroke-width": 1.3 });
+    this.layer = mark(svg, "g", "", {});
   }
 
   show(index, points) {
@@ -103,57 +103,28 @@ class Circle {
         const modulus = Math.hypot(real, imaginary), inside = Math.min(1, (FAR - 0.1) / modulus);
         const [x, y] = [this.centre[0] + real * inside * this.unit, this.centre[1] - imaginary * inside * this.unit];
         const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": exact };
-        if (track) shape(this.layer, "circle", { cx: x, cy: y, r: 3.6, ...style });
-        else shape(this.layer, "rect", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
+        if (track) mark(this.layer, "circle", "", { cx: x, cy: y, r: 3.6, ...style });
+        else mark(this.layer, "rect", "", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
         if (inside < 1) far.push([`${names[track] ?? "pair"}: ${modulus.toPrecision(3)}`, colour(track)]);
       }
     }
     const place = { x: WIDTH - RIGHT - 6, "text-anchor": "end" };
-    if (far.length) shape(this.layer, "text", { ...place, y: TOP + 18 }, "farther out:");
-    far.sort().forEach(([text, fill], n) => shape(this.layer, "text", { ...place, y: TOP + 35 + 16 * n, fill, "data-far": "" }, text));
-  }
-}
-
-// What the chapter says of a branch and what its exact orbit is, in a line each.
-class Badges {
-  constructor(list) { this.list = list; }
-
-  show(points, orbits) {
-    const line = (name, hue, words, verdicts) => {
-      const entry = document.createElement("li"), letter = document.createElement("b");
-      Object.assign(letter, { textContent: name });
-      letter.style.color = hue;
-      entry.append(letter, ` ${words}`);
-      for (const [who, verdict] of verdicts) {
-        const badge = document.createElement("span");
-        badge.className = `badge ${verdict === "stable" ? "yes" : "no"}`;
-        badge.textContent = `${who}: ${verdict}`;
-        entry.append(" ", badge);
-      }
-      return entry;
-    };
-    const pair = orbits.find(({ track }) => !track);
-    const lines = points.map(({ name, label, track, verdicts }) => {
-      return line(name, colour(track), name === label ? "" : `(${label} in the chapter’s order)`, [["the chapter says", verdicts.printed_10_26], ["exact", verdicts.exact]]);
-    });
-    this.list.replaceChildren(...lines, ...(pair ? [line("pair", ASYMMETRIC, "of asymmetric orbits", [["the chapter says", "nothing"], ["exact", pair.exact]])] : []));
+    if (far.length) mark(this.layer, "text", "", { ...place, y: TOP + 18 }, "farther out:");
+    far.sort().forEach(([text, fill], n) => mark(this.layer, "text", "", { ...place, y: TOP + 35 + 16 * n, fill, "data-far": "" }, text));
   }
 }
 
 class ForceSweep {
   constructor(root) {
-    this.data = JSON.parse(document.getElementById(root.dataset.source).textContent);
+    this.data = dataOf(root);
     this.slider = root.querySelector("input");
     this.output = root.querySelector("output");
-    this.heads = root.querySelectorAll("th");
     this.rows = root.querySelector("tbody");
     const [first, second, third, fourth] = root.querySelectorAll(".planes svg");
     this.planes = [first, second].map((svg, module) => new Plane(svg, module, this.data.manifold));
     this.branches = new Branches(third, this.data);
     this.circle = new Circle(fourth, this.data);
-    this.badges = new Badges(root.querySelector(".badges"));
     this.names = this.branchNames(this.nearest(Number(root.dataset.start)));
-    this.stations = [...document.querySelectorAll(".station")];
     this.slider.max = this.data.values.length - 1;
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
     for (const button of root.querySelectorAll("button")) {
@@ -186,20 +157,12 @@ class ForceSweep {
     this.planes.forEach((plane, module) => plane.show(points, module));
     this.branches.show(index);
     this.circle.show(index, points);
-    this.badges.show(points, this.data.orbits[index]);
-    this.rows.replaceChildren(...points.map(({ name, C, B, verdicts }) => {
+    this.rows.replaceChildren(...points.map(({ name, label, C, B, verdicts }) => {
       const row = document.createElement("tr");
       const places = [C[0], B[0], C[1], B[1]].map((number) => number.toFixed(3));
-      [name, ...places, ...Object.values(verdicts)].forEach((text, n) => {
-        const cell = row.insertCell();
-        cell.textContent = text;
-        cell.dataset.of = this.heads[n].textContent;
-      });
+      for (const text of [name, label, ...places, ...Object.values(verdicts)]) row.insertCell().textContent = text;
       return row;
     }));
-    // Of the sentences, in the order of their values, the last whose value is passed.
-    const passed = this.stations.filter(({ dataset }) => !(this.data.values[index] < Number(dataset.above ?? -Infinity)));
-    for (const station of this.stations) station.closest("li").hidden = station !== passed.at(-1);
   }
 }
 
