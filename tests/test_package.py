@@ -127,7 +127,6 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     assert {"vibroimpact/figures/kit/vibroimpact.mplstyle", "vibroimpact/py.typed", "vibroimpact/__init__.pyi"} <= {
         *names
     }
-    assert not [name for name in names if name.startswith("vibroimpact_pipeline")]
     assert not [name for name in names if "__pycache__" in name]
 
 

@@ -13,7 +13,7 @@ from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
 
 PAGE, ENGINE = ((ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in ("reliability", "engine"))
-ATTACK = (ROOT / "tests/exact/engine/test_attack.py").read_text(encoding="utf-8")
+ATTACK = (ROOT / "tests/shared/attacks.py").read_text(encoding="utf-8")
 
 
 def test_the_promised_error_is_that_which_is_attacked():

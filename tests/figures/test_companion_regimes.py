@@ -271,23 +271,21 @@ def test_lowest_peaks_are_measured_again_at_their_places_with_a_standard_error(b
     states = starts(companion_absorber.FRESH, balls["seed"] + 1)
     for place in lowest.itertuples():
         mine = balls["design"].query("kappa == @place.kappa")
-        assert place.f10_hat == mine["f10_hat"][(mine["peak"] / mine["f10_hat"]).idxmin()]
+        few = (mine["peak"] / mine["f10_hat"]).nsmallest(companion_absorber.FEW).index
+        assert place.f10_hat in mine["f10_hat"][few].tolist()
         there = SYSTEMS["equal"].with_(kappa=place.kappa, f10_hat=place.f10_hat, f20_hat=place.f20_hat)
-        detunings = np.linspace(-1.0, 1.0, 9)
-        runs = [[] for _ in detunings]
-        for cycles, system in zip(runs, (there.with_(sigma_e_hat=value) for value in detunings), strict=True):
-            state = vi.ensemble(system, states, balls["settle"])["final"]
-            for _ in range(balls["cycles"] - balls["settle"]):
-                run = vi.ensemble(system, state, 1)
-                state = run["final"]
-                cycles.append(run["largest"].max(axis=1) / (0.1 * place.f10_hat))
+        runs = []
+        for value in np.linspace(-1.0, 1.0, 9):
+            system = there.with_(sigma_e_hat=value)
+            seen = vi.ensemble(system, states, balls["cycles"], settle=balls["settle"], by_cycle=True)["largest"]
+            runs.append(seen.max(axis=-1).T / (0.1 * place.f10_hat))
         runs = np.array(runs)  # frequencies, cycles, starts
         assert place.value == pytest.approx(np.percentile(runs, 99, axis=(1, 2)).max(), rel=1e-9)
         assert place.largest == pytest.approx(runs.max(), rel=1e-9)
         others = [np.percentile(np.delete(runs, k, axis=2), 99, axis=(1, 2)).max() for k in range(len(states))]
         assert place.spread**2 == pytest.approx(7 / 8 * np.sum((others - np.mean(others)) ** 2), rel=1e-6, abs=1e-12)
     best = tables["absorber"]["summary"].query("who == 'balls, best kappa'").iloc[0]
-    assert best["swept"] == lowest["swept"].min()
+    assert best["value"] == lowest["value"].min()
 
 
 @pytest.mark.parametrize(

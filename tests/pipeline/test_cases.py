@@ -60,9 +60,9 @@ def test_a_record_tells_of_the_parameter(tmp_path):
 
 
 def test_the_live_page_has_the_cases_that_differ_in_forces():
-    data = json.loads(live_data(None, CONFIG, []))
+    data = json.loads(live_data(CONFIG))
     assert data["system"] == PARAMETERS
-    assert {name: tuple(forces) for name, forces in data["cases"].items()} == FORCES
+    assert {name: tuple(case["forces"]) for name, case in data["cases"].items()} == FORCES
 
 
 @pytest.mark.parametrize(("base", "marked"), [("equal", set(FORCES)), ("soft", {"soft"})])

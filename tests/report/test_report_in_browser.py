@@ -107,9 +107,7 @@ def test_the_slider_of_the_force_shows_the_points_of_the_results_by_keyboard(bro
             for _, label, C1, _, C2, _, printed, masri, slow, _, exact in rows:
                 row = expected.loc[label]
                 assert (float(C1), float(C2)) == pytest.approx((row["C1"], row["C2"]), abs=6e-4)
-                assert [printed, masri, slow, exact] == row[
-                    ["printed_10_26", "fast", "slow", "exact"]
-                ].tolist()
+                assert [printed, masri, slow, exact] == row[["printed_10_26", "fast", "slow", "exact"]].tolist()
             assert len(rows) == len(expected)
         browser.press("ArrowLeft")
         now = browser.run(LETTERS)

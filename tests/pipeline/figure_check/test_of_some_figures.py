@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-FIGURES = "fig10_04", "companion_10_04"
+FIGURES = "fig10_04", "companion_10_05"
 
 
 def checked(tree, *figures):

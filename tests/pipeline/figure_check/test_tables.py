@@ -184,9 +184,9 @@ def numbers(name):
     for column, entry in columns.items():
         kinds = entry.get("compared", ())
         for series, kind in (kinds if isinstance(kinds, dict) else {None: kinds} if kinds else {}).items():
-            rows = table.index if series is None else table.index[(table.iloc[:, :2] == series).any(axis=1)]
-            if series == "others":
-                rows = table.index[~table.iloc[:, :2].isin([*kinds]).any(axis=1)]
+            words = table.iloc[:, :2].itertuples(index=False, name=None)
+            first = [next((word for word in row if word in kinds), "others") for row in words]
+            rows = table.index if series is None else table.index[[word == series for word in first]]
             rows = rows[table.loc[rows, column].notna()]
             if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"] and len(rows):
                 yield column, rows
