@@ -185,7 +185,8 @@ def numbers(name):
         kinds = entry.get("compared", ())
         for series, kind in (kinds if isinstance(kinds, dict) else {None: kinds} if kinds else {}).items():
             words = table.iloc[:, :2].itertuples(index=False, name=None)
-            first = [next((word for word in row if word in kinds), "others") for row in words]
+            named = kinds if isinstance(kinds, dict) else ()
+            first = [next((word for word in row if word in named), "others") for row in words]
             rows = table.index if series is None else table.index[[word == series for word in first]]
             rows = rows[table.loc[rows, column].notna()]
             if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"] and len(rows):
