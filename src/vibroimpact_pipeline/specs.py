@@ -15,6 +15,7 @@ Equations, columns or own words may be the name of a figure that has the same. A
 
 import ast
 from functools import cache
+from pathlib import Path
 
 from vibroimpact_pipeline.cases import own_parameters
 from vibroimpact_pipeline.code import folder
@@ -25,10 +26,10 @@ LIKE |= {"physical_units": "machines"}
 
 
 @cache
-def specs() -> dict[str, dict]:
-    """Return SPEC by figure for all modules of figures that have one; the plotted table is "csv" among its tables."""
+def specs(modules=None) -> dict[str, dict]:
+    """Return SPEC by figure for all modules (of a folder, by default ours) that have one; the plotted table is "csv" among its tables."""
     found = {}
-    for path in sorted(folder("figures").glob("*.py")):
+    for path in sorted(Path(modules or folder("figures")).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)

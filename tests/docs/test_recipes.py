@@ -105,6 +105,7 @@ def test_a_figure_can_be_added(project):
         assert (project / f"results/figures/companion_mine.{kind}").stat().st_size > 1000
     record = json.loads((project / "results/figures/companion_mine.provenance.json").read_text())
     assert set(record["config"]) == {"system.kappa", "figures.fig10_04.C_max"}
+    assert "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in page(*read(project.path))
     folder = project / "results/figures"
     for figure in ("strong_planes", "strong_motion"):
         assert (folder / f"{figure}.png").stat().st_size > 1000
