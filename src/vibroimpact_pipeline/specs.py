@@ -27,7 +27,7 @@ LIKE |= {"physical_units": "machines"}
 
 @cache
 def specs(modules=None) -> dict[str, dict]:
-    """Return SPEC by figure for all modules of a folder (ours) that have one; the plotted table is "csv" of its tables."""
+    """Return SPEC by figure for all modules of a folder; the plotted table is "csv" among its tables."""
     found = {}
     for path in sorted(Path(modules or folder("figures")).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
