@@ -10,7 +10,7 @@ import yaml
 from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
-from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.git import committed, git
 from vibroimpact_pipeline.results import digest_of, records
 
 WORKFLOW = "Snakefile"
@@ -44,9 +44,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
     Raises:
         ValueError: the checkout is no git checkout, or differs from its commit.
     """
-    commit = git("rev-parse", "HEAD", root=root)
-    if commit is None or git("status", "--porcelain", root=root):
-        raise ValueError("archive: commit all changes first: the archive holds a commit and what it makes")
+    commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
     time, date = git("log", "-1", "--format=%ct %cI", root=root).split()
     with tempfile.TemporaryDirectory(dir=Path(output).parent) as folder:

@@ -1,6 +1,7 @@
 """Output of git commands in the checkout."""
 
 import subprocess
+from pathlib import Path
 
 
 def git(*arguments: str, root=".") -> str | None:
@@ -18,3 +19,15 @@ def _run(*arguments, root):
     except (OSError, subprocess.CalledProcessError):
         return None
     return run.stdout.strip()
+
+
+def committed(root: Path) -> str:
+    """Return the commit of a clean git checkout.
+
+    Raises:
+        ValueError: it is no git checkout, or differs from its commit.
+    """
+    commit = git("rev-parse", "HEAD", root=root)
+    if commit is None or git("status", "--porcelain", root=root):
+        raise ValueError("archive: commit all changes first: the archive holds a commit and what it makes")
+    return commit

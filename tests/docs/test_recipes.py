@@ -144,20 +144,31 @@ def test_parameters_can_be_swept(project):
 
 
 def test_machines_can_be_designed(tmp_path):
-    """Without a build: closed forms are printed as the page says them, motions with nearly the same numbers."""
+    """Without a build: closed forms as the page prints them, the peak nearly so.
+
+    Chaotic motions differ from one kind of processor to another, and with them which of several clearances is best.
+    """
     project = copied(ROOT, tmp_path / "project")
     page = (ROOT / "docs/howto_design.md").read_text(encoding="utf-8")
     pages = re.findall(r"prints:\n\n((?: {4}.*\n)+)", page)
     number = r"\d+(?:\.\d+)?"
     for printed, said in zip(follow("howto_design", project), pages, strict=True):
-        lines = [line for line in printed.splitlines() if "compiling" not in line]
-        told = [line[4:] for line in said.splitlines()]
+        lines, told = (
+            [
+                line.removeprefix("    ")
+                for line in text.splitlines()
+                if "compiling" not in line and "had not settled" not in line
+            ]
+            for text in (printed, said)
+        )
         assert [re.sub(number, "", line) for line in lines] == [re.sub(number, "", line) for line in told]
         for one, other in zip(lines, told, strict=True):
-            exact = "ball fixed" in one or "absorber" in one
-            assert [float(n) for n in re.findall(number, one)] == pytest.approx(
-                [float(n) for n in re.findall(number, other)], rel=0 if exact else 0.1
-            )
+            if any(words in one for words in ("ball fixed", "absorber", "natural", "balls fixed", "without balls")):
+                assert one == other
+            elif "largest displacement" in one:
+                assert [float(n) for n in re.findall(number, one)] == pytest.approx(
+                    [float(n) for n in re.findall(number, other)], rel=0.1
+                )
     assert (project / "design.png").exists()
     table = pd.read_csv(project / "design.csv")
     assert table["with_m"].max() < 0.4 * table["without_m"].max()

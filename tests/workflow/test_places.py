@@ -185,4 +185,4 @@ def test_jobs_use_the_library_beside_the_rules(tree):
     module = "src/vibroimpact/figures/fig10_04.py"
     tree.edit(module, "def compute(", "print('library:', __file__)\n\n\ndef compute(")
     tree.snakemake(FIGURE, PYTHONPATH="/nowhere")
-    assert f"library: {tree / module}\n" in (tree / f"results/logs/figures/{FIGURE}.log").read_text()
+    assert f"library: {tree / module}" in (tree / f"results/logs/figures/{FIGURE}.ipynb").read_text()

@@ -10,7 +10,7 @@ COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
 
 rule archive:
     input:
-        rules.all.input,
+        results_of_a_commit,
     output:
         archive=f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
     params:

@@ -38,6 +38,7 @@ elif importlib.util.find_spec("vibroimpact_pipeline") is None:
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
+from vibroimpact_pipeline.git import committed
 from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
@@ -241,3 +242,12 @@ def existing_outputs():
 onstart:
     if missing := missing_libraries():
         refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
+
+
+def results_of_a_commit(wildcards):
+    """Refused before anything is built, rather than after it."""
+    try:
+        committed(ROOT)
+    except ValueError as error:
+        refuse(str(error))
+    return rules.all.input
