@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.system import System
 from vibroimpact.system.extras import need
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.response import leading_order
 
 need("figures", "pandas")

@@ -11,7 +11,7 @@ from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
 CHECKS = (

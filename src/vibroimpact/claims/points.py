@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from vibroimpact.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
-from vibroimpact.theory.fixed_points.search import fixed_points, labels, search
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import rates
 

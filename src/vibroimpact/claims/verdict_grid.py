@@ -9,7 +9,7 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
 from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 

@@ -15,7 +15,7 @@ from vibroimpact.figures.kit.tables import join
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
-from vibroimpact.theory.fixed_points.search import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
 SPEC = {
     "title": "Fixed points over the second force",

@@ -63,7 +63,7 @@ def _refuse_resonance(system):
         return
     # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
     from vibroimpact.exact.orbits.impulse_response import ImpulseResponse
-    from vibroimpact.theory.fixed_points.search import refuse_free_motion
+    from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
     refuse_free_motion(system)
     for sign in () if system.has_undriven_module else (1, -1):

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.system.extras import need
-from vibroimpact.theory.asymmetric import search as asymmetric
+from vibroimpact.theory.asymmetric import asymmetric_points as asymmetric
 from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, LARGE, SMALL, series
-from vibroimpact.theory.fixed_points.search import search
+from vibroimpact.theory.fixed_points.symmetric_points import search
 
 need("reference", "flint")
 
