@@ -5,10 +5,10 @@ import pytest
 
 from vibroimpact.accuracy.stress_tests import ENDLESS, RIGHT, WRONG, judge, stress_tests
 from vibroimpact.integrators import moreau_jean
-from vibroimpact.integrators.contact import Contacts
 from vibroimpact.integrators.leading_order import LeadingOrder, steady_state
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
 from vibroimpact.integrators.right_hand_side import coefficients
+from vibroimpact.integrators.rigid_contact import Contacts
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 
