@@ -11,7 +11,7 @@ from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import digest_of, records
+from vibroimpact_pipeline.result_records import digest_of, records
 
 WORKFLOW = "Snakefile"
 

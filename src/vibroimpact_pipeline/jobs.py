@@ -11,7 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from vibroimpact_pipeline import code
-from vibroimpact_pipeline.results import (
+from vibroimpact_pipeline.result_records import (
     ModifiedResult,
     checked_digests,
     partial_path,

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from vibroimpact_pipeline import code
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import RESULTS, digest_of, is_result
+from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
 CONFIG = "config/config.yaml"

@@ -42,7 +42,7 @@ from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.results import PARTIAL, distrust
+from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"

@@ -9,7 +9,7 @@ from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.figure_check.check import PASSED, check_all, has_failed, lines
 from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.results import replacing
+from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
 BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from vibroimpact.figures.kit.tables import read
 from vibroimpact.figures.kit.versions import drawn_with
 from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.tables import compare
+from vibroimpact_pipeline.figure_check.table_distances import compare
 from vibroimpact_pipeline.specs import each
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.claims.points import CAPTIONS
+from vibroimpact.claims.point_checks import CAPTIONS
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
 from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit

@@ -9,9 +9,9 @@ from chapter import PARAMETERS
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_08
 from vibroimpact.figures.kit.tables import curve, join, read
-from vibroimpact_pipeline.figure_check import tables
+from vibroimpact_pipeline.figure_check import table_distances
 from vibroimpact_pipeline.figure_check.check import kept
-from vibroimpact_pipeline.figure_check.tables import FAR, KINDS, MEASURES, compare
+from vibroimpact_pipeline.figure_check.table_distances import FAR, KINDS, MEASURES, compare
 from vibroimpact_pipeline.specs import each, specs
 
 SPECS = specs()
@@ -315,4 +315,4 @@ def test_every_kind_is_used_and_every_column_of_numbers_has_one_that_there_is():
             for column in each(table["columns"]).values():
                 kinds = column.get("compared", ())
                 used |= set(kinds.values()) if isinstance(kinds, dict) else {kinds} if kinds else set()
-    assert used == set(tables.KINDS)
+    assert used == set(table_distances.KINDS)
