@@ -185,9 +185,9 @@ def scene(figure, *paths):
     own_settings = config["figures"][figure]
     case, notebook = own_settings.get("case"), own_settings["notebook"]
     params = figure_params(figure, [f"figures.{figure}.*", *(path.format(case=case) for path in paths)], case)
-    said = {"case": title_of(config, case)} if case else {}
+    title = {"case": title_of(config, case)} if case else {}
     return params | {
-        "scene": own_settings | said,
+        "scene": own_settings | title,
         "code": PIPELINE | fingerprints(f"notebooks/{notebook}.ipynb"),
     }
 

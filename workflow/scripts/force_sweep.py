@@ -20,9 +20,9 @@ def for_page(found: dict, values: list) -> dict:
     points = {value: [] for value in values}
     rows = found["points"].sort_values(["value", "label"]).round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4))
     for row in rows.to_dict("records"):
-        said = {name: row[name] for name in VERDICTS}
+        verdicts = {name: row[name] for name in VERDICTS}
         place = {"label": row["label"], "track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
-        points[row["value"]].append(place | {"verdicts": said})
+        points[row["value"]].append(place | {"verdicts": verdicts})
     orbits = {value: [] for value in values}
     for (value, track, C1, C2), rows in found["orbits"].groupby(["value", "track", "C1", "C2"]):
         place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "exact": rows["exact"].iloc[0]}
