@@ -6,7 +6,7 @@ from vibroimpact.claims.verdict_table import NO_ORBIT, partners, with_former_nam
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
-from vibroimpact.regimes.cells import plane_of_forces
+from vibroimpact.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
