@@ -5,10 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
+from vibroimpact.claims.verdict_table import FORMER
 from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
+from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
+from vibroimpact.theory.criteria import THEORY
 from vibroimpact_pipeline.jobs import running
 
 
@@ -36,6 +39,6 @@ with running(snakemake) as out:
     values = np.round(np.linspace(*settings["range"], settings["values"]), 6).tolist()
     systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
     found = compute(systems, settings["C_max"])
-    tables.write(found["points"], out.csv)
+    tables.write(with_former_names(found["points"], FORMER | {"fast_and_slow": THEORY}), out.csv)
     Path(out.json).write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
     save(draw(found), vars(out))
