@@ -135,7 +135,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     """All fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1; also those with v^2 in [-1, 0).
 
     Raises:
-        ValueError: system is not a System, or as `fixed_points.search`.
+        ValueError: system is not a System, or as `symmetric_points.search`.
     """
     return [point for point in search(system) if (point.C >= 0).all()]
 
