@@ -1,11 +1,15 @@
 """Results as frames, pictures and sections; branches, sweeps, proofs and absorbers by their public names."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact import frames
+from vibroimpact.accuracy import stress_tests
+from vibroimpact.claims import verdict_table
+from vibroimpact.regimes import onset
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)
@@ -177,3 +181,12 @@ def test_parameters_that_move_together_share_a_dimension():
         vi.to_dataset(rows, ["mass"])
     with pytest.raises(ValueError, match=r"^rows: 4 rows are not one for each point"):
         vi.to_dataset(rows, ["kappa"])
+
+
+@pytest.mark.parametrize("former", [stress_tests.FORMER, onset.FORMER, verdict_table.FORMER])
+def test_columns_stay_under_their_former_names_last(former):
+    names = list(former.values())
+    table = frames.with_former_names(pd.DataFrame(np.eye(len(names)), columns=names), former)
+    assert list(table) == [*names, *former]
+    for old, new in former.items():
+        assert table[old].equals(table[new].rename(old))

@@ -109,7 +109,7 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
         "vibroimpact.absorbers",
     )
     assert {name for name in lacking if name.startswith(science)} == {
-        "vibroimpact.theory.certify",
+        "vibroimpact.theory.completeness_proof",
         "vibroimpact.exact.orbits.certify",
         "vibroimpact.exact.orbits.proof",
     }

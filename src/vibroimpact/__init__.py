@@ -6,8 +6,8 @@ from importlib.metadata import version
 _PUBLIC = {
     "System": "vibroimpact.system",
     "PhysicalSystem": "vibroimpact.system",
-    "fixed_points": "vibroimpact.theory.fixed_points.search",
-    "FixedPoint": "vibroimpact.theory.fixed_points.search",
+    "fixed_points": "vibroimpact.theory.fixed_points.symmetric_points",
+    "FixedPoint": "vibroimpact.theory.fixed_points.symmetric_points",
     "orbits": "vibroimpact.exact.orbits.search",
     "Orbit": "vibroimpact.exact.orbits.search",
     "prove": "vibroimpact.exact.orbits.search",

@@ -38,7 +38,7 @@ from vibroimpact.system.state import IMPACT as IMPACT
 from vibroimpact.system.state import KINDS as KINDS
 from vibroimpact.system.state import RELEASE as RELEASE
 from vibroimpact.system.state import STICK as STICK
-from vibroimpact.theory.fixed_points.search import FixedPoint as FixedPoint
-from vibroimpact.theory.fixed_points.search import fixed_points as fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint as FixedPoint
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points as fixed_points
 
 __version__: str

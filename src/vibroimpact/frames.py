@@ -3,7 +3,7 @@
 None of pandas, xarray and Matplotlib is imported before it is needed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,6 +38,15 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     raise ValueError(
         f"result: a {kind} is no run, no ensemble, no basins and no list of fixed points, orbits, branches or rows"
     )
+
+
+def with_former_names(table: "pandas.DataFrame", former: Mapping[str, str]) -> "pandas.DataFrame":
+    """The table with some columns under their former names as well, last: they stay for one release.
+
+    Args:
+        former: name of a column by its former name.
+    """
+    return table.assign(**{old: table[name] for old, name in former.items()})
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":

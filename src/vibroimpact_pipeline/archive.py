@@ -11,7 +11,7 @@ from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from vibroimpact_pipeline.git import committed, git
-from vibroimpact_pipeline.results import digest_of, records
+from vibroimpact_pipeline.result_records import digest_of, records
 
 WORKFLOW = "Snakefile"
 
@@ -21,7 +21,7 @@ def results_behind(targets: list[str]) -> list[Path]:
 
     What was made on demand and is not behind them stays out: it may be of an older commit.
     """
-    known = {path: made for path, made in records().items() if Path(path).is_file()}
+    known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
     while pending:
         path = pending.pop()
@@ -29,7 +29,7 @@ def results_behind(targets: list[str]) -> list[Path]:
             behind.add(path)
             pending += known[path].get("inputs", ())
     rules = {known[path].get("rule") for path in behind}
-    return sorted(Path(path) for path, made in known.items() if made.get("rule") in rules)
+    return sorted(Path(path) for path, record in known.items() if record.get("rule") in rules)
 
 
 def write(root: Path, results: list[Path], titles: dict[str, str], output) -> None:
@@ -65,25 +65,26 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
 
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
     """Return the RO-Crate of a folder: authors, licence, and a description of each file."""
-    made = ROCrate()
-    workflow = made.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
+    described = ROCrate()
+    workflow = described.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
     authors = [
-        ContextEntity(made, f"#author-{number}", properties={"@type": "Organization", "name": author["name"]})
+        ContextEntity(described, f"#author-{number}", properties={"@type": "Organization", "name": author["name"]})
         for number, author in enumerate(cited["authors"], 1)
     ]
-    made.add(*authors)
-    made.name, made.description = cited["title"], f"Sources of commit {commit} and what the default build made of them."
-    made.license = f"https://spdx.org/licenses/{cited['license']}"
-    made.root_dataset["author"] = workflow["author"] = authors
-    made.datePublished = date
-    made.root_dataset["version"], made.root_dataset["identifier"] = cited["version"], commit
+    described.add(*authors)
+    described.name = cited["title"]
+    described.description = f"Sources of commit {commit} and what the default build made of them."
+    described.license = f"https://spdx.org/licenses/{cited['license']}"
+    described.root_dataset["author"] = workflow["author"] = authors
+    described.datePublished = date
+    described.root_dataset["version"], described.root_dataset["identifier"] = cited["version"], commit
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = str(path.relative_to(folder))
         if name != WORKFLOW:
             about = titles.get(path.name.split(".")[0], name)
-            told = {"name": about, "contentSize": str(path.stat().st_size), "sha256": digest_of(path)}
-            made.add_file(None, name, properties=told)
-    return made
+            properties = {"name": about, "contentSize": str(path.stat().st_size), "sha256": digest_of(path)}
+            described.add_file(None, name, properties=properties)
+    return described
 
 
 def _plain(member: tarfile.TarInfo, time: int) -> tarfile.TarInfo:

@@ -52,7 +52,7 @@ def files(known: dict, data: dict) -> list[File]:
     found = []
     for entry in [{**table, "files": [table["file"]]} for table in tables] + data["files"]:
         listed = each(entry.get("columns", {}))
-        own = [name for name, said in listed.items() if name not in shared or said.keys() - {"compared", "infinite"}]
+        own = [name for name, entry in listed.items() if name not in shared or entry.keys() - {"compared", "infinite"}]
         known_columns, keys = columns({"columns": listed}, shared), each(entry.get("keys", {}))
         found.append(File(entry["files"], entry["about"], known_columns, own, keys, entry.get("on_demand", {})))
     return found
@@ -85,7 +85,7 @@ def _section(file):
     if file.own:
         yield _columns({name: file.columns[name] for name in file.own})
     if file.keys:
-        yield _table(["key", "meaning"], ((f"`{key}`", said) for key, said in file.keys.items()))
+        yield _table(["key", "meaning"], ((f"`{key}`", meaning) for key, meaning in file.keys.items()))
 
 
 def _columns(listed):

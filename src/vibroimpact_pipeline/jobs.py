@@ -11,7 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from vibroimpact_pipeline import code
-from vibroimpact_pipeline.results import (
+from vibroimpact_pipeline.result_records import (
     ModifiedResult,
     checked_digests,
     partial_path,
@@ -90,8 +90,8 @@ def logging_to(path) -> Iterator[None]:
         try:
             yield
         except BaseException as error:
-            said = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
-            os.write(terminal, f"{said}\nThe whole log is {path}\n".encode())
+            message = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
+            os.write(terminal, f"{message}\nThe whole log is {path}\n".encode())
             raise
 
 

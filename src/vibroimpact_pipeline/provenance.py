@@ -14,7 +14,7 @@ from pathlib import Path
 
 from vibroimpact_pipeline import code
 from vibroimpact_pipeline.git import git
-from vibroimpact_pipeline.results import RESULTS, digest_of, is_result
+from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
 CONFIG = "config/config.yaml"
@@ -29,14 +29,14 @@ def write(job, out) -> None:
         out: temporary paths of its outputs.
     """
     folder = Path(job.output.provenance).parent
-    made = {path: getattr(out, name) for name, path in job.output.items() if name not in ("html", "provenance")}
+    outputs = {path: getattr(out, name) for name, path in job.output.items() if name not in ("html", "provenance")}
     changes = git("status", "--porcelain", root=code.ROOT)
     record = {
         "figure": job.params.figure,
         "config": job.params.config,
         "code": dict(job.params.code),
         "inputs": {os.path.relpath(path, folder): digest_of(path) for path in job.input if is_result(path)},
-        "files": {os.path.relpath(path, folder): digest_of(partial) for path, partial in made.items()},
+        "files": {os.path.relpath(path, folder): digest_of(partial) for path, partial in outputs.items()},
         "versions": {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}},
         "commit": git("rev-parse", "HEAD", root=code.ROOT),
         "tree": {None: None, "": "clean"}.get(changes, "modified"),
@@ -57,21 +57,21 @@ def read(path) -> dict:
         raise ValueError(f"{path} has no record of where it comes from") from None
 
 
-def differences(path, made: dict, config: dict) -> Iterator[str]:
+def differences(path, record: dict, config: dict) -> Iterator[str]:
     """Yield one line per change since the figure was made.
 
     Args:
         path: of the figure's file.
-        made: its record.
+        record: of the figure.
         config: the config of today, checked.
     """
-    for place, value in made["config"].items():
+    for place, value in record["config"].items():
         if (now := _at(config, place)) != value:
             yield f"config, {place}: is {now}, was {value}"
-    for part, fingerprint in made["code"].items():
+    for part, fingerprint in record["code"].items():
         if code.fingerprint(part) != fingerprint:
             yield f"{part}: has changed"
-    for name, digest in {**made["inputs"], **made["files"]}.items():
+    for name, digest in {**record["inputs"], **record["files"]}.items():
         file = Path(os.path.normpath(Path(path).parent / name))
         if not file.is_file() or digest_of(file) != digest:
             yield f"{file}: is not the one of then"
@@ -101,13 +101,13 @@ def main() -> int:
     build = next((folder.parent for folder in file.resolve().parents if folder.name == RESULTS), code.ROOT)
     settings = next(path for path in (build / CONFIG, code.ROOT / CONFIG) if path.is_file())
     try:
-        made, config = read(file), checked(read_config(settings))
+        record, config = read(file), checked(read_config(settings))
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2
-    found = list(differences(file, made, config))
-    commit, tree = made.get("commit") or "not known", made.get("tree") or "without git"
-    print(f"{file}: {made['figure']}, made from commit {commit} ({tree})")
+    found = list(differences(file, record, config))
+    commit, tree = record.get("commit") or "not known", record.get("tree") or "without git"
+    print(f"{file}: {record['figure']}, made from commit {commit} ({tree})")
     print(*found, f"{len(found)} difference(s)." if found else "It is what this checkout makes.", sep="\n")
     return int(bool(found))
 

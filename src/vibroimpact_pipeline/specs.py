@@ -33,7 +33,7 @@ def specs(modules=None) -> dict[str, dict]:
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)
-    made = {}
+    complete = {}
     for figure, spec in found.items():
         shared = {
             name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name)
@@ -44,9 +44,9 @@ def specs(modules=None) -> dict[str, dict]:
         if "on_demand" in spec:
             plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
-        said = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
-        made[figure] = said | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
-    return made
+        own = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
+        complete[figure] = own | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
+    return complete
 
 
 def drawn_by(figure: str, scene: dict, known: dict) -> str:

@@ -11,7 +11,7 @@ from chapter import PARAMETERS
 from vibroimpact.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.absorbers.references import fixed_balls, tuned, without_balls
 from vibroimpact.absorbers.tuning import den_hartog
-from vibroimpact.system.energy import stored_energy
+from vibroimpact.system.stored_energy import stored_energy
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 FREE = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0)

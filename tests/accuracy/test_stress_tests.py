@@ -75,6 +75,8 @@ SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
 def test_verdicts(result, verdict):
     (row,) = table.judge(AT_REST, [Scripted(result)])
     assert row["verdict"] == verdict
+    doubt = result.failure.reason if result.failure else result.doubt()
+    assert (row["test"], row["reason"]) == (AT_REST.name, doubt or "")
 
 
 def test_a_motion_that_has_not_settled_is_no_reference():

@@ -136,7 +136,7 @@ def test_in_every_panel_heyoka_is_met_where_it_is_accurate_and_where_it_is_faste
     assert chosen == {"a": ("1e-06", "1e-06"), "b": ("", "")}
     ratios = [(row["at 1e-06"], row["at its fastest"]) for row in table.values()]
     np.testing.assert_allclose(ratios, [(4, 4), (np.nan, np.nan)])
-    assert [row["says"] for row in table.values()] == ["", "heyoka: no build"]
+    assert [row["reason"] for row in table.values()] == ["", "heyoka: no build"]
 
 
 def test_the_comparison_takes_the_fastest_settings_that_suffice_and_the_most_accurate_heyoka():

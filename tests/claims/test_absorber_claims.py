@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from vibroimpact.claims import absorber
+from vibroimpact.claims import absorber_checks
 from vibroimpact.claims.finding import HOLDS, IN_PART, OPEN, REFUTED
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
@@ -22,17 +22,17 @@ def systems(**changes):
 
 def test_nearly_elastic_balls_do_not_absorb(monkeypatch):
     """They pass the energy on: what is lost is lost in the dampers, as without them."""
-    monkeypatch.setattr(absorber, "IMPULSES", absorber.IMPULSES[3::4])
+    monkeypatch.setattr(absorber_checks, "IMPULSES", absorber_checks.IMPULSES[3::4])
     inelastic, elastic = systems(), systems(kappa=0.99)
     most = "impacts take most of the energy of some shock"
-    assert [absorber.absorbs_rapidly(one).parts[most] for one in (inelastic, elastic)] == [True, False]
+    assert [absorber_checks.absorbs_rapidly(one).parts[most] for one in (inelastic, elastic)] == [True, False]
     felt = "felt for a shorter time, if a ball meets a wall"
-    assert [absorber.suppresses_shocks(one).parts[felt] for one in (inelastic, elastic)] == [True, False]
+    assert [absorber_checks.suppresses_shocks(one).parts[felt] for one in (inelastic, elastic)] == [True, False]
 
 
 def test_boxes_without_dampers_ring_until_balls_stop_them():
     """What impacts take is then all that is lost, by the balance of energy: nine tenths when a tenth is left."""
-    finding = absorber.absorbs_rapidly(systems(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0))
+    finding = absorber_checks.absorbs_rapidly(systems(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0))
     assert finding.verdict == HOLDS
     assert finding.numbers["without balls"] == np.inf
     assert finding.numbers["shares of the impacts"][:3] == [0.0, 0.0, 0.0]
@@ -44,13 +44,13 @@ def test_boxes_without_dampers_ring_until_balls_stop_them():
 def test_impacts_take_most_of_the_energy_of_some_shocks_only():
     """By what a collision with restitution loses, summed over the impacts."""
     system = systems().system.with_(f10_hat=0.0, f20_hat=0.0)
-    finding = absorber.absorbs_rapidly(systems())
+    finding = absorber_checks.absorbs_rapidly(systems())
     assert finding.verdict == IN_PART
     assert [part for part, holds in finding.parts.items() if not holds] == [
         "of every shock that brings a ball to a wall"
     ]
     shares = finding.numbers["shares of the impacts"]
-    for impulse, time, share in zip(absorber.IMPULSES, finding.numbers["times with balls"], shares, strict=True):
+    for impulse, time, share in zip(absorber_checks.IMPULSES, finding.numbers["times with balls"], shares, strict=True):
         run = simulate(system, [0, 0, 0, 0, impulse, 0, 0, 0], int(np.ceil(time / system.period)))
         impacts = run.events[run.events["kind"] == IMPACT]
         box = 2 + 2 * impacts["module"]
@@ -85,7 +85,7 @@ def table_of_peaks(**values):
 def test_efficiency_is_a_peak_lower_than_without_balls_and_with_fixed_ones(value, spread, expected):
     """By twice its spread. If that is *very* efficient is left open; linear absorbers are no part of it."""
     table = table_of_peaks(balls=(value, spread))
-    assert absorber.efficient(SimpleNamespace(absorber=table)).verdict == expected
+    assert absorber_checks.efficient(SimpleNamespace(absorber=table)).verdict == expected
 
 
 @pytest.mark.parametrize(
@@ -104,6 +104,6 @@ def test_an_optimum_is_inside_what_was_tried_and_beyond_the_spread(best, own, at
     clearance = pd.DataFrame({"f10_hat": force, "peak": 0.1 * force * ratio})
     table = table_of_peaks(**{"balls": own, "balls, best kappa": best})
     evidence = SimpleNamespace(clearance=clearance, absorber=table, system=systems().system.with_(f10_hat=2.0))
-    found = absorber.can_be_optimised(evidence)
+    found = absorber_checks.can_be_optimised(evidence)
     assert found.verdict == expected
     assert found.numbers["peak, of the chapter's"] == pytest.approx(best[0] / ratio[3], rel=1e-12)

@@ -12,17 +12,17 @@ from scipy.optimize import fsolve, newton
 
 import vibroimpact as vi
 from pipeline_trees import ROOT
-from vibroimpact.claims import absorber as absorber_claims
-from vibroimpact.claims import equations as claims_equations
-from vibroimpact.claims import manifold as claims_manifold
-from vibroimpact.claims import points as claims_points
+from vibroimpact.claims import absorber_checks as absorber_claims
+from vibroimpact.claims import equation_checks as claims_equations
+from vibroimpact.claims import manifold_checks as claims_manifold
+from vibroimpact.claims import point_checks as claims_points
 from vibroimpact.claims.finding import HOLDS, IN_PART, MISPRINT, OPEN, REFUTED, VERDICTS, Finding, as_printed
 from vibroimpact.claims.judge import CHECKS, NOT_JUDGED, facts, judge, problems, to_markdown
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import rates
-from vibroimpact_pipeline.evidence import evidence as evidence_of
+from vibroimpact_pipeline.claims_evidence import evidence as evidence_of
 
 DOCUMENT = yaml.safe_load((ROOT / "docs/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}

@@ -10,7 +10,7 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_10
 from vibroimpact.system.state import NAMES
-from vibroimpact.theory.fixed_points.search import labels
+from vibroimpact.theory.fixed_points.symmetric_points import labels
 
 
 def system_of(case):

@@ -5,11 +5,11 @@ import pytest
 
 from vibroimpact.accuracy.stress_tests import ENDLESS, RIGHT, WRONG, judge, stress_tests
 from vibroimpact.integrators import moreau_jean
-from vibroimpact.integrators.contact import Contacts
 from vibroimpact.integrators.leading_order import LeadingOrder, steady_state
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
 from vibroimpact.integrators.right_hand_side import coefficients
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.integrators.rigid_contact import Contacts
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 
 @pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty", "Ivanov", "Ivanov, events"])

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from vibroimpact_pipeline import code, jobs, results
+from vibroimpact_pipeline import code, jobs, result_records
 
 INPUT, OUTPUT, PAGE = Path("results/in.csv"), Path("results/out.csv"), Path("notebooks/page.ipynb")
 
@@ -26,7 +26,7 @@ def job(tmp_path, monkeypatch):
     (library / "theory.py").write_text("rho = 0.65\n")
     INPUT.parent.mkdir()
     INPUT.write_text("1")
-    results.write_record(INPUT, {"rule": "before", "inputs": {}})
+    result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
     PAGE.parent.mkdir()
     PAGE.write_text("{}")
     params = {"code": {part: code.fingerprint_now(part) for part in ("library", str(PAGE))}}
@@ -66,7 +66,7 @@ def edit_under_an_old_date():
 def edit_the_input():
     """Another content with a record that fits it: only this job can tell."""
     INPUT.write_text("0")
-    results.write_record(INPUT, {"rule": "before", "inputs": {}})
+    result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
 
 
 def test_outputs_and_their_records_are_put_in_place_together(job):
@@ -75,8 +75,8 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
         assert Path(out.csv).name == OUTPUT.name
         assert not OUTPUT.exists()
     assert OUTPUT.read_text() == "2"
-    assert results.read_record(OUTPUT)["inputs"] == {str(INPUT): results.digest_of(INPUT)}
-    assert not list(Path("results").glob(f"{results.PARTIAL}*"))
+    assert result_records.read_record(OUTPUT)["inputs"] == {str(INPUT): result_records.digest_of(INPUT)}
+    assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
     with pytest.raises(SystemExit, match="changed while this job ran"), jobs.running(job) as out:
         (Path(out.csv).write_text("2"), change())
     assert not OUTPUT.exists()
-    assert not list(Path("results").glob(f"{results.PARTIAL}*"))
+    assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
         edit_a_style,
         edit_under_an_old_date,
         lambda: INPUT.write_text("0"),
-        results.record_of(INPUT).unlink,
+        result_records.record_of(INPUT).unlink,
     ],
 )
 def test_a_job_does_not_start_with_other_code_or_inputs(job, change):

@@ -10,7 +10,7 @@ from vibroimpact.exact.orbits.asymmetric import asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit
 from vibroimpact.regimes import asymmetric_limit
 from vibroimpact.regimes.epsilon_limit import order
-from vibroimpact.theory.asymmetric.search import fixed_points, search
+from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points, search
 
 EQUAL = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 SMALLER = np.geomspace(0.1, 1e-3, 21)[1:]

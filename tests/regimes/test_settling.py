@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.regimes.cells import plane_of_forces
-from vibroimpact.regimes.character import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
+from vibroimpact.regimes.aperiodic import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
 from vibroimpact.regimes.classification import (
     ASYMMETRIC,
     CHAOS,
@@ -23,6 +22,7 @@ from vibroimpact.regimes.classification import (
     starts,
 )
 from vibroimpact.regimes.lyapunov import Exponent
+from vibroimpact.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.regimes.settling import named, settle
 
 ENDS = {*PERIODIC, IDLE, NO_IMPACTS}

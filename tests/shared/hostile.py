@@ -118,7 +118,7 @@ def results(folder: Path) -> Path:
             run | {"outcome": HOSTILE, "reason": HOSTILE},
         ],
         "accuracy/hazards.csv": [
-            {"group": HOSTILE, "hazard": HOSTILE, "method": HOSTILE, "verdict": "right"}
+            {"group": HOSTILE, "test": HOSTILE, "method": HOSTILE, "verdict": "right"}
             | {"error_state": 1e-9, "missed": 0, "spurious": 0}
         ],
         "force_sweep/force_sweep.csv": [

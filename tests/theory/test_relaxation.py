@@ -6,7 +6,7 @@ from scipy.linalg import expm
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.theory.asymmetric.search import fixed_points
+from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, rho
 from vibroimpact.theory.relaxation import _mean_length, describing_function, lost_at, relax
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances

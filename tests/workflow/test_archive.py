@@ -14,7 +14,7 @@ import pytest
 from archives import archive_of, commit, unpacked
 from pipeline_trees import ROOT, whole_copy
 from vibroimpact_pipeline.archive import results_behind
-from vibroimpact_pipeline.results import write_record
+from vibroimpact_pipeline.result_records import write_record
 
 FIGURE = "results/figures/fig10_04"
 HERE = str(Path(sys.executable).parent)

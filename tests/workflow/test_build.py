@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from vibroimpact_pipeline.results import RECORDS
+from vibroimpact_pipeline.result_records import RECORDS
 
 FIGURES = [f"fig10_{number:02}" for number in range(1, 12)]
 

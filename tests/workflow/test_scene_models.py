@@ -30,12 +30,12 @@ def test_the_tolerance_is_what_a_picture_can_show(table):
 
 def test_levels_stand_in_the_order_of_the_hierarchy(table):
     for _, levels in table.groupby("figure"):
-        places = [scene_models.HIERARCHY.index(name) for name in levels["rung"]]
+        places = [scene_models.HIERARCHY.index(name) for name in levels["level"]]
         assert places == sorted(places)
 
 
 def test_no_unstable_orbit_is_offered_as_an_observed_motion(table):
     """Case weak has no stable 1:1 orbit: the level fails, it does not fall back on an unstable one."""
-    (level,) = table[(table["figure"] == "fig10_11") & (table["rung"] == "orbit")].itertuples()
+    (level,) = table[(table["figure"] == "fig10_11") & (table["level"] == "orbit")].itertuples()
     assert np.isinf(level.error)
     assert level.note == "0 stable orbits"

@@ -43,7 +43,7 @@ from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.results import PARTIAL, distrust
+from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"
@@ -186,9 +186,9 @@ def scene(figure, *paths):
     own_settings = config["figures"][figure]
     case, notebook = own_settings.get("case"), own_settings["notebook"]
     params = figure_params(figure, [f"figures.{figure}.*", *(path.format(case=case) for path in paths)], case)
-    said = {"case": title_of(config, case)} if case else {}
+    title = {"case": title_of(config, case)} if case else {}
     return params | {
-        "scene": own_settings | said,
+        "scene": own_settings | title,
         "code": PIPELINE | fingerprints(f"notebooks/{notebook}.ipynb"),
     }
 

@@ -9,7 +9,7 @@ import pandas as pd
 from vibroimpact.system import System
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config import ConfigError, checked, read
-from vibroimpact_pipeline.results import replacing
+from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import case_parameters
 
 SECONDS = 0.5

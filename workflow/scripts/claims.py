@@ -10,7 +10,7 @@ import yaml
 
 from vibroimpact.claims.judge import judge, to_markdown
 from vibroimpact_pipeline.chapter import unlike
-from vibroimpact_pipeline.evidence import evidence
+from vibroimpact_pipeline.claims_evidence import evidence
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

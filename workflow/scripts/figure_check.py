@@ -9,7 +9,7 @@ from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.figure_check.check import PASSED, check_all, has_failed, lines
 from vibroimpact_pipeline.figure_check.page import page
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.results import replacing
+from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
 BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module
@@ -17,8 +17,8 @@ FOLDER = BUILD / "results/figure_check"
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
 
 with running(snakemake):
-    made = {figure: spec_of(figure, scene, specs()) for figure, scene in snakemake.params.figures.items()}
-    found = check_all(made, ROOT / "figures", BUILD, snakemake.threads)
+    figures = {figure: spec_of(figure, scene, specs()) for figure, scene in snakemake.params.figures.items()}
+    found = check_all(figures, ROOT / "figures", BUILD, snakemake.threads)
     texts = {
         "index.html": page(found, ROOT / "figures", BUILD),
         "figure_check.json": json.dumps(found, indent=1, allow_nan=False) + "\n",
@@ -27,10 +27,10 @@ with running(snakemake):
     for name, text in texts.items():
         with replacing(FOLDER / name) as partial:
             partial.write_text(text, encoding="utf-8")
-    said = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
+    report = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
     if others := " ".join(verdict["figure"] for verdict in found if verdict["status"] != PASSED):
         said += [f'To accept a change on purpose: make accept REASON="why" FIGURES="{others}"']
         said += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
     for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
-        print(*said, sep="\n", file=stream, flush=True)
+        print(*report, sep="\n", file=stream, flush=True)
 sys.exit(int(has_failed(found, snakemake.params.strict)))

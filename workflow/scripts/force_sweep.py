@@ -5,10 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
+from vibroimpact.claims.verdict_table import FORMER
 from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.style import save
+from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
+from vibroimpact.theory.criteria import THEORY
 from vibroimpact_pipeline.jobs import running
 
 
@@ -20,9 +23,9 @@ def for_page(found: dict, values: list) -> dict:
     points = {value: [] for value in values}
     rows = found["points"].sort_values(["value", "label"]).round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4))
     for row in rows.to_dict("records"):
-        said = {name: row[name] for name in VERDICTS}
+        verdicts = {name: row[name] for name in VERDICTS}
         place = {"label": row["label"], "track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
-        points[row["value"]].append(place | {"verdicts": said})
+        points[row["value"]].append(place | {"verdicts": verdicts})
     orbits = {value: [] for value in values}
     for (value, track, C1, C2), rows in found["orbits"].groupby(["value", "track", "C1", "C2"]):
         place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "exact": rows["exact"].iloc[0]}
@@ -36,6 +39,6 @@ with running(snakemake) as out:
     values = np.round(np.linspace(*settings["range"], settings["values"]), 6).tolist()
     systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
     found = compute(systems, settings["C_max"])
-    tables.write(found["points"], out.csv)
+    tables.write(with_former_names(found["points"], FORMER | {"fast_and_slow": THEORY}), out.csv)
     Path(out.json).write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
     save(draw(found), vars(out))

@@ -56,11 +56,11 @@ def the_same_in_each_build(notebook, paths: dict):
 
 with running(snakemake) as out:
     params, outputs = snakemake.params, vars(out)
-    said = words(params.figure, params.scene, params.get("system") or {})
+    texts = words(params.figure, params.scene, params.get("system") or {})
     settings = dict(params.settings)
     parameters = {
         "figure": params.figure,
-        "alt": said["alt"],
+        "alt": texts["alt"],
         **({"case": params.case, **params.system} if params.case else {}),
         **settings.pop("plant", {}),
         **settings,
@@ -71,5 +71,5 @@ with running(snakemake) as out:
     print(f"{snakemake.input.notebook} as it was executed: {executed}")
     done = execute(snakemake.input.notebook, executed, parameters)
     paths = {outputs[name]: path for name, path in snakemake.output.items()}
-    Path(out.html).write_text(page(the_same_in_each_build(done, paths), said["title"]), encoding="utf-8")
+    Path(out.html).write_text(page(the_same_in_each_build(done, paths), texts["title"]), encoding="utf-8")
     provenance.write(snakemake, out)

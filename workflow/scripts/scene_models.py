@@ -12,6 +12,7 @@ from vibroimpact.figures.kit import tables
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.legibility import smallest_visible_error
 from vibroimpact.figures.kit.style import drawn
+from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
@@ -45,4 +46,5 @@ with running(snakemake) as out:
         print(f"{figure}: {len(levels)} levels")
         visible, used = smallest_visible_error(drawn(module, {"csv": table})), scene_models.in_use(scene, simulation)
         rows += scene_models.rows(figure, visible, levels, used, snakemake.params.seconds)
-    tables.write(pd.DataFrame(rows, columns=scene_models.COLUMNS), out.csv)
+    table = pd.DataFrame(rows, columns=scene_models.COLUMNS)
+    tables.write(with_former_names(table, {"rung": "level"}), out.csv)

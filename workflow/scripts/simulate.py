@@ -12,9 +12,9 @@ from vibroimpact.system.state import KINDS, NAMES
 from vibroimpact_pipeline.jobs import running
 
 
-def summarise(made: Window, settings: dict) -> dict:
+def summarise(window: Window, settings: dict) -> dict:
     """Return numbers of the window: events by kind and module, and recurrence errors after 1 to 4 cycles."""
-    events, states = made.events, made.samples[list(NAMES)].to_numpy()
+    events, states = window.events, window.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}
         for kind in KINDS.values()
@@ -25,7 +25,7 @@ def summarise(made: Window, settings: dict) -> dict:
         for cycles in range(1, min(4, settings["window_cycles"]) + 1)
     }
     return {
-        "window": made.samples["tau"].iloc[[0, -1]].tolist(),
+        "window": window.samples["tau"].iloc[[0, -1]].tolist(),
         "events": counts,
         "largest_change_after_cycles": returns,
         "final": states[-1].tolist(),
@@ -34,14 +34,14 @@ def summarise(made: Window, settings: dict) -> dict:
 
 with running(snakemake) as out:
     case, parameters, settings = snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings
-    made = window(System(**parameters), settings)
+    simulated = window(System(**parameters), settings)
     for name in ("samples", "events", "strobe"):
-        tables.write(getattr(made, name), getattr(out, name))
+        tables.write(getattr(simulated, name), getattr(out, name))
     summary = {
         "case": case,
         "system": parameters,
         "settings": settings,
-        **summarise(made, settings),
-        "trust": made.trust,
+        **summarise(simulated, settings),
+        "trust": window.trust,
     }
     Path(out.summary).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")

@@ -11,8 +11,8 @@ from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, LENGTH, WALL
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, whole
-from vibroimpact.system.energy import stored
 from vibroimpact.system.matrices import rate_matrix
+from vibroimpact.system.stored_energy import stored
 
 AT_ONCE = 50
 """Cycles that are simulated before looking."""

@@ -74,7 +74,7 @@ def panels(rows: list[dict]) -> list[dict]:
     """Ratio of heyoka's time to ours in every panel of the chart, from the rows of `work_precision.measure`.
 
     heyoka at the coarsest tolerance whose error of the final state is at most ACCURATE, and at its fastest one with an
-    error below USEFUL; nan, with a word on why in "says", where there is none.
+    error below USEFUL; nan, and why in "reason", where there is none.
     """
     problems = dict.fromkeys(row["problem"] for row in rows)
     return [
@@ -98,7 +98,7 @@ def _against_taylor(rows):
         found[name] = row["seconds_per_cycle"] / ours["seconds_per_cycle"] if row else np.nan
         found[f"tolerance {name}"] = row["setting"] if row else ""
     missing = next((row["reason"] for row in others if row["outcome"] == "unavailable"), "no such run")
-    return found | {"says": "" if all(met.values()) else f"heyoka: {missing}"}
+    return found | {"reason": "" if all(met.values()) else f"heyoka: {missing}"}
 
 
 def _of(rows, method):

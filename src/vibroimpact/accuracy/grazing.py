@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from vibroimpact.accuracy.reference.flow import ExactSystem, rate_matrix, to_ball
+from vibroimpact.accuracy.reference.taylor_models import ExactSystem, rate_matrix, to_ball
 from vibroimpact.system.extras import need
 
 need("reference", "flint")

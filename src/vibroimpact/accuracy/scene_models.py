@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.system import System
 from vibroimpact.system.extras import need
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.response import leading_order
 
 need("figures", "pandas")
@@ -54,7 +54,7 @@ def in_use(scene: dict, simulation: dict | None = None) -> str:
     return "proven simulation" if proven else scene["model"]
 
 
-COLUMNS = ["figure", "rung", "error", "tolerance", "meets", "cost_s", "in_use", "note"]
+COLUMNS = ["figure", "level", "error", "tolerance", "meets", "cost_s", "in_use", "note"]
 
 
 def rows(figure: str, tolerance: float, levels: list[Level], level_in_use: str, seconds: float) -> list[dict]:
@@ -67,7 +67,7 @@ def rows(figure: str, tolerance: float, levels: list[Level], level_in_use: str, 
     return [
         {
             "figure": figure,
-            "rung": level.name,
+            "level": level.name,
             "error": level.error,
             "tolerance": tolerance,
             "meets": level.error <= tolerance,

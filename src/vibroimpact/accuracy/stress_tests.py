@@ -28,6 +28,9 @@ RIGHT, UNDECIDABLE, ERROR, ENDLESS, WRONG, UNAVAILABLE = (
 )
 FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}
 
+FORMER = {"hazard": "test", "says": "reason"}
+"""Columns of `judge` by their former names, which `hazards.csv` has until the next release."""
+
 CHAPTER = PARAMETERS | CASES["equal"]
 
 
@@ -117,15 +120,15 @@ def reference_of(test: StressTest):
 
 
 def _row(test, method, reference):
-    row = {"group": test.group, "hazard": test.name, "method": method.name, "family": method.family}
+    row = {"group": test.group, "test": test.name, "method": method.name, "family": method.family}
     missing = method.available()
     if missing:
-        return {**row, "verdict": UNAVAILABLE, "says": missing}
+        return {**row, "verdict": UNAVAILABLE, "reason": missing}
     row["setting"] = str(method.careful)
     run = method.run(test.system, test.state, test.cycles, 0.0, method.careful)
     row["steps"] = run.steps
     if run.failure:
-        return {**row, "verdict": FAILURES[run.failure.kind], "says": run.failure.reason}
+        return {**row, "verdict": FAILURES[run.failure.kind], "reason": run.failure.reason}
     whole = test.reference_cycles is None
     errors = compare(run, reference, test.system.period, test.faint, events=whole)
     doubt = run.doubt()
@@ -134,7 +137,7 @@ def _row(test, method, reference):
         **row,
         "verdict": UNDECIDABLE if doubt else WRONG if wrong else RIGHT,
         **errors.columns(),
-        "says": doubt or "",
+        "reason": doubt or "",
     }
 
 

@@ -2,14 +2,15 @@
 
 import pandas as pd
 
-from vibroimpact.claims.verdict_table import NO_ORBIT, partners, with_former_names
+from vibroimpact.claims.verdict_table import FORMER, NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
-from vibroimpact.regimes.cells import plane_of_forces
+from vibroimpact.frames import with_former_names
+from vibroimpact.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
@@ -35,7 +36,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
                 for (point, says), found in zip(judged, exact, strict=True)
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
-    return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True))
+    return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True), FORMER)
 
 
 def exact_orbits(system, points, roots):

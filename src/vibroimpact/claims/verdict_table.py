@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.exact.orbits.floquet import floquet
+from vibroimpact.frames import with_former_names
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT, FAST, SLOW
@@ -40,7 +41,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
         numbers += [*np.abs(orbit.multipliers), *orbit.state]
         rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
-    return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT))
+    return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT), FORMER)
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
@@ -66,12 +67,7 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
         rows.append({**row, "orbit": known_as, **says})
     columns = ["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA]
-    return with_former_names(pd.DataFrame(rows, columns=columns))
-
-
-def with_former_names(table: pd.DataFrame) -> pd.DataFrame:
-    """The table with its verdicts under their former names as well, last."""
-    return table.assign(**{former: table[name] for former, name in FORMER.items()})
+    return with_former_names(pd.DataFrame(rows, columns=columns), FORMER)
 
 
 def partners(points, orbits) -> list[int | None]:

@@ -17,7 +17,7 @@ from vibroimpact.system.extras import need
 from vibroimpact.system.state import KINDS
 from vibroimpact.system.state import NAMES as STATE
 from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
 """Every parameter with its default, or None if the case has it."""

@@ -13,7 +13,7 @@ from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes import asymmetric_limit
 from vibroimpact.regimes.epsilon_limit import order
 from vibroimpact.theory.asymmetric import branch
-from vibroimpact.theory.asymmetric.search import fixed_points
+from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
 from vibroimpact.theory.relaxation import lost_at, relax

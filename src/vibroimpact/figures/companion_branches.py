@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from vibroimpact.figures.kit.naming import name_lines
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact.frames import with_former_names
 from vibroimpact.regimes import onset
 from vibroimpact.regimes.branches import Path, branches
 from vibroimpact.regimes.classification import APERIODIC, UNSETTLED
@@ -77,13 +78,14 @@ SPEC = {
                 "it and as its attractors show it ([derivation](derivation.md), section 12), two rows per path.",
             "columns": {
                 "path": {},
-                "who": {"meaning": "slow flow: a ball goes in and out of resonance for good, by the picture of "
+                "source": {"meaning": "slow flow: a ball goes in and out of resonance for good, by the picture of "
                     "`relaxation.csv`. simulation: a start ends in a strongly modulated or chaotic response",
                     "unit": "text", "values": ["slow flow", "simulation"]},
                 "first, last": {"meaning": "ends of the longest range of `p` in which that is so at every value, blank "
                     "without one", "unit": "dimensionless"},
                 "uncertainty": {"meaning": "of the ends: from one value of `p` to the next", "unit": "dimensionless"},
                 "agreement": {"meaning": "part of the values of `p` at which both say the same", "unit": "share"},
+                "who": {"meaning": "former name of `source`, until the next release", "unit": "text"},
             },
         },
     },
@@ -161,7 +163,8 @@ def compute(
     along = special["panel"].map({panel: " ".join(s["along"]) for panel, s in zip("abcdefgh", paths, strict=False)})
     special = special.assign(path=along).rename(columns={"series": "family", "label": "kind"})
     special = _every_path(special[["path", "family", "kind", "p", "C1", "C2", "admissible"]], paths)
-    return {"csv": table, "special_points": special, "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS)}
+    modulated = with_former_names(pd.DataFrame(onsets, columns=onset.COLUMNS), onset.FORMER)
+    return {"csv": table, "special_points": special, "onsets": modulated}
 
 
 def _on(path, interval, systems):

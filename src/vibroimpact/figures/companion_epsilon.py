@@ -10,7 +10,7 @@ from matplotlib.patches import Polygon
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
-from vibroimpact.theory.fixed_points.search import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
 SPEC = {
     "title": "How the error of the theory falls with epsilon",

@@ -12,8 +12,8 @@ from vibroimpact.claims.verdict_table import NO_ORBIT, partners
 from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes import two_terms
-from vibroimpact.regimes.cells import plane_of_forces
 from vibroimpact.regimes.hierarchy import EXACT, LEADING, TWO_TERMS, error, harmonics_name, levels, of_harmonics
+from vibroimpact.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, SYMMETRY_BREAKING_SLOPE
 
 SPEC = {

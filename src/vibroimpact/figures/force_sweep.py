@@ -15,7 +15,7 @@ from vibroimpact.figures.kit.tables import join
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
-from vibroimpact.theory.fixed_points.search import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
 SPEC = {
     "title": "Fixed points over the second force",
@@ -35,7 +35,8 @@ SPEC = {
             "unit": "number"},
         "C1, B1, C2, B2": {},
         "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
-        "printed_10_26, fast, slow, theory, exact": {},
+        "printed_10_26, fast, slow, theory, exact, masri_derived, slow_flow, floquet": {},
+        "fast_and_slow": {"meaning": "former name of `theory`, until the next release", "unit": "text"},
     },
 }  # fmt: skip
 

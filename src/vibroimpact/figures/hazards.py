@@ -18,12 +18,14 @@ SPEC = {
     "file": "results/accuracy/hazards.csv",
     "columns": {
         "group": {"meaning": "what is hard", "unit": "text"},
-        "hazard": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting, steps": {},
+        "test": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting, steps": {},
         "verdict": {"meaning": "right: the error of the final state is at most 0.01, and no impact is missed or "
             "spurious; silently wrong: neither right nor reported undecidable", "unit": "text", "values": ["right",
             "reported undecidable", "refused with an error", "did not finish", "silently wrong", "unavailable"]},
         "error_state, error_time, missed, spurious": {},
-        "says": {"meaning": "what the method says of its failure or of its doubt", "unit": "text"},
+        "reason": {"meaning": "what the method says of its failure or of its doubt", "unit": "text"},
+        "hazard": {"meaning": "former name of `test`, until the next release", "unit": "text"},
+        "says": {"meaning": "former name of `reason`, until the next release", "unit": "text"},
     },
 }  # fmt: skip
 

@@ -10,9 +10,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from vibroimpact.integrators.contact import SLOWEST, Contacts
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import NAMES, coefficients
+from vibroimpact.integrators.rigid_contact import SLOWEST, Contacts
 from vibroimpact.system.state import BALLS, BOXES
 from vibroimpact.system.state import NAMES as STATE
 

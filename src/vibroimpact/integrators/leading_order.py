@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from vibroimpact.integrators.protocol import REFUSED, Method, MethodRun, failed
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.response import impact_times, leading_order
 

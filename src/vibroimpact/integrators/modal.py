@@ -9,7 +9,9 @@ from functools import lru_cache
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import kept
-from vibroimpact.integrators.contact import (
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import coefficients, inlined
+from vibroimpact.integrators.rigid_contact import (
     ROOM,
     SLOWEST,
     acceleration,
@@ -18,8 +20,6 @@ from vibroimpact.integrators.contact import (
     newton_or_middle,
     resolve,
 )
-from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import coefficients, inlined
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 WORST = 1e8

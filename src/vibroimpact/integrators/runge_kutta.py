@@ -8,7 +8,9 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import kept
-from vibroimpact.integrators.contact import (
+from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
+from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
+from vibroimpact.integrators.rigid_contact import (
     ROOM,
     SLOWEST,
     first_look,
@@ -16,8 +18,6 @@ from vibroimpact.integrators.contact import (
     newton_or_middle,
     resolve,
 )
-from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
 
 TRIES, NEAR = 60, 1e-14
 """Steps of Newton's method for an event at most, and the last one."""

@@ -4,9 +4,9 @@ import numpy as np
 from scipy.integrate import Radau, solve_ivp
 from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
-from vibroimpact.integrators.contact import Contacts, first_look, guard
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import jacobian, rates
+from vibroimpact.integrators.rigid_contact import Contacts, first_look, guard
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol

@@ -3,8 +3,8 @@
 import numpy as np
 
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.regimes.cells import centres
 from vibroimpact.regimes.classification import ASYMMETRIC
+from vibroimpact.regimes.midpoint_grid import centres
 from vibroimpact.regimes.settling import Observation, settle
 
 MIRRORED = "asymmetric, mirrored"

@@ -15,7 +15,7 @@ from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
 from vibroimpact.system.amplitude import sawtooth_amplitude
-from vibroimpact.theory.fixed_points.search import FixedPoint, search
+from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 from vibroimpact.theory.slow_flow import linearisation, rates, slow_eigenvalues

@@ -18,7 +18,7 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.epsilon_limit import NoOrbit
 from vibroimpact.theory import criteria
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 LEADING, TWO_TERMS, EXACT = "leading order", "two terms", "exact"
 _TAYLOR_TERMS = 6

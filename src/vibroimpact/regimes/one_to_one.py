@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.regimes.families import FixedPoints, SymmetricOrbits
-from vibroimpact.theory.fixed_points.search import search
+from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512

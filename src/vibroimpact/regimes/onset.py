@@ -6,7 +6,9 @@ from vibroimpact.regimes.classification import CHAOTIC, STRONGLY_MODULATED
 from vibroimpact.theory.relaxation import relax
 
 FORCES = {"f10_hat", "f20_hat"}
-COLUMNS = ["path", "who", "first", "last", "uncertainty", "agreement"]
+COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
+FORMER = {"who": "source"}
+"""Columns by their former names, which the table has until the next release."""
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _FOLLOWED = 300, 300
 """Cycles that count, and cycles before those, in which a ball may be lost for good."""
@@ -48,11 +50,11 @@ def onsets(path, values, p, names) -> list[tuple]:
     Args:
         path, values: as for `predicted`, values evenly spaced. p, names: where starts are, and what they end in.
 
-    Returns two rows of COLUMNS: names of the path, who says so, ends of the longest range, spacing, agreement; none if
+    Returns two rows of COLUMNS: names of the path, source, ends of the longest range, spacing, agreement; none if
     something else than forces changes along the path.
     """
     if not set(path.names) <= FORCES:
         return []
     flags = {SLOW_FLOW: predicted(path, values), SIMULATION: observed(values, p, names)}
     common = " ".join(path.names), float(values[1] - values[0]), float((flags[SLOW_FLOW] == flags[SIMULATION]).mean())
-    return [(common[0], who, *longest_range(values, said), *common[1:]) for who, said in flags.items()]
+    return [(common[0], source, *longest_range(values, flag), *common[1:]) for source, flag in flags.items()]

@@ -9,7 +9,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, simulate
-from vibroimpact.regimes.character import character
+from vibroimpact.regimes.aperiodic import name_aperiodic
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 from vibroimpact.system.arguments import real, whole
 
@@ -85,7 +85,7 @@ def named(run, observation: Observation) -> Regime:
     """The regime at the end of a run, with a name for one that does not repeat."""
     regime = observe(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
-        return replace(regime, name=character(run, observation.blocks, observation.block))
+        return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
     return regime
 
 

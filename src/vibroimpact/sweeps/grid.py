@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.regimes.cells import centres
+from vibroimpact.regimes.midpoint_grid import centres
 from vibroimpact.system import System
 
 LINEAR, LOGARITHMIC = "linear", "logarithmic"

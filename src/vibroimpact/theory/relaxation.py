@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from vibroimpact.theory.asymmetric.asymmetric_points import balance
 from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, charts
-from vibroimpact.theory.asymmetric.search import balance
 from vibroimpact.theory.manifold import B_min, C_min, C_of_B, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from vibroimpact_pipeline.config import kinds
+from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 
 MOST = 100
@@ -32,21 +32,21 @@ class ClosedForm(Section):
 class Sawtooth(ClosedForm):
     """Figure 10.3."""
 
-    amplitude: kinds.real("C of the saw-tooth", 1e-3, 1000)
-    theta: kinds.real("Phase of the impacts [rad]", -100, 100)
-    tau0_max: kinds.real("Right end of the axis; there is an impact within pi [rad]", 3.15, 100)
+    amplitude: fields.real("C of the saw-tooth", 1e-3, 1000)
+    theta: fields.real("Phase of the impacts [rad]", -100, 100)
+    tau0_max: fields.real("Right end of the axis; there is an impact within pi [rad]", 3.15, 100)
 
 
 class Manifold(ClosedForm):
     """Figure 10.4."""
 
-    C_max: kinds.Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
+    C_max: fields.Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
 
 
 class Regions(ClosedForm):
     """Figure 10.5."""
 
-    C_range: kinds.around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
+    C_range: fields.around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
 
 
 class FixedPoints(Section):
@@ -54,8 +54,8 @@ class FixedPoints(Section):
 
     notebook: Literal["fixed_points"] = NOTEBOOK
     model: Literal["slow_flow"] = MODEL
-    case: kinds.CaseName
-    C_max: kinds.Planes
+    case: fields.CaseName
+    C_max: fields.Planes
 
 
 class Response(Section):
@@ -63,10 +63,10 @@ class Response(Section):
 
     notebook: Literal["theoretical_response"] = NOTEBOOK
     model: Literal["slow_flow"] = MODEL
-    case: kinds.CaseName
-    fixed_point: kinds.Label
-    periods: kinds.real("Length of the response [forcing periods]", 0.5, 100)
-    C_max: kinds.Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
+    case: fields.CaseName
+    fixed_point: fields.Label
+    periods: fields.real("Length of the response [forcing periods]", 0.5, 100)
+    C_max: fields.Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
 
 
 class SimulatedMotion(Section):
@@ -74,27 +74,27 @@ class SimulatedMotion(Section):
 
     notebook: Literal["simulation"] = NOTEBOOK
     model: Literal["simulation"] = MODEL
-    case: kinds.CaseName
+    case: fields.CaseName
 
 
-Clearance = kinds.real("Half of the play [m]", 1e-6, 1e3)
-Hertz = kinds.real("Frequency of the forces [Hz]", 1e-3, 1e6)
+Clearance = fields.real("Half of the play [m]", 1e-6, 1e3)
+Hertz = fields.real("Frequency of the forces [Hz]", 1e-3, 1e6)
 
 
 class Plant(Section):
     """Machines on their springs, as in (10.1), in SI units; without dampers they could not be driven at resonance."""
 
-    M: kinds.real("Mass of a box [kg]", 1e-6, 1e9)
-    m: kinds.real("Mass of a ball [kg], 1e-6 to 10 times that of a box", 1e-6, 1e9)
-    k1: kinds.real("Stiffness of machine 1 to ground [N/m]", 1e-6, 1e9)
-    k2: kinds.real("Stiffness of machine 2 to ground [N/m]", 1e-6, 1e9)
-    k12: kinds.real("Stiffness between them [N/m]", 0, 1e9)
-    c1: kinds.real("Damping of machine 1 to ground [N s/m]", 1e-6, 1e9)
-    c2: kinds.real("Damping of machine 2 to ground [N s/m]", 1e-6, 1e9)
-    c12: kinds.real("Damping between them [N s/m]", 0, 1e9)
-    F10: kinds.real("Amplitude of the force on machine 1 [N]", 1e-6, 1e9)
-    F20: kinds.real("Amplitude of the force on machine 2 [N]", 0, 1e9)
-    kappa: kinds.real("Restitution coefficient", 0.01, 0.99)
+    M: fields.real("Mass of a box [kg]", 1e-6, 1e9)
+    m: fields.real("Mass of a ball [kg], 1e-6 to 10 times that of a box", 1e-6, 1e9)
+    k1: fields.real("Stiffness of machine 1 to ground [N/m]", 1e-6, 1e9)
+    k2: fields.real("Stiffness of machine 2 to ground [N/m]", 1e-6, 1e9)
+    k12: fields.real("Stiffness between them [N/m]", 0, 1e9)
+    c1: fields.real("Damping of machine 1 to ground [N s/m]", 1e-6, 1e9)
+    c2: fields.real("Damping of machine 2 to ground [N s/m]", 1e-6, 1e9)
+    c12: fields.real("Damping between them [N s/m]", 0, 1e9)
+    F10: fields.real("Amplitude of the force on machine 1 [N]", 1e-6, 1e9)
+    F20: fields.real("Amplitude of the force on machine 2 [N]", 0, 1e9)
+    kappa: fields.real("Restitution coefficient", 0.01, 0.99)
 
     def conditions(self):
         if not 1e-6 <= self.m / self.M <= 10:
@@ -104,8 +104,8 @@ class Plant(Section):
 class Band(Section):
     """Frequencies, evenly spaced."""
 
-    range: kinds.span(Hertz, "Its ends [Hz]")
-    values: kinds.count("So many, both ends included", 2, kinds.MOST)
+    range: fields.span(Hertz, "Its ends [Hz]")
+    values: fields.count("So many, both ends included", 2, fields.MOST)
 
 
 class Shown(Section):
@@ -113,7 +113,7 @@ class Shown(Section):
 
     L: Clearance
     frequency: Hertz
-    cycles: kinds.count("Its length [forcing periods]", 1, 1000)
+    cycles: fields.count("Its length [forcing periods]", 1, 1000)
 
 
 class PhysicalUnits(Section):
@@ -121,10 +121,10 @@ class PhysicalUnits(Section):
 
     notebook: Literal["physical_units"] = NOTEBOOK
     plant: Plant
-    clearances: kinds.items(Clearance, 1, 6, "Clearances, half of the play [m]")
+    clearances: fields.items(Clearance, 1, 6, "Clearances, half of the play [m]")
     frequencies: Band
-    cycles: kinds.count("Length of a run [forcing periods]", 1, 100_000)
-    settle: kinds.count("Cycles of it that are left out [forcing periods]", 0, 100_000)
+    cycles: fields.count("Length of a run [forcing periods]", 1, 100_000)
+    settle: fields.count("Cycles of it that are left out [forcing periods]", 0, 100_000)
     shown: Shown
 
     def conditions(self):
@@ -141,7 +141,7 @@ class Figures(Section):
     """The figures to build: those of the chapter, each optional, and your own under other names."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[Annotated[str, Field(pattern=kinds.NAME)], OwnFigure | None]
+    __pydantic_extra__: dict[Annotated[str, Field(pattern=fields.NAME)], OwnFigure | None]
 
     fig10_01: Drawing | None = None
     fig10_02: Drawing | None = None

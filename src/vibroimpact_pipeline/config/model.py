@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationError, create_model
 
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import kinds
+from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import described, problems_of
 from vibroimpact_pipeline.config.regimes import Regimes
@@ -30,12 +30,12 @@ Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 class SystemSection(Section):
     """Dimensionless parameters of all cases that say no other, hatted as in (10.4) and (10.6)."""
 
-    epsilon: kinds.Epsilon
+    epsilon: fields.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
-    alpha12_hat: kinds.real("Stiffness of the coupling")
-    gamma1_hat: kinds.real("Damping of box 1 to ground")
-    gamma2_hat: kinds.real("Damping of box 2 to ground")
-    gamma12_hat: kinds.real("Damping of the coupling")
+    alpha12_hat: fields.real("Stiffness of the coupling")
+    gamma1_hat: fields.real("Damping of box 1 to ground")
+    gamma2_hat: fields.real("Damping of box 2 to ground")
+    gamma12_hat: fields.real("Damping of the coupling")
     sigma20_hat: Detuning = Field(description="Detuning of box 2; 1 + epsilon sigma20_hat, its stiffness, is above 0")
     sigma_e_hat: Detuning = Field(description="Detuning of the forcing; 1 + epsilon sigma_e_hat is at least 0.001")
 
@@ -43,8 +43,8 @@ class SystemSection(Section):
 class Parameters(SystemSection):
     """All parameters of one system."""
 
-    f10_hat: kinds.Force
-    f20_hat: kinds.Force
+    f10_hat: fields.Force
+    f20_hat: fields.Force
 
     def conditions(self):
         try:
@@ -63,7 +63,7 @@ def _refuse_resonance(system):
         return
     # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
     from vibroimpact.exact.orbits.impulse_response import ImpulseResponse
-    from vibroimpact.theory.fixed_points.search import refuse_free_motion
+    from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
     refuse_free_motion(system)
     for sign in () if system.has_undriven_module else (1, -1):
@@ -73,11 +73,11 @@ def _refuse_resonance(system):
 class Simulation(Section):
     """The direct integration of a case: a discarded transient, and a window."""
 
-    initial_state: kinds.State
-    transient_cycles: kinds.count("Cycles before the window [forcing periods]", 0)
-    window_cycles: kinds.count("Cycles that are kept [forcing periods]", 1, 1000)
+    initial_state: fields.State
+    transient_cycles: fields.count("Cycles before the window [forcing periods]", 0)
+    window_cycles: fields.count("Cycles that are kept [forcing periods]", 1, 1000)
     samples_per_cycle: int = Field(ge=8, le=1000, multiple_of=2, description="Samples in a cycle, an even number")
-    digits: kinds.count("Decimal digits of the motion; absent: doubles", 20, 2000) | None = None
+    digits: fields.count("Decimal digits of the motion; absent: doubles", 20, 2000) | None = None
 
 
 OWN = {name: (Annotated[field.annotation, field] | None, None) for name, field in SystemSection.model_fields.items()}
@@ -86,22 +86,22 @@ OWN = {name: (Annotated[field.annotation, field] | None, None) for name, field i
 class Case(create_model("OwnParameters", __base__=Section, **OWN)):
     """A system, by its forcing amplitudes and whatever differs from `system`, and its direct integration."""
 
-    title: kinds.Title | None = None
-    f10_hat: kinds.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
-    f20_hat: kinds.Force = Field(description="Excitation amplitude of box 2")
+    title: fields.Title | None = None
+    f10_hat: fields.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
+    f20_hat: fields.Force = Field(description="Excitation amplitude of box 2")
     simulation: Simulation
 
 
 class Companion1005(Section):
     """Companion of figure 10.5."""
 
-    C_range: kinds.around(0.6, kinds.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
+    C_range: fields.around(0.6, fields.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
 
 
-class VerdictGrid(kinds.ForceGrid):
+class VerdictGrid(fields.ForceGrid):
     """The theory's verdicts against exact orbits, at the centres of points x points cells of forces."""
 
-    epsilon: kinds.items(kinds.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
+    epsilon: fields.items(fields.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
 
 
 class Stability(Section):
@@ -114,41 +114,41 @@ class Stability(Section):
 class Problem(Section):
     """A test problem of the work-precision chart; every method and the reference run it many times."""
 
-    case: kinds.CaseName
-    initial_state: kinds.State
-    cycles: kinds.count("Length [forcing periods]", 1, 100)
+    case: fields.CaseName
+    initial_state: fields.State
+    cycles: fields.count("Length [forcing periods]", 1, 100)
 
 
 class Benchmark(Problem):
     """The motion of `make benchmark`."""
 
-    cycles: kinds.count("Length [forcing periods]", 1, 1000)
+    cycles: fields.count("Length [forcing periods]", 1, 1000)
 
 
 class Accuracy(Section):
     """The motions for measuring methods, and the duration of each timing."""
 
     effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
-    short_seconds: kinds.real("Repeat a timing for so long, in the default build [s]", 1e-3, 1)
-    full_seconds: kinds.real("The same in the full form [s]", 1e-3, 60)
-    problems: kinds.named(Problem, 1, 3, kinds.TITLE) = Field(description="Test problems by free titles")
+    short_seconds: fields.real("Repeat a timing for so long, in the default build [s]", 1e-3, 1)
+    full_seconds: fields.real("The same in the full form [s]", 1e-3, 60)
+    problems: fields.named(Problem, 1, 3, fields.TITLE) = Field(description="Test problems by free titles")
     benchmark: Benchmark
 
 
 class Animation(Section):
     """The first cycles of a case's simulated window."""
 
-    case: kinds.CaseName
-    cycles: kinds.count("Cycles shown, no more than the window has [forcing periods]", 1, 1000)
+    case: fields.CaseName
+    cycles: fields.count("Cycles shown, no more than the window has [forcing periods]", 1, 1000)
 
 
 class ForceSweep(Section):
     """The slider on the page of fixed points: f20_hat varies, all else is as in the case."""
 
-    case: kinds.CaseName
-    range: kinds.Forces
-    values: kinds.count("Values of f20_hat", 2, kinds.MOST)
-    C_max: kinds.Amplitude = Field(description="Right end of the planes")
+    case: fields.CaseName
+    range: fields.Forces
+    values: fields.count("Values of f20_hat", 2, fields.MOST)
+    C_max: fields.Amplitude = Field(description="Right end of the planes")
 
     def conditions(self):
         if self.range[1] - self.range[0] < 1e-6 * (self.values - 1):
@@ -158,7 +158,7 @@ class ForceSweep(Section):
 class Report(Section):
     """The live parts of the report: animations, and the slider of the fixed points."""
 
-    animations: kinds.named(Animation, 0, 10) = Field(description="Animations by free names")
+    animations: fields.named(Animation, 0, 10) = Field(description="Animations by free names")
     force_sweep: ForceSweep
 
 
@@ -167,17 +167,17 @@ class Config(Section):
 
     system: SystemSection
     # At most twelve: companions have a panel for each.
-    cases: kinds.named(Case, 1, 12, kinds.CASE) = Field(
+    cases: fields.named(Case, 1, 12, fields.CASE) = Field(
         description="Systems and their direct integration by name: a small letter, then 1 to 39 of a-z 0-9 - _"
     )
-    default_case: kinds.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
+    default_case: fields.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
     figures: Figures
     stability: Stability
     regimes: Regimes
     accuracy: Accuracy
     tile_seconds: float = Field(20.0, gt=0, le=1e5, description="Cut sweeps into jobs of about so long [core seconds]")
     report: Report
-    sweeps: kinds.named(Sweep, 0, 100) = Field({}, description="Questions of one's own, by name; companions draw some")
+    sweeps: fields.named(Sweep, 0, 100) = Field({}, description="Questions of one's own, by name; companions draw some")
 
     def conditions(self):
         yield from self._taken_names()

@@ -1,19 +1,19 @@
 """Section `regimes`: regimes of the exact system other than 1:1 responses, and the resolution of their search."""
 
-from dataclasses import fields
+import dataclasses
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import kinds
+from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 
 NEAR = "How near to repeating before Newton's method takes over; half a cavity is 1"
-NAMES = tuple(field.name for field in fields(System))
-Along = kinds.items(Literal[NAMES], 1, len(NAMES), "The parameters that move together")
-ODD = kinds.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "should be odd and ascending")
-APART = kinds.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
+NAMES = tuple(field.name for field in dataclasses.fields(System))
+Along = fields.items(Literal[NAMES], 1, len(NAMES), "The parameters that move together")
+ODD = fields.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "should be odd and ascending")
+APART = fields.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
 Harmonic = Annotated[int, Field(ge=1, le=999)]
 Velocity = Annotated[float, Field(gt=0, le=1e4)]
 Window = Annotated[int, Field(ge=1, le=100_000)]
@@ -22,44 +22,44 @@ Window = Annotated[int, Field(ge=1, le=100_000)]
 class Exponent(Section):
     """Length of the measurement of a Lyapunov exponent."""
 
-    blocks: kinds.count("Blocks of a Lyapunov exponent; their spread is its error", 2, 10_000)
-    block: kinds.count("Cycles of a block [forcing periods]", 1, 10_000)
+    blocks: fields.count("Blocks of a Lyapunov exponent; their spread is its error", 2, 10_000)
+    block: fields.count("Cycles of a block [forcing periods]", 1, 10_000)
 
 
 class Observation(Exponent):
     """Length of the observation of one start."""
 
-    cycles: kinds.count(
+    cycles: fields.count(
         "A start is simulated for so long before it is looked at; see docs/howto_sweep.md [forcing periods]"
     )
-    rounds: kinds.count("At most so many times, until it repeats", 1, 1000)
-    window: kinds.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
-    nearness: kinds.real(NEAR, 1e-6, 0.5)
-    retest: kinds.count("The name of a motion without repetition is tried so long [forcing periods]")
+    rounds: fields.count("At most so many times, until it repeats", 1, 1000)
+    window: fields.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
+    nearness: fields.real(NEAR, 1e-6, 0.5)
+    retest: fields.count("The name of a motion without repetition is tried so long [forcing periods]")
 
 
 class BranchPath(Section):
     """A line through the parameters, along which they move together."""
 
     along: Along
-    range: kinds.span(kinds.Number)
+    range: fields.span(fields.Number)
 
 
 class Attractors(Section):
     """Attractors found from random starts along the paths of the branches."""
 
-    values: kinds.count("Values along each path", 2, kinds.MOST)
-    starts: kinds.Starts
-    seed: kinds.Seed
+    values: fields.count("Values along each path", 2, fields.MOST)
+    starts: fields.Starts
+    seed: fields.Seed
 
 
 class Branches(Section):
     """Branches of 1:1 responses along paths through the parameters."""
 
-    case: kinds.CaseName
-    paths: kinds.items(BranchPath, 1, 4, "Lines through the parameters", APART)
-    longest_step: kinds.real("Longest step of a branch, 200 of every path at most", 1e-6, 1000)
-    seeds: kinds.count("Values of a path at which branches are looked for", 1, 100)
+    case: fields.CaseName
+    paths: fields.items(BranchPath, 1, 4, "Lines through the parameters", APART)
+    longest_step: fields.real("Longest step of a branch, 200 of every path at most", 1e-6, 1000)
+    seeds: fields.count("Values of a path at which branches are looked for", 1, 100)
     attractors: Attractors
 
     def conditions(self):
@@ -71,31 +71,31 @@ class Branches(Section):
 class Modulation(Exponent):
     """Modulated responses in numbers."""
 
-    starts: kinds.Starts
-    seed: kinds.Seed
-    cycles: kinds.count("Window of the measures [forcing periods]", 1, 100_000)
-    windows: kinds.items(Window, 1, 20, "Windows that measures are compared over [forcing periods]")
+    starts: fields.Starts
+    seed: fields.Seed
+    cycles: fields.count("Window of the measures [forcing periods]", 1, 100_000)
+    windows: fields.items(Window, 1, 20, "Windows that measures are compared over [forcing periods]")
 
 
 class Basins(Section):
     """Basins of attraction on a plane of starts."""
 
-    case: kinds.CaseName
-    points: kinds.Points
+    case: fields.CaseName
+    points: fields.Points
 
 
 class Mixed(Section):
     """A fixed point next to the fold of the manifold, left out: time scales cannot be told apart there."""
 
-    case: kinds.CaseName
-    label: kinds.Label
+    case: fields.CaseName
+    label: fields.Label
 
 
 class EpsilonRange(Section):
     """Values of epsilon at which theory and exact responses are compared."""
 
-    epsilon: kinds.items(kinds.Epsilon, 2, 2, "First and last value")
-    values: kinds.count("Values, evenly on a logarithmic scale", 3, kinds.MOST)
+    epsilon: fields.items(fields.Epsilon, 2, 2, "First and last value")
+    values: fields.count("Values, evenly on a logarithmic scale", 3, fields.MOST)
     fit_below: float = Field(gt=0, le=10, description="Fit orders to the values below this, two at least")
 
     def conditions(self):
@@ -107,7 +107,7 @@ class EpsilonRange(Section):
 class Asymmetric(EpsilonRange):
     """Asymmetric pairs towards small epsilon, over the manifold."""
 
-    C_max: kinds.real("Right end of the manifold, beyond the derived limits", kinds.HIGHEST, 100)
+    C_max: fields.real("Right end of the manifold, beyond the derived limits", fields.HIGHEST, 100)
 
 
 class EpsilonLimit(EpsilonRange):
@@ -116,19 +116,19 @@ class EpsilonLimit(EpsilonRange):
     mixed: Mixed | None = None
 
 
-class Ladder(kinds.ForceGrid):
+class Ladder(fields.ForceGrid):
     """The model hierarchy between leading order and the exact orbit."""
 
-    harmonics: kinds.items(Harmonic, 3, 20, "Highest harmonics of levels: odd, ascending", ODD)
-    fold_range: kinds.Forces = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
+    harmonics: fields.items(Harmonic, 3, 20, "Highest harmonics of levels: odd, ascending", ODD)
+    fold_range: fields.Forces = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
 
 
 class Decay(Section):
     """Decay after an impulse."""
 
-    case: kinds.CaseName
-    impulses: kinds.span(Velocity, "First and last velocity that a box is given [L omega_10]")
-    values: kinds.count("Values, evenly on a logarithmic scale", 2, kinds.MOST)
+    case: fields.CaseName
+    impulses: fields.span(Velocity, "First and last velocity that a box is given [L omega_10]")
+    values: fields.count("Values, evenly on a logarithmic scale", 2, fields.MOST)
     fraction: float = Field(ge=1e-6, lt=1, description="The part of the energy that is left then")
 
 

@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from vibroimpact_pipeline.config import kinds
+from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.regimes import Along
 from vibroimpact_pipeline.config.section import Section
 from vibroimpact_pipeline.specs import specs
@@ -23,18 +23,18 @@ NEEDED = dict.fromkeys(("amplitudes", "envelopes", "energy"), SIMULATED) | {
 OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
 """Keys by which an axis may give its values."""
-Listed = kinds.items(kinds.Number, 2, kinds.MOST, "The values themselves, instead of all of these")
-Tuple = kinds.items(kinds.Number, 2, 10, check=None)
-Tuples = kinds.items(Tuple, 2, 100, "Or a value for each parameter, the first never twice the same")
+Listed = fields.items(fields.Number, 2, fields.MOST, "The values themselves, instead of all of these")
+Tuple = fields.items(fields.Number, 2, 10, check=None)
+Tuples = fields.items(Tuple, 2, 100, "Or a value for each parameter, the first never twice the same")
 
 
 class Axis(Section):
     """Parameters that move together, evenly over a range or through a list."""
 
     along: Along
-    range: kinds.span(kinds.Number) | None = None
-    values: kinds.count("So many values over the range, both ends among them", 2, POINTS) | None = None
-    cells: kinds.count("Or the middles of so many equal cells of the range", 2, POINTS) | None = None
+    range: fields.span(fields.Number) | None = None
+    values: fields.count("So many values over the range, both ends among them", 2, POINTS) | None = None
+    cells: fields.count("Or the middles of so many equal cells of the range", 2, POINTS) | None = None
     scale: Literal["linear", "logarithmic"] | None = Field(None, description="Of `values`; absent: linear")
     listed: Listed | None = None
     tuples: Tuples | None = None
@@ -68,13 +68,13 @@ class Axis(Section):
 class Sweep(Section):
     """One or two axes, the case with the other parameters, and the observations at every point."""
 
-    case: kinds.CaseName
-    axes: kinds.items(Axis, 1, 2, "What moves over the grid")
-    observe: kinds.items(OBSERVATIONS, 1, 7, "What is observed; the first five simulate, from every start")
-    starts: kinds.Starts | None = None
-    seed: kinds.Seed | None = None
-    cycles: kinds.count("Length of a run that is observed [forcing periods]") | None = None
-    settle: kinds.count("Cycles of it that are left out; see docs/howto_sweep.md [forcing periods]", 0) | None = None
+    case: fields.CaseName
+    axes: fields.items(Axis, 1, 2, "What moves over the grid")
+    observe: fields.items(OBSERVATIONS, 1, 7, "What is observed; the first five simulate, from every start")
+    starts: fields.Starts | None = None
+    seed: fields.Seed | None = None
+    cycles: fields.count("Length of a run that is observed [forcing periods]") | None = None
+    settle: fields.count("Cycles of it that are left out; see docs/howto_sweep.md [forcing periods]", 0) | None = None
     band: Axis | None = Field(None, description="What moves at every point while the worst peak is sought")
 
     def moving(self) -> list[Axis]:

@@ -58,9 +58,9 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
 
 
 def _built_from(verdict, build):
-    record = build / f"results/figures/{verdict['figure']}.provenance.json"
-    made = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {}
-    return f" Built from {made['commit'][:10]} ({made['tree']} tree)." if made.get("commit") else ""
+    path = build / f"results/figures/{verdict['figure']}.provenance.json"
+    record = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return f" Built from {record['commit'][:10]} ({record['tree']} tree)." if record.get("commit") else ""
 
 
 def main(arguments=None) -> int:

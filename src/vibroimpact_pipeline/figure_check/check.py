@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from vibroimpact.figures.kit.tables import read
 from vibroimpact.figures.kit.versions import drawn_with
 from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.tables import compare
+from vibroimpact_pipeline.figure_check.table_distances import compare
 from vibroimpact_pipeline.specs import each
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
@@ -24,7 +24,7 @@ SUMS = "pictures.json"
 """File of a reference set with the sums of PDF and SVG by figure, and the versions that drew them."""
 
 
-def kept(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
+def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
     """Return file name in the reference set and path in a build by name of each compared table of a figure."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
@@ -40,9 +40,9 @@ def reference_sums(reference) -> dict[str, dict]:
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
     """Return verdicts on all figures that a config makes (`specs.made`) or that have a reference, by name."""
-    asked = sorted(({path.stem: None for path in Path(reference).glob("*.png")} | figures).items())
+    figures = sorted(({path.stem: None for path in Path(reference).glob("*.png")} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
-        return list(pool.map(check, *zip(*asked, strict=True), repeat(reference), repeat(build)))
+        return list(pool.map(check, *zip(*figures, strict=True), repeat(reference), repeat(build)))
 
 
 def check(figure: str, spec: dict | None, reference, build) -> dict:
@@ -67,25 +67,25 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     }
     if spec is None:
         return verdict | {"reasons": ["not built: the config has no such figure"]}
-    reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], kept(figure, spec)
+    reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], compared_files(figure, spec)
     verdict |= {"module": spec["module"], "files": files}
     built = {kind: build / f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
     published = [reference / file for file in (f"{figure}.png", *(file for file, _ in files.values()))]
-    made = [*built.values(), *(build / path for _, path in files.values())]
-    for said, paths in (("no reference", published), ("not built", made)):
+    new_files = [*built.values(), *(build / path for _, path in files.values())]
+    for reason, paths in (("no reference", published), ("not built", new_files)):
         if missing := [path.name for path in paths if not path.is_file()]:
-            reasons.append(f"{said}: {', '.join(missing)}")
+            reasons.append(f"{reason}: {', '.join(missing)}")
     if reasons:
         return verdict
     old, new = {}, {}
     for name, (file, path) in files.items():
-        with _told(reasons, f"{file}: unreadable"):
+        with _errors_as_reasons(reasons, f"{file}: unreadable"):
             old[name], new[name] = read(reference / file), read(build / path)
-            said, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
-            reasons += [f"{file}: {reason}" for reason in said]
+            found, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
+            reasons += [f"{file}: {reason}" for reason in found]
             verdict["tables"] += [{"table": file, **one} for one in distances]
     others = []
-    with _told(reasons, "picture: cannot be read or drawn"), TemporaryDirectory() as folder:
+    with _errors_as_reasons(reasons, "picture: cannot be read or drawn"), TemporaryDirectory() as folder:
         # Where the tables are equal, the built picture is what today's `draw` makes of the reference's tables.
         equal = all(name in new and old[name].equals(new[name]) for name in files)
         today = pictures.sums(built if equal else pictures.draw(spec["module"], old, figure, folder))
@@ -101,7 +101,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
 
 
 @contextmanager
-def _told(reasons, what):
+def _errors_as_reasons(reasons, what):
     """Turn any error into a reason: libraries raise many types for a damaged file."""
     try:
         yield
@@ -127,8 +127,8 @@ def lines(verdicts: list[dict]) -> list[str]:
     counts = Counter(verdict["status"] for verdict in verdicts)
     summary = ", ".join(f"{n} {status}" for status, n in counts.items())
     far = max((verdict["distance"] for verdict in verdicts), default=0.0)
-    said = [line(verdict) for verdict in ordered(verdicts) if verdict["status"] != PASSED]
-    return [*said, f"{len(verdicts)} figures: {summary}; largest distance {far:.2g} of its limit"]
+    failures = [line(verdict) for verdict in ordered(verdicts) if verdict["status"] != PASSED]
+    return [*failures, f"{len(verdicts)} figures: {summary}; largest distance {far:.2g} of its limit"]
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:

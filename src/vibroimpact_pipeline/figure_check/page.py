@@ -8,7 +8,8 @@ from pathlib import Path
 from jinja2 import Environment
 from PIL import ImageChops, ImageFilter
 
-from vibroimpact_pipeline.figure_check import check, pictures, tables
+from vibroimpact_pipeline.figure_check import check, pictures
+from vibroimpact_pipeline.figure_check.table_distances import KINDS
 from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
@@ -21,7 +22,7 @@ def page(verdicts: list[dict], reference, build) -> str:
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
-    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=tables.KINDS))
+    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=KINDS))
 
 
 def _pictures(verdict, reference, build):

@@ -8,7 +8,7 @@ from vibroimpact.system.chapter import PARAMETERS
 from vibroimpact.system.parameters import System
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import of_fixed_point
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.response import leading_order
 from vibroimpact_pipeline.specs import case_parameters
 

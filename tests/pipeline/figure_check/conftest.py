@@ -10,7 +10,7 @@ from pipeline_trees import ROOT
 from vibroimpact.figures.kit.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import accept
-from vibroimpact_pipeline.figure_check.check import check, kept
+from vibroimpact_pipeline.figure_check.check import check, compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
 FIGURES = ["fig10_02", "fig10_04", "fig10_06", "fig10_11"]
@@ -24,7 +24,7 @@ def drawn(tmp_path_factory):
     """Folders of a reference set, and of a build that agrees with it, its tables those that are published."""
     folder = tmp_path_factory.mktemp("drawn")
     for figure in FIGURES:
-        for file, path in kept(figure, SPECS[figure]).values():
+        for file, path in compared_files(figure, SPECS[figure]).values():
             (folder / "build" / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / "figures" / file, folder / "build" / path)
         redraw(folder / "build", figure)
@@ -37,7 +37,7 @@ def drawn(tmp_path_factory):
 def redraw(build, figure):
     """The pictures of a figure of a build, of its tables as they are."""
     spec = SPECS[figure]
-    tables = {name: read(build / path) for name, (_, path) in kept(figure, spec).items()}
+    tables = {name: read(build / path) for name, (_, path) in compared_files(figure, spec).items()}
     (build / "results/figures").mkdir(parents=True, exist_ok=True)
     pictures.draw(spec["module"], tables, figure, build / "results/figures")
 

@@ -8,10 +8,10 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.theory import certify
+from vibroimpact.theory import completeness_proof
 from vibroimpact.theory.asymmetric import branch
+from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points, search
 from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, charts
-from vibroimpact.theory.asymmetric.search import fixed_points, search
 from vibroimpact.theory.manifold import B_of_C, impact_phase, rho, sawtooth
 from vibroimpact.theory.slow_flow import impedances
 
@@ -29,7 +29,7 @@ def points(case):
 
 @functools.cache
 def proof(case):
-    return certify.certify_asymmetric(SYSTEMS[case])
+    return completeness_proof.certify_asymmetric(SYSTEMS[case])
 
 
 def harmonic(system, skewed, squared, C):
@@ -100,8 +100,8 @@ def test_none_is_missed(case):
 def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
     listed = points("equal")
     for spoilt in (listed[1:], [*listed, listed[0]]):
-        monkeypatch.setattr(certify.asymmetric, "search", lambda system, spoilt=spoilt: spoilt)
-        assert not certify.certify_asymmetric(SYSTEMS["equal"]).complete
+        monkeypatch.setattr(completeness_proof.asymmetric, "search", lambda system, spoilt=spoilt: spoilt)
+        assert not completeness_proof.certify_asymmetric(SYSTEMS["equal"]).complete
 
 
 def test_without_coupling_each_module_is_on_its_own():

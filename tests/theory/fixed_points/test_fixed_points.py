@@ -12,10 +12,10 @@ from scipy.optimize import root
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.theory import certify as module
+from vibroimpact.theory import completeness_proof as module
 from vibroimpact.theory import manifold
-from vibroimpact.theory.certify import certify
-from vibroimpact.theory.fixed_points.search import FixedPointSearch, labels, search, search_radius
+from vibroimpact.theory.completeness_proof import certify
+from vibroimpact.theory.fixed_points.symmetric_points import FixedPointSearch, labels, search, search_radius
 from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import rates
 

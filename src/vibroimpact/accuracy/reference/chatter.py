@@ -3,7 +3,7 @@
 import math
 from fractions import Fraction
 
-from vibroimpact.accuracy.reference.flow import to_ball
+from vibroimpact.accuracy.reference.taylor_models import to_ball
 
 
 class Chatter:

@@ -12,8 +12,8 @@ from fractions import Fraction
 import numpy as np
 from flint import arb, ctx
 
-from vibroimpact.accuracy.reference.flow import ExactSystem, exact
 from vibroimpact.accuracy.reference.roots import Undecidable
+from vibroimpact.accuracy.reference.taylor_models import ExactSystem, to_fraction
 from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
@@ -84,19 +84,19 @@ def reference_run(
     """
     if digits < 20:
         raise ValueError(f"digits: {digits} is below 20; use simulate for float64 accuracy")
-    length = exact("cycles", cycles)
+    length = to_fraction("cycles", cycles)
     if length < 0:
         raise ValueError(f"cycles: {cycles} is below 0")
     if exact_floats is None:
         exact_floats = isinstance(system_parameters, System)
     system = ExactSystem.of(system_parameters, exact_floats)
-    start = [exact("state", value, exact_floats) for value in state]
+    start = [to_fraction("state", value, exact_floats) for value in state]
     if exact_floats:
         _put_on_walls(start)
     _require_inside(start)
     bits = int(digits * 3.3219281) + 1
     with ctx.workprec(bits + GUARD_BITS):
-        trajectory = Trajectory(system, start, exact("tau0", tau0, exact_floats), length, bits, sample_times)
+        trajectory = Trajectory(system, start, to_fraction("tau0", tau0, exact_floats), length, bits, sample_times)
         trajectory.run()
         return _collect(trajectory, digits)
 
@@ -122,7 +122,7 @@ def proven_run(
     Raises:
         ArithmeticError: no agreement up to max_digits.
     """
-    digits = digits or int(40 + 0.33 * float(exact("cycles", cycles)))
+    digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf
     while digits <= max_digits:
         try:

@@ -7,8 +7,8 @@ from itertools import pairwise
 from flint import arb, arb_poly, ctx
 
 from vibroimpact.accuracy.reference.chatter import Chatter
-from vibroimpact.accuracy.reference.flow import ExactSystem, Flow, exact, to_ball
 from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
+from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_ball, to_fraction
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 # Of the infinitely many impacts of a completed chatter those with a slower rebound |W'| are not listed.
@@ -86,7 +86,7 @@ class Trajectory:
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
         # A float in a grid of times was computed, not written: it stands for its binary value.
-        rational = [Fraction(float(t)) if isinstance(t, float) else exact("sample_times", t) for t in times]
+        rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: not ascending")
         balls = [to_ball(t).mid() for t in rational]

@@ -24,11 +24,11 @@ from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
-from vibroimpact.system.energy import stored
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.restitution import energy_lost
 from vibroimpact.system.state import IMPACT
+from vibroimpact.system.stored_energy import stored
 
 SIZE, TRIANGLE = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.system.verdict import all_stable
-from vibroimpact.theory.fixed_points.search import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 from vibroimpact.theory.manifold import C_min, overshoot, rho
 from vibroimpact.theory.masri import printed_limit
 

@@ -14,7 +14,7 @@ from vibroimpact.system import System
 REACH = 4
 
 
-def exact(name: str, value, exact_floats: bool = False) -> Fraction:
+def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
     """The rational number that a value stands for: a float its binary value, or its shortest decimal, 0.1 then 1/10.
 
     Raises:
@@ -46,7 +46,7 @@ class ExactSystem:
 
     @classmethod
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
-        """From a System or a mapping of its ten parameters to numbers or decimal strings; floats as in `exact`.
+        """From a System or a mapping of its ten parameters to numbers or decimal strings; floats as in `to_fraction`.
 
         With exact floats Omega is a float, too, as the engine has it.
 
@@ -59,7 +59,7 @@ class ExactSystem:
         if set(parameters) != set(names):
             raise ValueError(f"system_parameters: got {sorted(parameters)}, needs exactly {names}")
         rounded = System(**{name: float(value) for name, value in parameters.items()})
-        q = {name: exact(name, value, exact_floats) for name, value in parameters.items()}
+        q = {name: to_fraction(name, value, exact_floats) for name, value in parameters.items()}
         epsilon = q["epsilon"]
         coupling, coupling_damping = epsilon * q["alpha12_hat"], epsilon * q["gamma12_hat"]
         ground = (Fraction(1), 1 + epsilon * q["sigma20_hat"])

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from vibroimpact.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
-from vibroimpact.theory.fixed_points.search import fixed_points, labels, search
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import rates
 
@@ -56,9 +56,9 @@ def phases_can_be_eliminated(evidence):
 def label_of_a_point(evidence, case, label, says):
     """A caption's verdict on a point: against the theory with both time scales, and against its exact orbit."""
     row = evidence.points(case).loc[label]
-    said = row["theory"]
+    theory = row["theory"]
     parts = {
-        f"{says} by theory, fast and slow": None if said not in (STABLE, UNSTABLE) else said == says,
+        f"{says} by theory, fast and slow": None if theory not in (STABLE, UNSTABLE) else theory == says,
         f"{says} by its exact orbit": None if row["exact"] not in (STABLE, UNSTABLE) else row["exact"] == says,
     }
     criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
@@ -87,7 +87,7 @@ def stable_points(evidence, case, number):
 
 def _captions_right(verdicts, case):
     """Number of a case's captions that agree with the verdicts on its points, by label."""
-    return sum(verdicts.get(label) == said for label, said in CAPTIONS[case].items())
+    return sum(verdicts.get(label) == caption for label, caption in CAPTIONS[case].items())
 
 
 def on_the_left_arm(evidence, case, label, modules):

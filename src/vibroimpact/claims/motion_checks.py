@@ -11,7 +11,7 @@ from vibroimpact.regimes.classification import IDLE, STRONGLY_MODULATED
 from vibroimpact.regimes.epsilon_limit import compare
 from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.system.verdict import STABLE, UNSTABLE
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
 CHECKS = (
@@ -221,9 +221,9 @@ def assesses_stability(evidence):
             numbers[f"{name}, epsilon = {epsilon}, no orbit"] = found[NO_ORBIT].to_list()
             if epsilon == evidence.system.epsilon:
                 for saying in SAYINGS:
-                    right, said = matrix.loc[saying, saying], matrix.loc[saying].sum()
-                    parts[f"{saying} by {name} is right, mostly"] = 2 * right > said
-                    numbers[f"{saying} by {name}, share right"] = right / said if said else None
+                    right, predicted = matrix.loc[saying, saying], matrix.loc[saying].sum()
+                    parts[f"{saying} by {name} is right, mostly"] = 2 * right > predicted
+                    numbers[f"{saying} by {name}, share right"] = right / predicted if predicted else None
     points = evidence.fixed_points
     numbers["of the chapter's points"] = len(points)
     numbers["right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())

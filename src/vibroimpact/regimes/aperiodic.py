@@ -34,7 +34,7 @@ NAMES = {
 """(sign of the largest exponent, when a module is in resonance) -> name; what is not listed is unsettled."""
 
 
-def character(run: Run, blocks: int, block: int) -> str:
+def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     """Name of a motion that does not repeat, from a run over whole cycles and what comes after it.
 
     Args:

@@ -2,7 +2,7 @@
 
 As for symmetric ones (docs/derivation.md, section 5) the balance is linear in w_i = u_i / beta_i and its coefficients
 depend on the chart parameters x_i alone, here over compact squares: |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2. That
-none is missed is proved by `theory.certify`, not here.
+none is missed is proved by `theory.completeness_proof`, not here.
 
 v^2 < 0 is kept too: no motion at leading order, but where the branch goes on beyond symmetry breaking. A motion next to
 it exists once terms of order epsilon carry v^2 above 0.
@@ -21,7 +21,7 @@ from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
 from vibroimpact.theory.asymmetric import branch
 from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, LARGE, SMALL, Chart, charts
-from vibroimpact.theory.fixed_points.search import refuse_free_motion
+from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 from vibroimpact.theory.manifold import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
@@ -135,7 +135,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     """All fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1; also those with v^2 in [-1, 0).
 
     Raises:
-        ValueError: system is not a System, or as `fixed_points.search`.
+        ValueError: system is not a System, or as `symmetric_points.search`.
     """
     return [point for point in search(system) if (point.C >= 0).all()]
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.system.extras import need
-from vibroimpact.theory.asymmetric import search as asymmetric
+from vibroimpact.theory.asymmetric import asymmetric_points as asymmetric
 from vibroimpact.theory.asymmetric.branch import ASYMMETRIC, LARGE, SMALL, series
-from vibroimpact.theory.fixed_points.search import search
+from vibroimpact.theory.fixed_points.symmetric_points import search
 
 need("reference", "flint")
 
@@ -64,7 +64,7 @@ def certify(system) -> Proof:
     search refuses the free motion that would be left.
 
     Raises:
-        ValueError: as `fixed_points.search`.
+        ValueError: as `symmetric_points.search`.
     """
     listed = search(system)
     found, undecided = _all_zeros(system, SYMMETRIC_PAIRS)
@@ -81,7 +81,7 @@ def certify_asymmetric(system) -> Proof:
     """Prove how many fixed points with an asymmetric module a system has, mirror images counted once.
 
     Raises:
-        ValueError: as `asymmetric.search`.
+        ValueError: as `asymmetric_points.search`.
     """
     listed = asymmetric.search(system)
     isolated, undecided = _all_zeros(system, asymmetric.PAIRS)

@@ -10,7 +10,7 @@ from snakemake.io import IOFile
 from snakemake.persistence import MetadataRecord
 from snakemake.persistence.file import FilePersistence
 
-from vibroimpact_pipeline import results
+from vibroimpact_pipeline import result_records
 
 FIRST, SECOND = "results/a.csv", "results/b/b.csv"
 LONG = f"results/{'long/' * 50}c.csv"
@@ -32,7 +32,8 @@ def as_made(snakemake, path, inputs=()):
     """A result as its job and then Snakemake leave it."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     Path(path).write_text(f"content of {path}")
-    results.write_record(path, {"rule": "rule", "inputs": {one: results.digest_of(one) for one in inputs}})
+    digests = {one: result_records.digest_of(one) for one in inputs}
+    result_records.write_record(path, {"rule": "rule", "inputs": digests})
     os.utime(path)
     snakemake._write_record(path, MetadataRecord(rule="rule"))
 
@@ -51,7 +52,7 @@ def marked(snakemake, paths):
 
 
 def test_what_jobs_wrote_is_trusted(made, snakemake):
-    assert results.distrust([*made, "results/not_there.csv"]) == []
+    assert result_records.distrust([*made, "results/not_there.csv"]) == []
     assert marked(snakemake, made) == set()
 
 
@@ -80,11 +81,11 @@ def unknown_to_snakemake(path, snakemake):
 
 
 def without_record(path, _):
-    results.record_of(path).unlink()
+    result_records.record_of(path).unlink()
 
 
 def with_a_spoilt_record(path, _):
-    results.record_of(path).write_text("{")
+    result_records.record_of(path).write_text("{")
     os.utime(path, (1e9, 1e9))
 
 
@@ -103,66 +104,66 @@ CHANGES = [
 @pytest.mark.parametrize("change", CHANGES)
 def test_another_file_and_one_that_is_not_known_are_marked_for_snakemake(made, snakemake, change, path):
     change(path, snakemake)
-    assert results.distrust(made) == [path]
+    assert result_records.distrust(made) == [path]
     assert marked(snakemake, made) == {path}
-    assert results.distrust(made) == [], "said once"
+    assert result_records.distrust(made) == [], "said once"
 
 
 def test_what_was_only_touched_or_copied_is_trusted(made):
     for path in made:
         os.utime(path)
-    assert results.distrust(made) == []
+    assert result_records.distrust(made) == []
 
 
 def test_of_a_job_that_runs_snakemake_knows_more(made, snakemake):
     """Its result is there before Snakemake's record is: the mark that Snakemake has set itself is left to it."""
     snakemake._mark_incomplete(FIRST, None)
     edited(FIRST, snakemake)
-    assert results.distrust(made) == []
+    assert result_records.distrust(made) == []
 
 
 def test_a_directory_is_one_result(snakemake):
     folder = Path("results/report")
     (folder / "pages").mkdir(parents=True)
     (folder / "pages/index.html").write_text("page")
-    before = results.digest_of(folder)
-    (folder / results.OF_SNAKEMAKE).touch()
-    assert results.digest_of(folder) == before
+    before = result_records.digest_of(folder)
+    (folder / result_records.OF_SNAKEMAKE).touch()
+    assert result_records.digest_of(folder) == before
     (folder / "pages/index.html").write_text("another page")
-    assert results.digest_of(folder) != before
+    assert result_records.digest_of(folder) != before
 
 
 @pytest.mark.parametrize("content", [None, "", "{", "[1]", "3", "{}", '{"sha256": 1}'])
 def test_a_job_reads_no_input_with_a_spoilt_record(made, content):
-    record = results.record_of(FIRST)
+    record = result_records.record_of(FIRST)
     record.unlink() if content is None else record.write_text(content)
-    with pytest.raises(results.ModifiedResult, match=r"results/a\.csv"):
-        results.checked_digests(made)
+    with pytest.raises(result_records.ModifiedResult, match=r"results/a\.csv"):
+        result_records.checked_digests(made)
 
 
 def test_inputs_are_checked_before_they_are_read(made):
-    assert set(results.checked_digests(made)) == set(made)
+    assert set(result_records.checked_digests(made)) == set(made)
     Path(SECOND).write_text("0")
-    with pytest.raises(results.ModifiedResult, match=r"results/b/b\.csv"):
-        results.checked_digests(made)
+    with pytest.raises(result_records.ModifiedResult, match=r"results/b/b\.csv"):
+        result_records.checked_digests(made)
 
 
 def test_a_file_of_the_checkout_needs_no_record(tmp_path):
     (tmp_path / "claims.yaml").write_text("claims")
-    assert results.checked_digests([tmp_path / "claims.yaml", "claims.yaml"]) == {}
+    assert result_records.checked_digests([tmp_path / "claims.yaml", "claims.yaml"]) == {}
 
 
 def test_a_file_is_replaced_whole_or_not_at_all(made):
     before = Path(FIRST).read_text()
-    with pytest.raises(ZeroDivisionError), results.replacing(FIRST) as partial:
+    with pytest.raises(ZeroDivisionError), result_records.replacing(FIRST) as partial:
         partial.write_text("half" * (1 // 0))
     assert Path(FIRST).read_text() == before
-    assert not list(Path("results").glob(f"{results.PARTIAL}*"))
+    assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 
 def test_what_a_killed_job_has_left_goes_when_the_next_begins():
-    (left := results.partial_path(FIRST)).write_text("half")
-    assert not results.partial_path(FIRST).exists()
+    (left := result_records.partial_path(FIRST)).write_text("half")
+    assert not result_records.partial_path(FIRST).exists()
     assert left.parent.is_dir()
 
 
@@ -174,14 +175,14 @@ def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypa
         os, "fsync", lambda number: (order.append(os.readlink(f"/proc/self/fd/{number}")), flush(number))
     )
     monkeypatch.setattr(os, "replace", lambda old, new: (order.append("renamed"), rename(old, new)))
-    with results.replacing("file.txt") as partial:
+    with result_records.replacing("file.txt") as partial:
         partial.write_text("content")
     assert [Path(step).name for step in order] == ["file.txt", "renamed", Path.cwd().name]
 
 
 def test_a_record_is_json(made):
-    record = json.loads(results.record_of(SECOND).read_text())
-    inputs = {FIRST: results.digest_of(FIRST)}
+    record = json.loads(result_records.record_of(SECOND).read_text())
+    inputs = {FIRST: result_records.digest_of(FIRST)}
     size = len(Path(SECOND).read_bytes())
-    assert record == {"sha256": results.digest_of(SECOND), "size": size, "rule": "rule", "inputs": inputs}
-    assert results.records() == {path: results.read_record(path) for path in made}
+    assert record == {"sha256": result_records.digest_of(SECOND), "size": size, "rule": "rule", "inputs": inputs}
+    assert result_records.records() == {path: result_records.read_record(path) for path in made}

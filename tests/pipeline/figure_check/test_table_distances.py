@@ -9,9 +9,9 @@ from chapter import PARAMETERS
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_08
 from vibroimpact.figures.kit.tables import curve, join, read
-from vibroimpact_pipeline.figure_check import tables
-from vibroimpact_pipeline.figure_check.check import kept
-from vibroimpact_pipeline.figure_check.tables import FAR, KINDS, MEASURES, compare
+from vibroimpact_pipeline.figure_check import table_distances
+from vibroimpact_pipeline.figure_check.check import compared_files
+from vibroimpact_pipeline.figure_check.table_distances import FAR, KINDS, MEASURES, compare
 from vibroimpact_pipeline.specs import each, specs
 
 SPECS = specs()
@@ -21,7 +21,7 @@ BOTH = {"absolute": 0.5, "relative": 0.1}
 TABLES = {
     file.removesuffix(".csv"): each(spec["tables"][name]["columns"])
     for figure, spec in SPECS.items()
-    for name, (file, _) in kept(figure, spec).items()
+    for name, (file, _) in compared_files(figure, spec).items()
     if (ROOT / "figures" / file).is_file()
 }
 """Columns by name of each published table."""
@@ -315,4 +315,4 @@ def test_every_kind_is_used_and_every_column_of_numbers_has_one_that_there_is():
             for column in each(table["columns"]).values():
                 kinds = column.get("compared", ())
                 used |= set(kinds.values()) if isinstance(kinds, dict) else {kinds} if kinds else set()
-    assert used == set(tables.KINDS)
+    assert used == set(table_distances.KINDS)

@@ -81,11 +81,11 @@ def record_of(path) -> Path:
     return RECORDS / f"{path}.json"
 
 
-def write_record(path, made: Mapping) -> None:
-    """Write the record of a result: its digest, its size and how it was made."""
+def write_record(path, origin: Mapping) -> None:
+    """Write the record of a result: its digest, its size and its origin."""
     with replacing(record_of(path)) as partial:
         partial.write_text(
-            json.dumps({"sha256": digest_of(path), "size": os.stat(path).st_size, **made}, indent=1) + "\n",
+            json.dumps({"sha256": digest_of(path), "size": os.stat(path).st_size, **origin}, indent=1) + "\n",
             encoding="utf-8",
         )
 
@@ -151,10 +151,10 @@ def _as_recorded(path: str) -> bool:
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
     except OSError:
         return False
-    made = read_record(path)
-    if times == sorted(times) and made.get("size") == os.stat(path).st_size:
+    record = read_record(path)
+    if times == sorted(times) and record.get("size") == os.stat(path).st_size:
         return True
-    return made.get("sha256") == digest_of(path)
+    return record.get("sha256") == digest_of(path)
 
 
 def _of_snakemake(folder: str, path: str) -> Path:

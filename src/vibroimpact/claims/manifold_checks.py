@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.claims.points import CAPTIONS
+from vibroimpact.claims.point_checks import CAPTIONS
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
 from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
@@ -106,10 +106,10 @@ def _limits_of_the_captions(evidence):
     A point is unstable if one C_i is below the limit. Which point bears which letter does not matter to the interval.
     """
     smallest = {True: [], False: []}
-    for case, said in CAPTIONS.items():
+    for case, captions in CAPTIONS.items():
         of_points = evidence.points(case)[["C1", "C2"]].min(axis=1)
-        for label in said.keys() & of_points.index:
-            smallest[said[label] == STABLE].append(of_points[label])
+        for label in captions.keys() & of_points.index:
+            smallest[captions[label] == STABLE].append(of_points[label])
     return max(smallest[False]), min(*smallest[True], lower_limit(evidence.system.kappa))
 
 

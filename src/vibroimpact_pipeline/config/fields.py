@@ -1,4 +1,4 @@
-"""Kinds of values that several sections have, with their limits."""
+"""Types of fields that several sections have, with their limits."""
 
 from typing import Annotated
 

@@ -83,8 +83,8 @@ def fixed_points(system: System) -> list[FixedPoint]:
     """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
     Returns:
-        A list of FixedPoint, ascending in C_1, which is not the order of their labels; `theory.certify` proves that
-        none is missing.
+        A list of FixedPoint, ascending in C_1, which is not the order of their labels. `theory.completeness_proof`
+        proves that none is missing.
 
     Raises:
         ValueError: system is not a System; else as `search`.
