@@ -64,9 +64,9 @@ SPURIOUS = np.array([(1.0, 1, 1, 0.5)], IMPACT)
     ("result", "verdict"),
     [
         (MethodRun(np.zeros(8), NO_IMPACTS, 1), table.RIGHT),
-        (MethodRun(np.full(8, 0.02), NO_IMPACTS, 1), table.WRONG),
-        (MethodRun(np.full(8, np.nan), NO_IMPACTS, 1), table.WRONG),
-        (MethodRun(np.zeros(8), SPURIOUS, 1), table.WRONG),
+        (MethodRun(np.full(8, 0.02), NO_IMPACTS, 1), table.SILENTLY_WRONG),
+        (MethodRun(np.full(8, np.nan), NO_IMPACTS, 1), table.SILENTLY_WRONG),
+        (MethodRun(np.zeros(8), SPURIOUS, 1), table.SILENTLY_WRONG),
         (MethodRun(np.full(8, 0.02), NO_IMPACTS, 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
         (MethodRun(None, NO_IMPACTS, 1, failure=Failure(REFUSED, "no")), table.ERROR),
         (MethodRun(None, NO_IMPACTS, 1, failure=Failure(UNFINISHED, "long")), table.ENDLESS),

@@ -20,7 +20,7 @@ def test_the_orbit_is_in_its_own_basin(chapter, observation):
     system = chapter(1.0, 0.89)
     orbit = stable_response(system)
     flights = orbit.ball_speeds[:, ::-1] / orbit.ball_speeds.sum(axis=1, keepdims=True)
-    assert flights[0, 0] > 0.5  # a longer flight from wall +1, which is a positive lean
+    assert flights[0, 0] > 0.5  # a longer flight from wall +1, which is a positive flight asymmetry
     assert ends(system, [orbit.state, orbit.state + 1e-3], observation) == [ASYMMETRIC] * 2
 
 

@@ -32,7 +32,7 @@ def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter, observation)
     for regime in regimes:
         assert min(np.abs(regime.run.final - orbit.state).max() for orbit in orbits) < 1e-9
         np.testing.assert_allclose(regime.mean_amplitudes, orbits[0].C, rtol=0.02)
-    assert {np.sign(regime.lean) for regime in regimes} == {1, -1}
+    assert {np.sign(regime.flight_asymmetry) for regime in regimes} == {1, -1}
 
 
 def test_the_lean_sums_both_modules_flights_from_either_wall(chapter):
@@ -44,7 +44,7 @@ def test_the_lean_sums_both_modules_flights_from_either_wall(chapter):
             walls = regime.impacts["wall"][regime.impacts["module"] == module][:-1]  # the last flight is not over
             flights = {1: (minus - plus) % 1.0, -1: (plus - minus) % 1.0}
             expected += sum(wall * flights[wall] for wall in walls) / window
-        assert regime.lean == pytest.approx(expected, abs=1e-9)
+        assert regime.flight_asymmetry == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize(("f10", "f20", "name"), [(1.3, 1.25, SYMMETRIC), (1.0, 1.2, ASYMMETRIC)])

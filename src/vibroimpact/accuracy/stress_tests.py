@@ -18,7 +18,7 @@ VISIBLE = 1e-2
 SETTLED_CHANGE = 1e-6
 """A motion has settled if one more cycle changes it by less, far below what is visible."""
 
-RIGHT, UNDECIDABLE, ERROR, ENDLESS, WRONG, UNAVAILABLE = (
+RIGHT, UNDECIDABLE, ERROR, ENDLESS, SILENTLY_WRONG, UNAVAILABLE = (
     "right",
     "reported undecidable",
     "refused with an error",
@@ -135,7 +135,7 @@ def _row(test, method, reference):
     wrong = not errors.final <= VISIBLE or errors.missed or errors.spurious
     return {
         **row,
-        "verdict": UNDECIDABLE if doubt else WRONG if wrong else RIGHT,
+        "verdict": UNDECIDABLE if doubt else SILENTLY_WRONG if wrong else RIGHT,
         **errors.columns(),
         "reason": doubt or "",
     }

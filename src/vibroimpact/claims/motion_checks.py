@@ -1,4 +1,4 @@
-"""Checks of sections 10.4 and 10.5 on motions: simulated responses, modulation, and what the theory is worth."""
+"""Checks of sections 10.4 and 10.5 on motions: simulated responses, modulation, accuracy of the theory."""
 
 import numpy as np
 import pandas as pd
@@ -62,12 +62,12 @@ def numerical_results_are_similar(evidence, case, label):
     measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
     predicted = {name: row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B")}
     off = {name: np.abs(getattr(measured, name) / value - 1) for name, value in predicted.items()}
-    lean = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
+    asymmetry = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
     parts = {
         **{f"amplitudes {name} within a tenth": (values < SIMILAR).all() for name, values in off.items()},
-        "symmetric as predicted": lean.max() < 1e-6,
+        "symmetric as predicted": asymmetry.max() < 1e-6,
     }
-    numbers = {"difference of flight times": lean}
+    numbers = {"difference of flight times": asymmetry}
     for name in predicted:
         numbers |= {f"{name} predicted": predicted[name], f"{name} simulated": getattr(measured, name)}
         numbers |= {f"relative difference of {name}": off[name]}
@@ -205,7 +205,7 @@ def _at_epsilon(evidence):
 
 
 def assesses_stability(evidence):
-    """Criteria against the multipliers of the exact orbits over a grid of forces: is what they say right, mostly?
+    """Share of right verdicts of each criterion over a grid of forces, against the multipliers of the exact orbits.
 
     Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
     without an exact orbit are counted beside, stable then unstable.

@@ -1,4 +1,4 @@
-"""Checks of section 10.4 on fixed points: how many, where, how stable, how they move, and the singular points."""
+"""Checks of section 10.4 on fixed points: number, places, stability, paths under forcing, singular points."""
 
 from itertools import permutations
 
@@ -115,11 +115,12 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))
     ends = {"by its letter": named, "by continuation": _followed(evidence, before, after, first)}
     parts = {
-        f"P{i + 1}, {way}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
-        for way, C in ends.items()
+        f"P{i + 1}, {pairing}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
+        for pairing, C in ends.items()
         for i in (0, 1)
     }
-    return Finding(parts, {"C before": first} | {f"C after, {way}": C for way, C in ends.items()} | {"C_min": fold})
+    moved = {f"C after, {pairing}": C for pairing, C in ends.items()}
+    return Finding(parts, {"C before": first} | moved | {"C_min": fold})
 
 
 def _followed(evidence, before, after, C):

@@ -22,7 +22,7 @@ from vibroimpact.figures.kit.style import (
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.figures.sweep import SYMBOLS
 from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
-from vibroimpact.regimes.one_to_one import by_theory, exact
+from vibroimpact.regimes.one_to_one import by_exact_orbits, by_theory
 from vibroimpact.sweeps.grid import axis
 
 SPEC = {
@@ -77,7 +77,7 @@ FORCES = ["f10_hat", "f20_hat"]
 PLACE = [*FORCES, "sigma_e_hat"]
 OF_BALLS = ("label", *PLACE, "ratio", "low", "high", "impact_share")
 BALLS, THEORY, ORBITS = "balls", "theory", "symmetric orbits"
-ONE_TO_ONE = {THEORY: by_theory, ORBITS: exact}
+ONE_TO_ONE = {THEORY: by_theory, ORBITS: by_exact_orbits}
 DRAWN = {"without balls": LINES["without balls"], "best absorbers": LINES["best absorbers"]}
 REPEATING, MODULATED = "balls, largest, repeating", "balls, largest, modulated"
 LOOKS = {REPEATING: DOTS, MODULATED: {**DOTS, "markerfacecolor": "white"}}

@@ -117,9 +117,9 @@ def _look(z, boxes, ways):
 
 
 @kept()
-def _impact(tau, i, box, way, speed, k):
+def _impact(tau, i, box, direction, speed, k):
     """The row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
-    return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * way, (1.0 + k) * abs(speed)
+    return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
 @kept()
@@ -134,8 +134,8 @@ def _march_across_jumps(q, k, z, tau0, h, count):
             if boxes[i] != before[i]:
                 wall = before[i] + boxes[i]  # in s
                 part = (wall - z[4 * i]) / (ahead[4 * i] - z[4 * i])
-                way = 1.0 if boxes[i] > before[i] else -1.0
-                rows.append(_impact(tau0 + (n + part) * h, i, before[i], way, ahead[4 * i + 1], k))
+                direction = 1.0 if boxes[i] > before[i] else -1.0
+                rows.append(_impact(tau0 + (n + part) * h, i, before[i], direction, ahead[4 * i + 1], k))
         z, before = ahead, boxes.copy()
     return z, boxes, rows, count, math.nan
 

@@ -28,6 +28,6 @@ def plane(state, points: int) -> np.ndarray:
 
 
 def ends(system, states, observation: Observation) -> list[str]:
-    """Regime that each start ends in; of two mirrored asymmetric responses the one of negative lean is MIRRORED."""
+    """Regime that each start ends in; MIRRORED is an asymmetric response with negative flight asymmetry."""
     regimes = settle(system, states, observation)
-    return [MIRRORED if regime.name == ASYMMETRIC and regime.lean < 0 else regime.name for regime in regimes]
+    return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry < 0 else one.name for one in regimes]

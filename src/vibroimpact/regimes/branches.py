@@ -160,8 +160,8 @@ def _node(family, path, z, kind="", member=None):
 
 def _meets_mirror_image(path, before, after):
     """True if an asymmetric branch has just passed the symmetric orbit that it springs from."""
-    lean = [flight_fractions(path(z[-1]), z[:-1]) - 0.5 for z in (before, after)]
-    return lean[0] @ lean[1] < 0
+    asymmetry = [flight_fractions(path(z[-1]), z[:-1]) - 0.5 for z in (before, after)]
+    return asymmetry[0] @ asymmetry[1] < 0
 
 
 def _crossings(family, path, curve, before, after):

@@ -49,7 +49,7 @@ class Regime:
         return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
 
     @property
-    def lean(self) -> float:
+    def flight_asymmetry(self) -> float:
         """Difference of the mean times that the balls fly from wall +1 and from wall -1, over the period, summed.
 
         It tells mirror images of an asymmetric response apart.
@@ -86,7 +86,7 @@ def observe(system, state, window: int, nearness: float) -> Regime:
 
 
 def attracting_cycle(system, state, cycles: int, reach: float) -> np.ndarray | None:
-    """State (8,) on the attracting periodic motion of so many cycles that Newton's method finds near a state.
+    """State (8,) on the attracting periodic motion of a number of cycles that Newton's method finds near a state.
 
     None if there is none within `reach`, or one with a multiplier on or outside the unit circle.
     """

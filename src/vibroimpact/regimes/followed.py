@@ -30,8 +30,8 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
         system = systems[values[middle]]
         for x in _stable(system):
             if not _known(x, [root for root, _ in found[values[middle]]], system):
-                for way in (values[middle:], values[:middle][::-1]):
-                    for value, root, orbit in _along(way, systems, x):
+                for direction in (values[middle:], values[:middle][::-1]):
+                    for value, root, orbit in _along(direction, systems, x):
                         found[value].append((root, orbit))
     for value, there in found.items():
         yield from ((value, orbit) for _, orbit in there)
@@ -39,12 +39,12 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
 def _stable(system):
     """Roots of motions that are stable, one of two mirror images."""
-    kept = []
+    stable = []
     for x in AsymmetricOrbits.roots(system):
         orbit = AsymmetricOrbits.member(system, x)
-        if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and not _known(x, kept, system):
-            kept.append(x)
-    return kept
+        if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and not _known(x, stable, system):
+            stable.append(x)
+    return stable
 
 
 def _known(x, roots, system):
@@ -53,9 +53,9 @@ def _known(x, roots, system):
     return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
 
 
-def _along(way, systems, x):
+def _along(values, systems, x):
     """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
-    for value in way:
+    for value in values:
         found = newton(AsymmetricConditions(systems[value]), x[None])
         if not len(found) or np.abs(found[0] - x).max() > NEAR:
             return

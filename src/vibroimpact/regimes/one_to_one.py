@@ -39,7 +39,7 @@ def by_theory(system) -> list[Amounts]:
     ]
 
 
-def exact(system) -> list[Amounts]:
+def by_exact_orbits(system) -> list[Amounts]:
     """On every symmetric orbit that is a motion of the system, from the closed form of one period.
 
     Raises:
