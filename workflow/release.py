@@ -18,7 +18,7 @@ PLACES = {
     ".zenodo.json": [(r'^  "version": ".*",$', '  "version": "{version}",')],
     "codemeta.json": [(r'^  "version": ".*",$', '  "version": "{version}",')],
 }
-"""What is replaced by what, once in each file."""
+"""Pattern and replacement, once in each file."""
 
 
 def changes(text: str, version: str) -> str:

@@ -37,8 +37,9 @@ OF_THE_PROGRAM = (
     (0.992, 1.617034, False, 1.174543, 0.0655739),
     (0.992, 1.891745, True, 1.665244, 0.289937),
 )
-"""What their program at commit c4c8a3a finds for two sectors, a case of ours: r, theta of harmonic balance, its verdict
-stable, and from its time stepping there theta and the difference of the ball's speeds to either side over their sum."""
+"""Responses of two sectors, a case of ours, by their program at commit c4c8a3a: r, theta of harmonic balance, its
+verdict stable, and from its time stepping there theta and the difference of the ball's speeds to either side over their
+sum."""
 
 
 def two_sectors(

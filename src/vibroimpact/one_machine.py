@@ -1,4 +1,4 @@
-"""The design of a ball absorber for one machine in SI units: which clearance and restitution, and what they achieve.
+"""The design of a ball absorber for one machine in SI units: clearance, restitution and response.
 
 The machine is a mass on a spring and a damper, driven by F sin(2 pi f t) over a band of frequencies f. Candidates are
 compared by their peak: the largest displacement over the band, from rest and from other starts. A peak that is seen
@@ -62,7 +62,7 @@ OFF = (0.8, 1.2)
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """A ball for one machine, and what it achieves over the band of frequencies. Displacements are amplitudes [m].
+    """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes [m].
 
     machine: the chosen one, with its mass of the ball `m` [kg], clearance `L` [m], half of the play, and restitution
         coefficient `kappa`.
@@ -181,7 +181,7 @@ def design(
     progress: bool = True,
     masses: Sequence[float] | None = None,
 ) -> Design:
-    """Return the clearance and restitution with the lowest peak over a band, with what they achieve.
+    """Return the clearance and restitution with the lowest peak over a band, and their response.
 
     A machine and its mirror image (the force -F) have the same answer, to the last digit.
 
@@ -299,7 +299,7 @@ class _Measured:
 
 
 class _Study:
-    """A machine over a band: the frequencies that are looked at, how long, and from which starts."""
+    """A machine over a band: frequencies, lengths of runs and starts."""
 
     def __init__(self, machine, band):
         low, high = pair("band", band)
@@ -324,7 +324,7 @@ class _Study:
         return self.machine.L * reference(self.system).peak(self.band)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
-        """A row per pair of clearance and restitution, with the peak as few starts see it."""
+        """A row per pair of clearance and restitution, with the peak from few starts."""
         rows, states = [], _starts(TRIED, 1)
         for L, kappa in counted(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
@@ -336,7 +336,7 @@ class _Study:
         return rows
 
     def measured(self, machine, factor: float) -> _Measured:
-        """A machine with so many times its clearance, from many starts."""
+        """Response of a machine with a multiple of its clearance, from many starts."""
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]

@@ -42,12 +42,12 @@ def with_cases(config: dict) -> dict:
 
 
 def own_parameters(config: dict, case: str) -> dict:
-    """Return the parameters that a case says itself: its forcing amplitudes, and what differs from `system`."""
+    """Return the parameters of a case's own entry: its forcing amplitudes, and what differs from `system`."""
     return {name: value for name, value in config["cases"][case].items() if name not in ("title", "simulation")}
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return what titles and captions call a case: its title, or else its name with what differs from `system`."""
+    """Return the name of a case in titles and captions: its title, or else its name with what differs from `system`."""
     own = [f"{name} = {value}" for name, value in own_parameters(config, case).items() if name in config["system"]]
     return config["cases"][case].get("title") or case + (f" ({', '.join(own)})" if own else "")
 

@@ -54,7 +54,7 @@ TABLES = {
     "sweeps.clearance": ("absorber", "clearance"),
     "sweeps.design": ("absorber",),
 }
-"""What of the evidence an entry of the config decides on."""
+"""Parts of the evidence that depend on an entry of the config."""
 
 
 def unlike(config: dict, seen: dict[str, str]) -> dict[str, str]:

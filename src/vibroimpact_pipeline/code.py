@@ -11,10 +11,10 @@ from pathlib import Path
 SOURCES = Path(__file__).resolve().parents[1]
 """The folder of the packages: `src` of a checkout, or where they are installed."""
 SHIPPED = Path(__file__).resolve().with_name("checkout")
-"""What a wheel holds of the checkout besides the packages (pyproject.toml says what)."""
+"""Files of the checkout in a wheel, besides the packages (pyproject.toml lists them)."""
 INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
-"""The checkout, or what an installed pipeline has of it."""
+"""The checkout, or the files of it in an installed pipeline."""
 FIGURES = "src/vibroimpact/figures"
 PARTS = {
     "library": "src/vibroimpact",

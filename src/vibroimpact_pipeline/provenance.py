@@ -22,7 +22,7 @@ PACKAGES = ("numpy", "scipy", "numba", "matplotlib")
 
 
 def write(job, out) -> None:
-    """Write the record of a figure: what decides on it, what it was made from, and its files, which must be there.
+    """Write the record of a figure: config, code, inputs, and its files, which must be there.
 
     Args:
         job: the Snakemake job.

@@ -1,4 +1,4 @@
-"""Results on disk: written whole or not at all, each with a record of what its job wrote.
+"""Results on disk: written whole or not at all, each with a record of its content and origin.
 
 The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule, and the
 SHA-256 of every input. It lies beside Snakemake's own records, so that nobody copies it in together with results of
@@ -47,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Return the path of the same name in a new folder beside `path`, without what a killed job has left there."""
+    """Return the path of the same name in a new folder beside `path`, without leftovers of a killed job."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -158,7 +158,7 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return where Snakemake keeps what it knows of a path: by its name in Base64, cut where names get too long."""
+    """Return the path of Snakemake's own record of a path: by its name in Base64, cut where names get too long."""
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))
     return Path(".snakemake", folder, *(f"@{part}" for part in cut), last)

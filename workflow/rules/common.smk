@@ -136,7 +136,7 @@ def in_report(outputs, category):
 
 
 def sweep_request(sweep):
-    """What decides on the numbers of a sweep, and nothing else: see vibroimpact.sweeps.request."""
+    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.sweeps.request."""
     spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]
@@ -174,7 +174,7 @@ def of_case(figure, paths):
 
 
 def page_and_files(figure):
-    """What a notebook makes: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page."""
+    """Outputs of a notebook: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page."""
     files = in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Figures of the chapter")
     return files | {"html": f"results/notebooks/{figure}.html"}
 
@@ -194,7 +194,7 @@ def scene(figure, *paths):
 
 
 def absent(figure):
-    """A function for Snakemake that says why a figure cannot be made."""
+    """A function for Snakemake that raises the reason why a figure cannot be made."""
 
     def refused(wildcards):
         raise WorkflowError(f"figures.{figure}: the config has no such figure, or not its case.")

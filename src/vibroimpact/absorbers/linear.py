@@ -1,4 +1,4 @@
-"""A linear system of boxes with what is attached to them, in the units of (10.2): steady response and free decay."""
+"""A linear system of boxes and masses attached to them, in the units of (10.2): steady response and free decay."""
 
 import math
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ class Linear:
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Largest |X_i - Y_i| of the steady response, shape (..., 2): how far absorbers move in their boxes.
+        """Largest |X_i - Y_i| of the steady response, shape (..., 2): strokes of absorbers in their boxes.
 
         Raises:
             ValueError: there are no absorbers.

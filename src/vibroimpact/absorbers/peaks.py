@@ -81,7 +81,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """What PART of the cycles of all starts do not exceed, at each system, of `Cycles.largest`; nan without any."""
+    """Quantile PART of `Cycles.largest` over the cycles of all starts, at each system; nan without any cycle."""
     largest = np.asarray(largest)
     return np.array([np.quantile(one[~np.isnan(one)], PART) if not np.isnan(one).all() else np.nan for one in largest])
 

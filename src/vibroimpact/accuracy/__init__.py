@@ -1,1 +1,1 @@
-"""Reference solutions, and what each method achieves against them."""
+"""Reference solutions, and error and cost of each method against them."""

@@ -1,4 +1,4 @@
-"""Levels of the model hierarchy for every figure: their errors in what it shows, and their costs.
+"""Levels of the model hierarchy for every figure: errors of the plotted quantities, and costs.
 
 The order of the levels is fixed here, from the cheapest to the dearest, so that no figure depends on a timing. A figure
 needs a level whose error its lines cannot show: less than half their width, as a share of the axis.
@@ -36,7 +36,7 @@ SETTLED = 1e-6
 
 @dataclass(frozen=True)
 class Level:
-    """One way to compute what a figure shows: its error as a share of the axis, or why it cannot, and the work.
+    """One model of a figure's quantities: its error as a share of the axis, or the reason without one, and the work.
 
     compiles: True if the first call of the work may take longer than others, for compilation or caches.
     """

@@ -1,4 +1,4 @@
-"""Work against precision: what each method's error is, and what it costs, over its settings."""
+"""Work against precision: error and cost of each method over its settings."""
 
 from dataclasses import dataclass
 from functools import partial

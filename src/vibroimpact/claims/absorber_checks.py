@@ -1,4 +1,4 @@
-"""Checks of what the chapter says of balls as absorbers: efficiency, shocks, the best design."""
+"""Checks of the chapter's claims on balls as absorbers: efficiency, shocks, the best design."""
 
 import math
 
@@ -48,7 +48,7 @@ def efficient(evidence):
 
 
 def absorbs_rapidly(evidence):
-    """Shocks from weak to strong: what impacts take until a tenth of the energy is left, and how soon that is.
+    """Shocks from weak to strong: energy dissipated by impacts, and time, until a tenth of the energy is left.
 
     Shocks that bring no ball to a wall are left out of the parts.
     """
@@ -100,7 +100,7 @@ def _struck(impulse):
 
 
 def can_be_optimised(evidence):
-    """Peaks lowered by a clearance inside what was tried, and by another restitution coefficient beyond their spread.
+    """Peaks lowered by a clearance inside the tried range, and by another restitution coefficient beyond their spread.
 
     Both at the clearance that is best for each coefficient, measured again there. Over small coefficients the lowest
     peak is level: which of them is best is left to chance.

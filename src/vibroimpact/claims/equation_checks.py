@@ -57,7 +57,7 @@ def bound_of_the_balls(evidence):
 
 
 def common_impact_instants(evidence):
-    """One sequence tau_j for both modules in (10.2), against one for each: how far each ball is from its wall."""
+    """One sequence tau_j for both modules in (10.2), against one for each: distance of each ball from its wall."""
     own, other = [], []
     for simulation in evidence.simulations.values():
         impacts = simulation.impacts

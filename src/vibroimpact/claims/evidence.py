@@ -13,7 +13,7 @@ OF_CASES |= {"absorber": ("equal",), "clearance": ("equal",), "verdict_grid": ()
 
 
 class NotOfTheChapter(Exception):
-    """What a check reads was made with other parameters or settings than those that the claims are about."""
+    """Evidence of a check made with other parameters or settings than those that the claims are about."""
 
 
 class ByCase(dict):

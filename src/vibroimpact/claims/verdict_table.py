@@ -24,7 +24,7 @@ _OF_ORBIT = ["case", "label", "symmetric", "admissible", "C1", "C2", *_NUMBERS, 
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """A row per exact orbit, in order: what it is and what the criteria say.
+    """A row per exact orbit, in order: its numbers and the verdict of each criterion.
 
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
     of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
@@ -45,7 +45,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
-    """A row per fixed point, by label: what the criteria say, the multipliers being those of its exact orbit.
+    """A row per fixed point, by label: verdicts of the criteria, the multipliers being those of its exact orbit.
 
     Args:
         labelled: pairs (label, fixed point).

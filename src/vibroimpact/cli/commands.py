@@ -47,7 +47,7 @@ class Table(NamedTuple):
     """Draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write CSV to an open text file, every number with as many digits as tell it apart."""
+        """Write CSV to an open text file, every number with as many digits as identify it."""
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
         writer.writerows(self.rows)
@@ -104,7 +104,7 @@ def _orbits(system, options):
 
 
 def _simulate_options(parser):
-    """The start, the length, and what to write."""
+    """Options of the start, the length and the output."""
     parser.add_argument(
         "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="the start (default: at rest)"
     )
@@ -131,7 +131,7 @@ def _simulate(system, options):
 
 
 def _design_options(parser):
-    """One machine in SI units, the band, what to choose from, and a picture."""
+    """Options of one machine in SI units, the band, the choice of balls, and a picture."""
     group = parser.add_argument_group("machine", "all needed, in SI units")
     for name, words in MACHINE.items():
         kind = _range if name == "m" else float

@@ -13,7 +13,7 @@ from vibroimpact.cli.commands import COMMANDS, Table, add_system_options, system
 
 
 class _Parser(argparse.ArgumentParser):
-    """An error is one line; -1e-3 is a number, as -0.001 is."""
+    """Argument parser with errors of one line that takes -1e-3 for a number, as -0.001."""
 
     def __init__(self, **settings):
         super().__init__(**settings)

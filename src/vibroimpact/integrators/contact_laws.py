@@ -1,4 +1,4 @@
-"""Laws of compliant contact as data: what pushes back a ball that is beyond a wall by p, or anywhere in its box.
+"""Laws of compliant contact as data: the force on a ball that is beyond a wall by p, or anywhere in its box.
 
 All have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.

@@ -74,7 +74,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write what multiplies the amplitudes over a time t, real and imaginary parts (2, 5)."""
+    """Write the factors of the amplitudes over a time t, real and imaginary parts (2, 5)."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)

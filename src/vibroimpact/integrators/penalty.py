@@ -26,9 +26,9 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""A slower contact is damped as one of this speed: a law whose damping grows like 1 / V has no limit at rest."""
+"""Lowest speed of contact for which the damping is set: a law whose damping grows like 1 / V has no limit at rest."""
 NOTICED = 0.01
-"""Speed with which a ball comes just as far as an impact is counted, where a spring all through its box is the wall."""
+"""Speed of a ball that just reaches the depth of a counted impact, where a spring all through its box is the wall."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # of a step, to end it where a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
@@ -133,7 +133,7 @@ def _sum(weights, rates, count, c):
 
 @kept()
 def _step(stages, tau, s, h, q, law, dampings):
-    """The state a step later, and the error as a multiple of what is allowed."""
+    """The state a step later, and the error as a multiple of the allowed one."""
     A, B, C, E = stages
     rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
     for k in range(6):

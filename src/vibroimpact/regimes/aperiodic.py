@@ -35,7 +35,7 @@ NAMES = {
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Name of a motion that does not repeat, from a run over whole cycles and what comes after it.
+    """Name of a motion that does not repeat, from a run over whole cycles and the motion after it.
 
     Args:
         blocks, block: of the exponent, so many blocks of so many cycles.
@@ -49,7 +49,7 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Exponent) -> str:
-    """POSITIVE or ZERO where the error allows to say so; OPEN otherwise, as for a periodic motion not reached yet."""
+    """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
     reach = CERTAIN * exponent.error
     if exponent.mean - reach > RESOLVED:
         return POSITIVE
@@ -75,7 +75,7 @@ def resonant_shares(run: Run) -> np.ndarray:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """True if a motion is near its start again in the second half of so many cycles; a decaying one is not."""
+    """Return True if a motion comes near its start in the second half of some cycles; a decaying one does not."""
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)

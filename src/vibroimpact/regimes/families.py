@@ -86,7 +86,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """True if a zero is what its name says: a pair on the unit circle must be complex."""
+        """Return True if a zero is of the kind of its name: a pair on the unit circle must be complex."""
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
@@ -193,7 +193,7 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """True if a zero is what its name says: a pair on the imaginary axis must be complex."""
+        """Return True if a zero is of the kind of its name: a pair on the imaginary axis must be complex."""
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 

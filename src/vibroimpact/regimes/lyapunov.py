@@ -78,7 +78,7 @@ class Spectrum:
         return int(np.count_nonzero(self.stuck == BOTH))
 
     def without_double_sticks(self) -> "Spectrum":
-        """The spectrum over the other cycles: what is measured until both balls stick at once.
+        """The spectrum over the cycles in which the balls do not both stick at once.
 
         It hardly depends on how many such cycles a run meets. Of four of its directions each sets in anew behind one,
         and turns to where it grows as it should within some ten cycles, which count.
@@ -112,7 +112,7 @@ class Spectrum:
 
 
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
-    """All Lyapunov exponents over so many forcing cycles after others, from a state as for `largest_exponent`."""
+    """All Lyapunov exponents over `cycles` forcing cycles after others, from a state as for `largest_exponent`."""
     whole, rest = divmod(discarded + cycles, AT_ONCE)
     parts = zip(*_carried(system, state, [AT_ONCE] * whole + [rest] * (rest > 0), SIZE), strict=True)
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)

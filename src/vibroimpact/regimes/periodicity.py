@@ -1,4 +1,4 @@
-"""Recognising the motion that a run has settled on: does it repeat, is it symmetric, how often does it impact.
+"""Recognition of the motion that a run has settled on: period, symmetry, number of impacts.
 
 Everything here works on displacements (X1, Y1, X2, Y2) sampled evenly, a whole number of times per forcing period.
 Velocities are left out: they jump at impacts, and a sample next to an impact would compare the two sides of the jump.

@@ -99,7 +99,7 @@ def _later(system, regime, observation):
 
 
 def _try(system, regimes, members, observation):
-    """Rename, in place, the members of one name by what comes of the witnesses."""
+    """Rename, in place, the members of one name by the ends of the witnesses."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]

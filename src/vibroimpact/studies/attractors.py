@@ -19,7 +19,7 @@ _PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Where starts end.
+    """Attractors that starts end in, and the label of each start.
 
     labels: integers in the shape of the starts, from 1, in the order in which attractors are met; -1 where a start has
         not settled (as in Attractors.jl).

@@ -156,7 +156,7 @@ def _families(of):
 
 
 def _report(words, progress) -> Callable:
-    """A function of parameters that tells them after some words."""
+    """A function that reports parameters after some words."""
     return lambda *values: shown(progress) and tell(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
 
 

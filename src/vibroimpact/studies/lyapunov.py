@@ -59,6 +59,6 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
 
 
 def _settled(system, state, settle):
-    """The state (8,) after so many cycles."""
+    """The state (8,) after a transient."""
     instance("system", system, System)
     return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

@@ -31,7 +31,7 @@ def sweep(
     observation: Observation | None = None,
     progress: bool = True,
 ) -> list[dict]:
-    """A row per point of a grid: the parameters that move and what is observed there; `to_frame` makes a table of them.
+    """A row per point of a grid: the parameters that move and the observations; `to_frame` makes a table of them.
 
     A point where something cannot be computed has the reason under "failed", and does not cost the others.
 

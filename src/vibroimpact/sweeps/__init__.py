@@ -1,1 +1,1 @@
-"""Sweeps: one or two parameters moved over a grid, what is observed at each point, and what that costs."""
+"""Sweeps: one or two parameters moved over a grid, observations at each point, and their cost."""

@@ -36,7 +36,7 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles of about so many core seconds each, at most one per point."""
+    """Return the number of tiles of about the given core seconds each, at most one per point."""
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 
 

@@ -84,10 +84,10 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Points of one of so many tiles, counted from 1: every tiles-th, so that all take about the same time."""
+        """Points of a tile, counted from 1: every tiles-th, so that all take about the same time."""
         return range(number - 1, len(self), tiles)
 
     def spread(self, most: int) -> list[int]:
-        """At most so many different points, spread evenly over the grid."""
+        """At most a number of different points, spread evenly over the grid."""
         steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
         return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})

@@ -8,7 +8,7 @@ from vibroimpact.system import System
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """The grid and what is observed there.
+    """The grid and the observations there.
 
     Args:
         request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of

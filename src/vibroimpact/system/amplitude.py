@@ -2,7 +2,7 @@
 
 
 def sawtooth_amplitude(epsilon: float, path):
-    """C of a ball that flies `path` from wall to wall: half of what Z covers on a flight, the same on both.
+    """C of a ball that flies `path` from wall to wall: half the path of Z on a flight, the same on both.
 
     On a flight of half a period it is (1 + epsilon) pi |Y'| / (2 Omega). Flights of unequal length have unequal speeds
     but one amplitude.
@@ -14,5 +14,5 @@ def sawtooth_amplitude(epsilon: float, path):
 
 
 def path_of(epsilon: float, C):
-    """Displacement of Y on a flight of the saw-tooth of amplitude C, any shape: what `sawtooth_amplitude` inverts."""
+    """Displacement of Y on a flight of the saw-tooth of amplitude C, any shape: the inverse of `sawtooth_amplitude`."""
     return 2 * C / (1 + epsilon)

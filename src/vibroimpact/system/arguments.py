@@ -1,4 +1,4 @@
-"""Arguments as users give them: what is not a real number, a whole number or an array of numbers is refused by name."""
+"""Checks of arguments: real numbers, whole numbers and arrays of numbers, with the argument's name in the error."""
 
 import math
 import numbers
@@ -22,7 +22,7 @@ def instance(name: str, value, kind: type):
 
 
 def real(name: str, value) -> float:
-    """A finite real number as a float; a text or a truth value is none.
+    """A finite real number as a float; rejects str and bool.
 
     Raises:
         ValueError: it is none, not finite, or beyond the range of floats.
@@ -52,7 +52,7 @@ def pair(name: str, values) -> tuple[float, float]:
 
 
 def whole(name: str, value, least: int, most: int) -> int:
-    """A whole number from least to most, also where it is given as a float.
+    """A whole number from least to most, as an int; takes a float of such a value.
 
     Raises:
         ValueError: it is none.

@@ -1,4 +1,4 @@
-"""The parameters of section 10.4: what all cases share, and the forces of each."""
+"""The parameters of section 10.4: those of all cases, and the forces of each."""
 
 PARAMETERS = {
     "epsilon": 0.1,

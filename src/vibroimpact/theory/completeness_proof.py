@@ -58,7 +58,7 @@ class Proof:
 
 
 def certify(system) -> Proof:
-    """Prove how many fixed points a system has, C_i of either sign.
+    """Prove the number of fixed points of a system, C_i of either sign.
 
     There is none where a module is driven by nothing: what its ball dissipates, mu rho C_i^2, leaves C_i = 0, and the
     search refuses the free motion that would be left.
@@ -78,7 +78,7 @@ def certify(system) -> Proof:
 
 
 def certify_asymmetric(system) -> Proof:
-    """Prove how many fixed points with an asymmetric module a system has, mirror images counted once.
+    """Prove the number of fixed points with an asymmetric module, mirror images counted once.
 
     Raises:
         ValueError: as `asymmetric_points.search`.

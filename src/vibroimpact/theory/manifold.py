@@ -22,7 +22,7 @@ def sawtooth(tau0, C, theta):
 
 
 def rho(kappa):
-    """rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15): what an impact dissipates; 0 for elastic impacts."""
+    """rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), the dissipation of an impact; 0 for elastic impacts."""
     return 2 * (1 - kappa) / (np.pi * (1 + kappa))
 
 

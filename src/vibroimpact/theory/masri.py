@@ -61,7 +61,7 @@ def upper_limit(kappa):
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """ "stable", "unstable" or "undecided": whether C lies between both limits.
+    """Verdict "stable", "unstable" or "undecided": stable with C between both limits.
 
     Args:
         error: bound on the error of C; rounding is added to it.

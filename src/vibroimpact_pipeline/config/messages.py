@@ -1,4 +1,4 @@
-"""Error messages on a config: which key, what was given, what is allowed."""
+"""Error messages on a config: the key, the given value, the allowed values."""
 
 import difflib
 import re

@@ -202,7 +202,7 @@ class Config(Section):
             yield ("sweeps", "self"), "a sweep cannot have this name, which Snakemake gives to an argument"
 
     def _unsound(self):
-        """Yield what no System can be: the cases, or else what they become where parameters move."""
+        """Yield errors of parameters that no System takes: those of the cases, or else where parameters move."""
         systems, found = {}, False
         for name, case in self.cases.items():
             own = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)

@@ -15,7 +15,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     def conditions(self) -> Iterable[tuple[Place, str]]:
-        """Yield violated conditions between fields that are valid by themselves: the place, and what is wrong."""
+        """Yield violated conditions between fields that are valid by themselves: the place, and the error."""
         return ()
 
     @model_validator(mode="after")

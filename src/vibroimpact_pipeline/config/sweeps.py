@@ -98,7 +98,7 @@ class Sweep(Section):
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield what a sweep of this name lacks for the companion figures that draw it ("sweeps" in their SPEC)."""
+        """Yield entries that a sweep lacks for the companion figures that draw it ("sweeps" in their SPEC)."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)

@@ -14,7 +14,7 @@ from vibroimpact_pipeline.report.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SPREAD = 7
-"""A changed pixel is shown as wide as so many, so that one is seen on a page that shows several as one."""
+"""Width in pixels of the mark of a changed one, which a page would not show at its own size."""
 
 
 def page(verdicts: list[dict], reference, build) -> str:

@@ -1,4 +1,4 @@
-"""Pictures drawn from tables, and what they show: pixels of PNG, bytes of SVG and PDF without metadata."""
+"""Pictures drawn from tables, and their content: pixels of PNG, bytes of SVG and PDF without metadata."""
 
 import base64
 import hashlib
@@ -50,7 +50,7 @@ def is_blank(path) -> bool:
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """Return the SHA-256 by kind of what files show, metadata and compression apart."""
+    """Return the SHA-256 by kind of the files' content, metadata and compression apart."""
     return {kind: hashlib.sha256(SHOWN[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 

@@ -62,7 +62,7 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
 
 
 def _wrong_in_itself(table, columns):
-    """Return what a table lacks, though its reference may lack the same."""
+    """Return errors of a table by itself, though its reference may have the same."""
     compared = [name for name, entry in columns.items() if "compared" in entry and name in table]
     if table.empty or not compared:
         return ["no rows" if table.empty else "none of the columns that its SPEC declares"]

@@ -122,7 +122,7 @@ def period_doubling(kappa: float) -> float:
 
 
 def stable(squared: float, kappa: float) -> str:
-    """ "stable", "unstable" or "undecided": whether both multipliers are inside the unit circle."""
+    """Verdict "stable", "unstable" or "undecided": stable with both multipliers inside the unit circle."""
     return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
 

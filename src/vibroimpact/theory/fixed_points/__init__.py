@@ -1,1 +1,1 @@
-"""All fixed points of the slow flow: the search, its proof, and what is read off the points."""
+"""All fixed points of the slow flow: the search, the balance of harmonics and its real zeros."""

@@ -59,7 +59,7 @@ class FixedPoint(Representation):
         return Stability(says[FAST], says[SLOW])
 
     def row(self) -> dict:
-        """Numbers and verdicts by name, as `to_frame` tells them."""
+        """Numbers and verdicts by name, the columns of `to_frame`."""
         numbers = {f"{name}{i}": float(x) for name in ("C", "B", "psi") for i, x in enumerate(getattr(self, name), 1)}
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
