@@ -224,6 +224,23 @@ def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
     assert capsys.readouterr().err == ""
 
 
+def test_attractors_and_basins_count_their_starts_on_a_terminal(monkeypatch, capsys):
+    few = vi.Observation(cycles=10, rounds=2, retest=20)
+    states = vi.starts(2, seed=1)
+    vi.attractors(SYSTEM, states, few)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    vi.attractors(SYSTEM, states, few)
+    lines = capsys.readouterr().err
+    assert lines.count("starts: round 1, 2/2\n") == 1
+    assert "starts: last round, " in lines
+    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few)
+    assert "starts: round 1, 2/2\n" in capsys.readouterr().err
+    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few, progress=False)
+    vi.attractors(SYSTEM, states, few, progress=False)
+    assert capsys.readouterr().err == ""
+
+
 def test_the_former_name_of_a_verdict_still_answers():
     [first, *_] = vi.fixed_points(SYSTEM)
     with pytest.deprecated_call():

@@ -12,6 +12,7 @@ from vibroimpact.exact.engine.simulation import MOST_CYCLES, simulate
 from vibroimpact.regimes.aperiodic import name_aperiodic
 from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
 from vibroimpact.system.arguments import real, whole
+from vibroimpact.system.progress import counted
 
 MOST_WITNESSES = 5
 
@@ -43,7 +44,7 @@ class Observation:
             raise ValueError(f"nearness: {self.nearness} is not above 0")
 
 
-def settle(system, states, observation: Observation) -> list[Regime]:
+def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
     """The regime that each start ends in, one per start, in their order.
 
     A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
@@ -53,28 +54,29 @@ def settle(system, states, observation: Observation) -> list[Regime]:
 
     Args:
         states: (n, 8) starts at tau = 0.
-        observation: how long they are looked at.
+        observation: how long they are looked at. progress: count them on standard error, if that is a terminal.
     """
-    first = _rounds(system, states, observation)
+    first = _rounds(system, states, observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
         members = [k for k, regime in enumerate(first) if regime.name == name and regime.repeats is None]
         if members:
-            _try(system, regimes, members, observation)
+            _try(system, regimes, members, observation, progress)
     return regimes
 
 
-def _rounds(system, states, observation):
+def _rounds(system, states, observation, progress):
     """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), np.asarray(states)
-    for _ in range(observation.rounds - 1):
+    for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
-        for place, state in zip(waiting, now, strict=True):
+        for place, state in counted([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):
             found[place] = observe(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
         waiting, now = waiting[passing], now[passing]
-    for place, state in zip(waiting, now, strict=True):  # the last round, with the events that a name needs
+    # the last round, with the events that a name needs
+    for place, state in counted([*zip(waiting, now, strict=True)], "starts: last round,", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
             found[place] = _later(system, found[place], observation)
@@ -98,24 +100,24 @@ def _later(system, regime, observation):
     return named(simulate(system, regime.run.final, observation.retest), observation)
 
 
-def _try(system, regimes, members, observation):
+def _try(system, regimes, members, observation, progress):
     """Rename, in place, the members of one name by the ends of the witnesses."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
-    _run_on(system, regimes, witnesses, observation)
+    _run_on(system, regimes, witnesses, observation, progress)
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
-    _run_on(system, regimes, set(members) - set(witnesses), observation)
+    _run_on(system, regimes, set(members) - set(witnesses), observation, progress)
     for k in members:
         if _same_kind(before, regimes[k].name):
             regimes[k] = replace(regimes[k], name=UNSETTLED)
 
 
-def _run_on(system, regimes, places, observation):
-    for k in places:
+def _run_on(system, regimes, places, observation, progress):
+    for k in counted([*places], f"starts: longer run, {observation.retest} cycles,", progress):
         regimes[k] = _later(system, regimes[k], observation)
 
 

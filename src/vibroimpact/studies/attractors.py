@@ -43,7 +43,7 @@ class Basins:
         return [dict(zip(every, values, strict=True)) for values in zip(*every.values(), strict=True)]
 
 
-def attractors(system: System, states, observation: Observation | None = None) -> Basins:
+def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
     """The attractors that starts end in, with a label and the share of each.
 
     >>> from vibroimpact import starts
@@ -56,6 +56,7 @@ def attractors(system: System, states, observation: Observation | None = None) -
         observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
             until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
             never meet a wall (docs/howto_sweep.md).
+        progress: count the starts on standard error, if that is a terminal.
 
     Raises:
         ValueError: an argument is malformed.
@@ -64,11 +65,15 @@ def attractors(system: System, states, observation: Observation | None = None) -
     states = reals("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
-    return _basins(system, states, states.shape[:1], {}, observation)
+    return _basins(system, states, states.shape[:1], {}, observation, progress)
 
 
 def basins(
-    system: System, axes: Mapping[str, Iterable[float]], state=(0.0,) * 8, observation: Observation | None = None
+    system: System,
+    axes: Mapping[str, Iterable[float]],
+    state=(0.0,) * 8,
+    observation: Observation | None = None,
+    progress: bool = True,
 ) -> Basins:
     """Basins of attraction on a plane (or line) of starts: labels, attractors and shares as Attractors.jl has them.
 
@@ -81,7 +86,7 @@ def basins(
         axes: values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2,
             where W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
         state: (8,) start at tau = 0, which gives the other coordinates; by default at rest.
-        observation: as for `attractors`.
+        observation, progress: as for `attractors`.
 
     Returns:
         `Basins`, with labels in the shape of the axes. `to_frame([found])` is a table, a row per start.
@@ -101,10 +106,10 @@ def basins(
     for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_PLACES[pair[0]])):
         first, *ball = _PLACES[name]
         states[:, ball or first] = (states[:, [first]] - values.reshape(-1, 1)) if ball else values.ravel()
-    return _basins(system, states, grid[0].shape, axes, observation)
+    return _basins(system, states, grid[0].shape, axes, observation, progress)
 
 
-def _basins(system, states, shape, axes, observation):
+def _basins(system, states, shape, axes, observation, progress):
     instance("system", system, System)
     observation = instance("observation", Observation() if observation is None else observation, Observation)
     for row, state in enumerate(states):
@@ -112,7 +117,7 @@ def _basins(system, states, shape, axes, observation):
             checked_state(state)
         except ValueError as error:
             raise ValueError(f"start {row}: {error}") from None
-    labels, found = told_apart(settle(system, states, observation))
+    labels, found = told_apart(settle(system, states, observation, progress))
     shares = {int(label): float(np.mean(labels == label)) for label in np.unique(labels)}
     shares = dict(sorted(shares.items(), key=lambda item: -item[1]))
     return Basins(labels.reshape(shape), dict(enumerate(found, start=1)), shares, axes)
