@@ -114,8 +114,9 @@ def force(gap, speed, law, damping):
 
 
 @kept()
-def _rates(tau, s, q, law, dampings, d):
-    """Derivative of the state, into d."""
+def _rates(tau, s, contact, d):
+    """Derivative of the state, into d; contact: coefficients, law, and D of both contacts."""
+    q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
     for i in range(2):
         push = force(s[2 * i] - s[2 * i + 1], s[2 * i + 4] - s[2 * i + 5], law, dampings[i])
@@ -132,17 +133,17 @@ def _sum(weights, rates, count, c):
 
 
 @kept()
-def _step(stages, tau, s, h, q, law, dampings):
+def _step(stages, tau, s, h, contact):
     """The state a step later, and the error as a multiple of the allowed one."""
     A, B, C, E = stages
     rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
     for k in range(6):
         for c in range(8):
             ahead[c] = s[c] + h * _sum(A[k], rates, k, c)
-        _rates(tau + C[k] * h, ahead, q, law, dampings, rates[k])
+        _rates(tau + C[k] * h, ahead, contact, rates[k])
     for c in range(8):
         ahead[c] = s[c] + h * _sum(B, rates, 6, c)
-    _rates(tau + h, ahead, q, law, dampings, rates[6])
+    _rates(tau + h, ahead, contact, rates[6])
     for c in range(8):
         allowed = ABSOLUTE + RELATIVE * max(abs(s[c]), abs(ahead[c]))
         error += (h * _sum(E, rates, 7, c) / allowed) ** 2 / 8.0
@@ -167,7 +168,7 @@ def _march(q, law, stages, s, tau, end, limit):
     """The state where it gets in at most `limit` steps, rows [tau, module, wall, speed] of impacts, steps, time."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
-    h, steps = 0.01 * (end - tau), 0
+    contact, h, steps = (q, law, dampings), 0.01 * (end - tau), 0
     while steps < limit:
         for i in range(2):  # a contact begins where a step ends
             wall, speed = _outwards(s, i)
@@ -180,25 +181,25 @@ def _march(q, law, stages, s, tau, end, limit):
         if tau >= end:
             break
         h = min(h, end - tau)
-        ahead, error = _step(stages, tau, s, h, q, law, dampings)
+        ahead, error = _step(stages, tau, s, h, contact)
         steps += 1
         if error <= 1.0:
-            taken, ahead = _until_contact(stages, tau, s, h, ahead, q, law, dampings, touching)
+            taken, ahead = _until_contact(stages, tau, s, h, ahead, contact, touching)
             tau, s = end if taken >= end - tau else tau + taken, ahead
         h *= min(5.0, max(0.2, 0.9 * error**-0.2)) if error > 0.0 else (5.0 if error == 0.0 else 0.2)
     return s, rows, steps, tau
 
 
 @kept()
-def _until_contact(stages, tau, s, h, ahead, q, law, dampings, touching):
+def _until_contact(stages, tau, s, h, ahead, contact, touching):
     """The step, cut short just after the first contact that begins in it."""
     least = 0.0
     for _ in range(HALVINGS):
-        if not _begins(ahead, law, touching) or least == h:
+        if not _begins(ahead, contact[1], touching) or least == h:
             break
         half = 0.5 * (least + h)
-        there, _ = _step(stages, tau, s, half, q, law, dampings)
-        if _begins(there, law, touching):
+        there, _ = _step(stages, tau, s, half, contact)
+        if _begins(there, contact[1], touching):
             h, ahead = half, there
         else:
             least = half
