@@ -23,14 +23,14 @@ def counts(table: pd.DataFrame) -> dict:
 
     Stable ones count if their motion is proved legal too.
     """
-    legal, says = table["motion_proved"] == "legal", table["floquet_proved"]
+    legal, stability = table["motion_proved"] == "legal", table["floquet_proved"]
     found = {
         "listed": table["label"],
         "proved": table[table["box_radius"] > 0],
         "motion_proved": table[table["motion_proved"] != NOT_PROVED],
-        "floquet_proved": table[says != NOT_PROVED],
+        "floquet_proved": table[stability != NOT_PROVED],
         "legal": table[legal],
-        "legal_and_stable": table[legal & (says == "stable")],
-        "legal_and_unstable": table[legal & (says == "unstable")],
+        "legal_and_stable": table[legal & (stability == "stable")],
+        "legal_and_unstable": table[legal & (stability == "unstable")],
     }
     return {name: len(rows) for name, rows in found.items()}

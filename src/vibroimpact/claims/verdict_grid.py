@@ -32,8 +32,8 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
             exact = exact_verdicts(here.with_(epsilon=value), [point.C for point, _ in judged], there)
             place = {"epsilon": value, "f10_hat": here.f10_hat, "f20_hat": here.f20_hat}
             rows += [
-                {**place, "C1": point.C[0], "C2": point.C[1], **says, **found}
-                for (point, says), found in zip(judged, exact, strict=True)
+                {**place, "C1": point.C[0], "C2": point.C[1], **verdicts, **found}
+                for (point, verdicts), found in zip(judged, exact, strict=True)
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
     return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True), FORMER)

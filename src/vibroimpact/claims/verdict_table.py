@@ -36,11 +36,11 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     for orbit in orbits:
         counts[orbit.symmetric] += 1
         label = f"{'S' if orbit.symmetric else 'A'}{counts[orbit.symmetric]}"
-        says = {**criteria.of_orbit(orbit), EXACT: floquet(orbit)}
+        verdicts = {**criteria.of_orbit(orbit), EXACT: floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
         numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
         numbers += [*np.abs(orbit.multipliers), *orbit.state]
-        rows.append([*kind, *numbers, orbit.residual, *(says[criterion] for criterion in CRITERIA)])
+        rows.append([*kind, *numbers, orbit.residual, *(verdicts[criterion] for criterion in CRITERIA)])
     return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT), FORMER)
 
 
@@ -62,10 +62,10 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         partner = None if place is None else symmetric.iloc[place]
         exact = NO_ORBIT if partner is None else partner[EXACT]
         within = all(stays_within_walls(C, system.kappa) for C in point.C)
-        says = {**criteria.of_fixed_point(system, point), EXACT: exact}
-        known_as = "" if partner is None else partner["label"]
+        verdicts = {**criteria.of_fixed_point(system, point), EXACT: exact}
+        orbit = "" if partner is None else partner["label"]
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
-        rows.append({**row, "orbit": known_as, **says})
+        rows.append({**row, "orbit": orbit, **verdicts})
     columns = ["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA]
     return with_former_names(pd.DataFrame(rows, columns=columns), FORMER)
 

@@ -41,7 +41,7 @@ class Modal(Method):
         if not condition < WORST:
             return failed(REFUSED, f"the boxes' eigenvectors have condition number {condition:.1g}", 0)
         start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
-        final, rows, looks, tau = _march(coefficients(system), *tables, start, tau0, end, step, limit or self.limit)
+        final, rows, looks, tau = _march(coefficients(system), tables, start, tau0, end, step, limit or self.limit)
         if tau < end:
             return failed(UNFINISHED, f"{looks} looks reach tau = {tau:.6g}", looks, noted=rows)
         return MethodRun(final, rows, looks)
@@ -135,8 +135,9 @@ def _guess(before, there, i, low, high):
 
 
 @kept(error_model="numpy", fastmath={"contract"})
-def _march(q, counts, all_rates, all_shapes, inverses, s, tau, end, step, limit):
+def _march(q, tables, s, tau, end, step, limit):
     """Run in at most `limit` looks: final state, rows [time, module, wall, speed] of impacts, looks, time reached."""
+    counts, all_rates, all_shapes, inverses = tables
     walls, ahead = np.zeros(2), np.empty((4, 2, 5))
     amplitudes, now, trial, turns = np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5))
     before, there, event, found = np.empty(8), np.empty(8), np.empty(8), np.empty(8)

@@ -55,8 +55,8 @@ class FixedPoint(Representation):
     @property
     def stability(self) -> Stability:
         """Verdicts of the theory: fast (Masri's analysis, derived anew), slow (the slow flow), and both together."""
-        says = of_fixed_point(self.system, self)
-        return Stability(says[FAST], says[SLOW])
+        verdicts = of_fixed_point(self.system, self)
+        return Stability(verdicts[FAST], verdicts[SLOW])
 
     def row(self) -> dict:
         """Numbers and verdicts by name, the columns of `to_frame`."""
