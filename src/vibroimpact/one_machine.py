@@ -341,9 +341,9 @@ class _Study:
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
         before = finished(ensemble(each, _starts(AGAIN, 2), self.wait))
-        seen = finished(ensemble(each, before["final"], WATCHED))
-        largest, settling = (machine.L * runs["largest"][..., 0] for runs in (seen, before))
-        return _Measured(machine, systems, largest, settling[:, 0], before["final"], seen["final"])
+        settled = finished(ensemble(each, before["final"], WATCHED))
+        largest, settling = (machine.L * runs["largest"][..., 0] for runs in (settled, before))
+        return _Measured(machine, systems, largest, settling[:, 0], before["final"], settled["final"])
 
     def response(self, measured, absorber) -> list[dict]:
         """The rows of `Design.response`."""

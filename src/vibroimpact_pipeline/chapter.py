@@ -32,13 +32,13 @@ def _differences(place, given, printed):
     return [f"{place}.{name} is {given[name]}, not {value}" for name, value in printed.items() if given[name] != value]
 
 
-def unknown_entries(config: dict, seen: dict[str, str]) -> list[str]:
+def unknown_entries(config: dict, known: dict[str, str]) -> list[str]:
     """Return one line per config entry that differs from the one the claims were written for.
 
     Args:
-        seen: the digest of each entry (see `digest`) by its dotted path.
+        known: the digest of each entry (see `digest`) by its dotted path.
     """
-    others = [path for path, known in seen.items() if _digest_at(config, path) != known]
+    others = [path for path, digest in known.items() if _digest_at(config, path) != digest]
     return [f"{path} is not the one that docs/claims.yaml knows" for path in others]
 
 
@@ -57,17 +57,17 @@ TABLES = {
 """Parts of the evidence that depend on an entry of the config."""
 
 
-def unlike(config: dict, seen: dict[str, str]) -> dict[str, str]:
+def unlike(config: dict, known: dict[str, str]) -> dict[str, str]:
     """Return why parts of the evidence are not about the chapter, a line by part: see vibroimpact.claims.evidence.
 
     Args:
-        seen: as in `unknown_entries`.
+        known: as in `unknown_entries`.
     """
     found = {}
     for line in departures(config):
         place = line.removeprefix("there is no case ").split(" ")[0].split(".")
         found.setdefault("system" if place[0] == "system" else place[-1] if len(place) == 1 else place[1], line)
-    for line in unknown_entries(config, seen):
+    for line in unknown_entries(config, known):
         for part in TABLES[line.split(" ")[0]]:
             found.setdefault(part, line)
     return found

@@ -41,8 +41,8 @@ def running(job) -> Iterator[SimpleNamespace]:
         try:
             parts = dict(job.params.get("code", {}))
             before = code.change_times(parts)
-            for part, seen in parts.items():
-                if code.fingerprint_now(part) != seen:
+            for part, fingerprint in parts.items():
+                if code.fingerprint_now(part) != fingerprint:
                     raise Refused(f"{part}: has changed since the build began. Build again.")
             inputs = checked_digests(job.input)
             partial = {name: partial_path(path) for name, path in job.output.items()}

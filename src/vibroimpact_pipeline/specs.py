@@ -49,7 +49,7 @@ def specs(modules=None) -> dict[str, dict]:
     return complete
 
 
-def drawn_by(figure: str, scene: dict, known: dict) -> str:
+def drawing_module(figure: str, scene: dict, known: dict) -> str:
     """Return the module that draws a figure of the config: its own, or that of its notebook's first figure."""
     if figure in known:
         return figure
@@ -58,7 +58,7 @@ def drawn_by(figure: str, scene: dict, known: dict) -> str:
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
     """Return the SPEC of a figure and its "module"; where that is another figure's, the own words and files."""
-    module = drawn_by(figure, scene, known)
+    module = drawing_module(figure, scene, known)
     if module == figure:
         return known[figure] | {"module": module}
     tables = {

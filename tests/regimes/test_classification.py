@@ -13,7 +13,7 @@ from vibroimpact.regimes.classification import (
     SYMMETRIC,
     UNSETTLED,
     attracting_cycle,
-    observe,
+    classify_after,
     starts,
 )
 from vibroimpact.regimes.settling import settle
@@ -39,7 +39,7 @@ def test_the_lean_sums_both_modules_flights_from_either_wall(chapter):
     """Against the phases of the exact orbit: the time from wall +1 to wall -1 less that back, of each module."""
     system, window = chapter(), 24
     for orbit in stable_orbits(system):
-        regime, expected = observe(system, orbit.state, window, 0.02), 0.0
+        regime, expected = classify_after(system, orbit.state, window, 0.02), 0.0
         for module, (plus, minus) in enumerate(orbit.impact_phases, start=1):
             walls = regime.impacts["wall"][regime.impacts["module"] == module][:-1]  # the last flight is not over
             flights = {1: (minus - plus) % 1.0, -1: (plus - minus) % 1.0}
@@ -54,7 +54,7 @@ def test_an_exact_stable_orbit_is_recognised(chapter, f10, f20, name):
     assert orbits
     for orbit in orbits:
         assert orbit.symmetric == (name == SYMMETRIC)
-        assert observe(system, orbit.state, 24, 0.02).name == name
+        assert classify_after(system, orbit.state, 24, 0.02).name == name
         nudged = attracting_cycle(system, orbit.state + 1e-4, 1, reach=0.01)
         np.testing.assert_allclose(nudged, orbit.state, atol=1e-9)
 
@@ -97,13 +97,13 @@ def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(c
     """It will, however slow: at 1e-5 it takes more than 10 000 cycles."""
     system = chapter(0.05, 0.05)
     settled = vi.simulate(system, np.zeros(8), 300).final.copy()
-    assert observe(system, settled, 24, 0.02).name == NO_IMPACTS
+    assert classify_after(system, settled, 24, 0.02).name == NO_IMPACTS
     settled[5] = 1e-5
-    drifting = observe(system, settled, 24, 0.02)
+    drifting = classify_after(system, settled, 24, 0.02)
     assert not len(drifting.run.events)
     assert drifting.name == IDLE  # the other ball is at rest
     settled[7] = 1e-5
-    assert observe(system, settled, 24, 0.02).name == UNSETTLED
+    assert classify_after(system, settled, 24, 0.02).name == UNSETTLED
 
 
 def test_other_periodic_motions_repeat(chapter, observation):

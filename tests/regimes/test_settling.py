@@ -18,7 +18,7 @@ from vibroimpact.regimes.classification import (
     QUASI_PERIODIC,
     STRONGLY_MODULATED,
     UNSETTLED,
-    observe,
+    classify_after,
     starts,
 )
 from vibroimpact.regimes.lyapunov import Exponent
@@ -126,5 +126,5 @@ def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, ob
     for state in states:
         run = vi.simulate(system, state, 60000)
         assert not (run.events["module"] == 2).any()
-        ended += observe(system, run.final, observation.window, observation.nearness).repeats == 1
+        ended += classify_after(system, run.final, observation.window, observation.nearness).repeats == 1
     assert ended >= 2

@@ -38,20 +38,20 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
         ArithmeticError: as `simulate`.
     """
     free = instance("system", system, System).with_(f10_hat=0.0, f20_hat=0.0)
-    state, impulse, begin = np.zeros(8), real("impulse", impulse), 0.0
+    state, impulse, start = np.zeros(8), real("impulse", impulse), 0.0
     state[2 + 2 * whole("module", module, 1, 2)] = impulse
     target = checked_fraction(fraction) * 0.5 * impulse**2
     if not target > 0:
         raise ValueError(f"impulse: {impulse} gives no energy that could decay")
     cycles = whole("cycles", cycles, 1, 10**6)
     for done in range(0, cycles, AT_ONCE):
-        run = simulate(free, state, min(AT_ONCE, cycles - done), begin)
+        run = simulate(free, state, min(AT_ONCE, cycles - done), start)
         flights = run.trajectory[1]
         below = np.flatnonzero(_energies(free, flights[:, AFTER:COLUMNS]) <= target)
         if len(below):
             n = int(below[0])
             return run.tau0 + float(flights[:n, LENGTH].sum()) + _time_within(free, flights[n], target)
-        state, begin = run.final, run.end
+        state, start = run.final, run.end
     return math.inf
 
 

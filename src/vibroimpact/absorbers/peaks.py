@@ -57,12 +57,12 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
         ArithmeticError: a run could not be finished.
         ValueError: as `ensemble`.
     """
-    seen = by_cycle(systems, states, cycles, settle)
-    if seen.unfinished:
-        raise ArithmeticError(f"a peak cannot be measured: {seen.unfinished} runs could not be finished")
-    heights = peak_of(seen.largest)
+    runs = by_cycle(systems, states, cycles, settle)
+    if runs.unfinished:
+        raise ArithmeticError(f"a peak cannot be measured: {runs.unfinished} runs could not be finished")
+    heights = peak_of(runs.largest)
     at = int(heights.argmax())
-    return Peak(float(heights[at]), standard_error(seen.largest), float(seen.largest.max()), at)
+    return Peak(float(heights[at]), standard_error(runs.largest), float(runs.largest.max()), at)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Cycles:

@@ -15,14 +15,14 @@ def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
     fastest call.
     """
     given, best = [None] * len(works), [float("inf")] * len(works)
-    spent, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
+    total, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
     while left:
         for n in left:
             start = time.perf_counter()
             given[n] = works[n]()
             elapsed = time.perf_counter() - start
-            best[n], spent[n], calls[n] = min(best[n], elapsed), spent[n] + elapsed, calls[n] + 1
-        left = [n for n in left if spent[n] < seconds and calls[n] < most]
+            best[n], total[n], calls[n] = min(best[n], elapsed), total[n] + elapsed, calls[n] + 1
+        left = [n for n in left if total[n] < seconds and calls[n] < most]
     return list(zip(given, best, strict=True))
 
 

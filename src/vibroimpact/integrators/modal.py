@@ -81,7 +81,7 @@ def _turn(rates, count, t, turns):
 
 
 @inlined()
-def _carry(turns, count, amplitudes, later):
+def _advance(turns, count, amplitudes, later):
     """Write the amplitudes (2, 5) after a time."""
     for k in range(count):
         re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
@@ -159,9 +159,9 @@ def _march(q, tables, s, tau, end, step, limit):
             if last or not regular:
                 high = end - tau if last else high
                 _turn(rates, count, high, turns)
-                _carry(turns, count, amplitudes, now)
+                _advance(turns, count, amplitudes, now)
             else:
-                _carry(ahead[m], count, now, now)
+                _advance(ahead[m], count, now, now)
             _state(s, walls, count, shape, now, high, there)
             for i in range(2):
                 if guard(tau + high, there, q, walls, i) < 0.0:
@@ -194,7 +194,7 @@ def _event(q, flight, tau, i, times, states, memory, event):
     t = _guess(before, there, i, low, high) if walls[i] == 0.0 else 0.5 * (low + high)
     for _ in range(TRIES):
         _turn(rates, count, t, turns)
-        _carry(turns, count, amplitudes, trial)
+        _advance(turns, count, amplitudes, trial)
         _state(s, walls, count, shape, trial, t, event)
         value = guard(tau + t, event, q, walls, i)
         low, high = (t, high) if value >= 0.0 else (low, t)

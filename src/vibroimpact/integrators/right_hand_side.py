@@ -13,7 +13,7 @@ NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon"
 
 inlined = partial(kept, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """For what runs at every step: code from a cache is inlined only where it is told to be."""
-unfolded = partial(kept, inline="always")
+inlined_source = partial(kept, inline="always")
 """For what rounds as its caller does: SciPy's integrators get no contracted products."""
 
 
@@ -24,7 +24,7 @@ def coefficients(system) -> np.ndarray:
     return np.concatenate([*numbers, [system.Omega, system.epsilon, system.kappa]])
 
 
-@unfolded()
+@inlined_source()
 def accelerations(sine, s, q, walls):
     """X1'' and X2'' in the state s (8,) at a sine of the forcing phase.
 
@@ -35,7 +35,7 @@ def accelerations(sine, s, q, walls):
     return (a1 / (1.0 + q[9]) if walls[0] != 0.0 else a1), (a2 / (1.0 + q[9]) if walls[1] != 0.0 else a2)
 
 
-@unfolded()
+@inlined_source()
 def derivative(sine, s, q, walls, d):
     """Write the derivative of the state s (8,) to d (8,)."""
     a1, a2 = accelerations(sine, s, q, walls)

@@ -67,7 +67,7 @@ class Regime:
         return np.abs(np.diff([run.samples[0, ball], *turns, run.final[ball]])).sum()
 
 
-def observe(system, state, window: int, nearness: float) -> Regime:
+def classify_after(system, state, window: int, nearness: float) -> Regime:
     """The regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
 
     Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there

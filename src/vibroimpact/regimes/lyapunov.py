@@ -51,7 +51,7 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     """
     if blocks < 2:
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
-    factors = np.array([grown.factors for grown in _carried(system, state, [cycles] * (discarded + blocks), 1)])
+    factors = np.array([grown.factors for grown in _frame_growth(system, state, [cycles] * (discarded + blocks), 1)])
     if not factors.all():
         raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
@@ -114,7 +114,7 @@ class Spectrum:
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
     """All Lyapunov exponents over `cycles` forcing cycles after others, from a state as for `largest_exponent`."""
     whole, rest = divmod(discarded + cycles, AT_ONCE)
-    parts = zip(*_carried(system, state, [AT_ONCE] * whole + [rest] * (rest > 0), SIZE), strict=True)
+    parts = zip(*_frame_growth(system, state, [AT_ONCE] * whole + [rest] * (rest > 0), SIZE), strict=True)
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
@@ -150,7 +150,7 @@ def kaplan_yorke(exponents) -> float:
     return float(whole + sums[whole - 1] / -exponents[whole])
 
 
-def _carried(system, state, runs, directions):
+def _frame_growth(system, state, runs, directions):
     """Growth of a frame along each of some runs, of so many cycles, one after another."""
     frame = _FRAME[:, :directions]
     for cycles in runs:

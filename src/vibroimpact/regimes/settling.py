@@ -10,7 +10,7 @@ import numpy as np
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, simulate
 from vibroimpact.regimes.aperiodic import name_aperiodic
-from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, observe
+from vibroimpact.regimes.classification import APERIODIC, CHAOS, IDLE, PERIODIC, UNSETTLED, Regime, classify_after
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.progress import counted
 
@@ -21,8 +21,8 @@ MOST_WITNESSES = 5
 class Observation:
     """Settings of an observation: lengths of runs, in cycles, and tolerance.
 
-    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness:
-    as in `observe`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
+    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness: as in
+    `classify_after`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
     retest: cycles over which such a name is tried.
 
     Raises:
@@ -72,7 +72,7 @@ def _rounds(system, states, observation, progress):
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
         for place, state in counted([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):
-            found[place] = observe(system, state, observation.window, observation.nearness)
+            found[place] = classify_after(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
         waiting, now = waiting[passing], now[passing]
     # the last round, with the events that a name needs
@@ -85,7 +85,7 @@ def _rounds(system, states, observation, progress):
 
 def named(run, observation: Observation) -> Regime:
     """The regime at the end of a run, with a name for one that does not repeat."""
-    regime = observe(run.system, run.final, observation.window, observation.nearness)
+    regime = classify_after(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
         return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
     return regime

@@ -76,21 +76,21 @@ def _peaks(system, states, spec):
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
-    seen = by_cycle(systems, states, spec.cycles, spec.settle)
-    if seen.unfinished == len(systems) * len(states):
-        return np.nan, np.nan, np.nan, np.nan, seen.unfinished
-    peaks = peak_of(seen.largest)
+    runs = by_cycle(systems, states, spec.cycles, spec.settle)
+    if runs.unfinished == len(systems) * len(states):
+        return np.nan, np.nan, np.nan, np.nan, runs.unfinished
+    peaks = peak_of(runs.largest)
     at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
-    return np.nanmax(peaks), seen.rms, at, _one_ball(seen), seen.unfinished
+    return np.nanmax(peaks), runs.rms, at, _one_ball(runs), runs.unfinished
 
 
-def _one_ball(seen):
+def _one_ball(runs):
     """The peak of runs from rest, if the same one ball is still there in all of them; else nan.
 
     A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
     """
-    still = [not seen.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
-    return peak_of(seen.largest[:, :1]).max() if sum(still) == 1 else np.nan
+    still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
+    return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
 
 
 def _energy(system, states, spec):
