@@ -309,7 +309,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
         if steps > SPELL:
             _stop_crowded(stages, status, m)
             return False
-        steps += march.march(m.runs, m.constants, max(3 * alive // 4, 1)) + 16
+        steps += march.march(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
         if march.meet(m.runs, m.constants, m.work, integrals) == 0:
             continue
         for lane in range(WIDTH):
@@ -342,6 +342,7 @@ def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
         for i in range(4):
             final[n, k, 2 * i], final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
         if watched:
+            march.find_turns(m.runs, m.constants, m.work)
             _read(m, lane)
             open_or_close(flow, squares, motion, 1.0, m.seen)
             seen[n, k] = m.seen
