@@ -59,7 +59,7 @@ WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """The same with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
-MEANS = [PATH, PATH + 1, INTEGRALS, INTEGRALS + 1]
+MEANS = slice(PATH, INTEGRALS + 2)
 ENERGIES = [*range(INTEGRALS + 2, SEEN), LOST, LOST + 1, STORED]
 UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
 """Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""

@@ -400,8 +400,8 @@ def _keep_turns(runs, c, work, turns, wrong, early, late, step):
     """Keep the turns of boxes in a step that may be their largest displacements; find those kept before where it cannot
     be told which is larger.
 
-    early, late: boxes and forcing before and after the step; wrong: the error of Hermite's polynomial, five times. Split
-    where the box turns, its hull is next to it.
+    early, late: boxes and forcing before and after the step; wrong: five times the error of Hermite's polynomial, whose
+    hull is next to it when split where the box turns.
     """
     wrong = 0.2 * wrong
     for i in range(2):
