@@ -53,12 +53,13 @@ class Squares(NamedTuple):
 
 
 def _lyapunov():
-    """Return, on the upper triangle of S, the map A -> A' S + S A (36, 21, 21) and sin^2 + cos^2 (21,)."""
+    """Return, on the upper triangle of S, the map A -> A' S + S A (36, 441) and sin^2 + cos^2 (21,)."""
     units = np.zeros((TRIANGLE, SIZE, SIZE))
     units[np.arange(TRIANGLE), ROWS, COLUMNS] = units[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
     rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)
     images = rates.transpose(0, 1, 3, 2) @ units + units @ rates
-    return images[..., ROWS, COLUMNS].transpose(0, 2, 1), ((ROWS == COLUMNS) & (ROWS >= 4)).astype(float)
+    images = images[..., ROWS, COLUMNS].transpose(0, 2, 1).reshape(SIZE * SIZE, -1)
+    return np.ascontiguousarray(images), ((ROWS == COLUMNS) & (ROWS >= 4)).astype(float)
 
 
 OPERATORS, FORCED = _lyapunov()
@@ -69,7 +70,8 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     matrices (n, 4, 6, 6), and True (n,) for systems where their differences keep their digits.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
-    equations[..., :-1, :-1] = np.tensordot(rates.reshape(*rates.shape[:2], -1), OPERATORS, 1)
+    images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
+    equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
     equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # S and S + sin^2 + cos^2 do alike
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
 from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, Squares, account, energies, potentials_of, powers_of
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, go_on
@@ -59,7 +59,7 @@ WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """The same with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
-MEANS = [PATH, PATH + 1, INTEGRALS, INTEGRALS + 1]
+MEANS = slice(PATH, INTEGRALS + 2)
 ENERGIES = [*range(INTEGRALS + 2, SEEN), LOST, LOST + 1, STORED]
 UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
 """Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""
@@ -309,7 +309,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
         if steps > SPELL:
             _stop_crowded(stages, status, m)
             return False
-        steps += march.march(m.runs, m.constants, max(3 * alive // 4, 1)) + 16
+        steps += march.march(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
         if march.meet(m.runs, m.constants, m.work, integrals) == 0:
             continue
         for lane in range(WIDTH):
@@ -332,7 +332,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
                 status[n], m.members[lane] = ended, -1
 
 
-@unfolded
+@in_place
 def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
     """Return True if a run is at its end. Close the window of its observation that ends there, else open the next."""
     settle, cycles, length = stages
@@ -342,9 +342,11 @@ def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
         for i in range(4):
             final[n, k, 2 * i], final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
         if watched:
+            march.find_turns(m.runs, m.constants, m.work)
             _read(m, lane)
             open_or_close(flow, squares, motion, 1.0, m.seen)
-            seen[n, k] = m.seen
+            for place in range(SEEN):
+                seen[n, k, place] = m.seen[place]
     if stop == cycles:
         return True
     m.runs[march.STOP, lane], m.runs[march.WATCHED, lane] = stop + length, 1.0
@@ -354,7 +356,7 @@ def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
     return False
 
 
-@unfolded
+@in_place
 def _stop_crowded(stages, status, m):
     """Give up runs with too many events."""
     most = kernel.MOST_EVENTS + kernel.MOST_EVENTS_PER_CYCLE * float(stages[1])
@@ -381,7 +383,7 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
         m.made[slot, 1:] = False
         flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
         j = int(march.LONGEST_STEP / max(flow.rate, flow.coefficients.omega) * flow.density)
-        fill_table(rates[owner], 0, flow.spacing, flow.series, flow.rotations, j, m.change)
+        fill_table(rates[owner], np.intp(0), flow.spacing, flow.series, flow.rotations, j, m.change)
         _fill_constants(flow, m.change, j * flow.spacing, phases[owner], potentials, drifts, owner, m.kept[slot])
     m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
     m.constants[:, lane], m.runs[:, lane] = m.kept[slot], 0.0
@@ -495,5 +497,5 @@ def _make_tables(flow, rates, progress, made, change):
         modes |= (1 << i) if near or progress.due == i else 0
     for mode in range(4):
         if mode | modes == modes and not made[mode]:
-            fill_table(rates, mode, flow.spacing, flow.series, flow.rotations, 0, change)
+            fill_table(rates, np.intp(mode), flow.spacing, flow.series, flow.rotations, np.intp(0), change)
             made[mode] = True

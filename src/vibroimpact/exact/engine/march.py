@@ -34,12 +34,16 @@ from vibroimpact.exact.engine.phase import (
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
 PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, SEEN_AT = range(18, 28)
-STATES = SEEN_AT + SEEN
+TURNS_AT = SEEN_AT + SEEN
+SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
+STATES = TURNS_AT + 2 * TURN
 """Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; the
 time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
 the event loop); a bound on the boxes' energy, that for Bernstein's coefficients; the walls that the balls leave; the
 module that is on a wall, or -1; the phase at the beginning, revolutions, and those at which the run stops; 1 for a run,
-1 if it is observed; its events, its flights without progress; what a pass did; its statistics."""
+1 if it is observed; its events, its flights without progress; what a pass did; its statistics; for each box a turn that
+may be its largest displacement (`find_turns`): boxes and forcing at a time near it, roughly the time from then to the
+turn, a bound on its displacement, 1 if there is one."""
 
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
 BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
@@ -52,6 +56,7 @@ NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """What a pass did in a lane: DOUBTFUL asks for the event loop."""
 
 ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
+TERMS = 7  # of them that are enough for the time of a turn in a step
 LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
 LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
@@ -89,7 +94,7 @@ def _may_turn_beyond(most, x, v, later, v_later, third):
 
 
 @in_place
-def march(runs, c, enough):
+def march(runs, c, work, enough):
     """Carry runs (STATES, 8) with constants (CONSTANTS, 8) on until so many have a step that is not proved; return the
     number of steps.
     """
@@ -114,12 +119,17 @@ def march(runs, c, enough):
         o1, o2 = b1 - u1, b2 - u2
         ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
-        wrong = 1.0 - limit
-        ok = ok & ~_may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
-        ok = ok & ~_may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
         if count(alive & ~ok) >= enough:
             break
-        s, k = where(ok, s + fused(k, sa, s * ca), s), where(ok, k + fused(k, ca, -s * sa), k)
+        wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
+        turns1 = ok & _may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
+        turns2 = ok & _may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
+        if count(turns1 | turns2) > 0:
+            early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
+            _keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
+            most1 = where(watched, load(runs, SEEN_AT + LARGEST), math.inf)
+            most2 = where(watched, load(runs, SEEN_AT + LARGEST + 1), math.inf)
+        s, k = where(ok, s_later, s), where(ok, k_later, k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
         w1, w2, r1, r2 = where(ok, q1, w1), where(ok, q2, w2), where(ok, o1, r1), where(ok, o2, r2)
@@ -218,7 +228,7 @@ def meet(runs, c, work, integrals):
     again = pending & ~there & (t > SHORTEST * step)
     stops = there & ~meets & ~leaves & (time >= reach) & (left <= SAME_TIME)
     if integrals > 0:
-        hits, early = (impact & one, impact & ~one), ((x1, v1), (x2, v2))
+        hits, early = (impact & one, impact & ~one), (x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
         flight = there, t, time, 1.0 - limit
         _observe(runs, c, work, integrals, flight, hits, early, (b1, b2), (d1, d2), (e1, e2), (u1, u2), (s, k))
     e1, e2, o1, o2 = where(doubt, d1, e1), where(doubt, d2, e2), where(doubt, u1, o1), where(doubt, u2, o2)
@@ -354,8 +364,8 @@ def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, 
     """Add the statistics of a flight and its impact.
 
     flight: where there is one, its last step, its time, the error of Hermite's polynomial in that step; hits: where a
-    module has an impact; early: position and velocity of each box before the step; boxes: positions after it; late,
-    after: velocities before and after the impact.
+    module has an impact; early: boxes and forcing before the step; boxes: positions after it; late, after: velocities
+    before and after the impact.
     """
     there, t, time, wrong = flight
     watched, third = (load(runs, WATCHED) > 0.0) & there, t * (1 / 3)
@@ -364,12 +374,12 @@ def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, 
         _add(runs, hit, IMPACTS + i, 1.0)
         _add(runs, hit, LOST + i, load(c, LOSS) * (approach * approach))
         _add(runs, watched, PATH + i, abs(balls[i]) * time)
-        most, (x, v) = _most(abs(boxes[i]), load(runs, row)), early[i]
-        turns = watched & _may_turn_beyond(most - wrong, x, v, boxes[i], late[i], third)
-        if count(turns) > 0:
-            turned = abs(_turn(work, i * (ORDER + 1), t, t * v / (v - late[i])))
-            most = where(turns, _most(most, turned), most)
-        _replace(runs, watched, row, most)
+        _replace(runs, watched, row, _most(abs(boxes[i]), load(runs, row)))
+    most = load(runs, SEEN_AT + LARGEST), load(runs, SEEN_AT + LARGEST + 1)
+    turns1 = watched & _may_turn_beyond(most[0] - wrong, early[0], early[2], boxes[0], late[0], third)
+    turns2 = watched & _may_turn_beyond(most[1] - wrong, early[1], early[3], boxes[1], late[1], third)
+    if count(turns1 | turns2) > 0:
+        _keep_turns(runs, c, work, (turns1, turns2), wrong, early, (*boxes, *late, *forcing), t)
     z = 2.0 * boxes[0], 2.0 * boxes[1], late[0] + after[0], late[1] + after[1], 2.0 * forcing[0], 2.0 * forcing[1]
     change = where(hits[0], late[0] - after[0], where(hits[1], late[1] - after[1], 0.0))
     for k in range(integrals):
@@ -386,16 +396,72 @@ def _add(runs, mask, place, value):
 
 
 @inlined
-def _turn(work, first, end, t):
-    """Return where a box turns between 0 and the end: by Newton's method from t, and a parabola at last."""
-    value = t
-    for _ in range(3):
-        value, slope, bend = load(work, first + ORDER), 0.0 * t, 0.0 * t  # the bend is half the second derivative
-        for m in range(ORDER - 1, -1, -1):
-            bend = fused(bend, t, slope)
-            slope = fused(slope, t, value)
-            value = fused(value, t, load(work, first + m))
-        change = -0.5 * slope / bend
-        value, later = fused(0.5 * slope, change, value), t + change
-        t = where((later >= 0.0) & (later <= end), later, t)
-    return value
+def _keep_turns(runs, c, work, turns, wrong, early, late, step):
+    """Keep the turns of boxes in a step that may be their largest displacements; find those kept before where it cannot
+    be told which is larger.
+
+    early, late: boxes and forcing before and after the step; wrong: five times the error of Hermite's polynomial, whose
+    hull is next to it when split where the box turns.
+    """
+    wrong = 0.2 * wrong
+    for i in range(2):
+        x, v, y, w, row = early[i], early[2 + i], late[i], late[2 + i], TURNS_AT + TURN * i
+        part, p, q = v / (v - w), fused(step * (1 / 3), v, x), fused(step * (-1 / 3), w, y)
+        first, middle, last = fused(part, p - x, x), fused(part, q - p, p), fused(part, y - q, q)
+        before, after = fused(part, middle - first, first), fused(part, last - middle, middle)
+        ends, corners = _most(abs(x), abs(y)), _most(abs(first), abs(last))
+        highest = _most(_most(ends, corners), _most(abs(before), abs(after))) + wrong
+        turned = turns[i] & (highest > load(runs, SEEN_AT + LARGEST + i))
+        if count(turned) == 0:
+            continue
+        lowest = abs(fused(part, after - before, before)) - wrong
+        if count(turned & (load(runs, row + KEPT) > 0.0) & (load(runs, row + HIGHEST) > lowest)) > 0:
+            find_turns(runs, c, work)
+        is_late, record = part > 0.5, load(runs, SEEN_AT + LARGEST + i)
+        for k in range(6):
+            _replace(runs, turned, row + k, where(is_late, late[k], early[k]))
+        _replace(runs, turned, row + SINCE, step * where(is_late, part - 1.0, part))
+        _replace(runs, turned, row + HIGHEST, highest)
+        _replace(runs, turned, row + KEPT, 1.0)
+        _replace(runs, turned, SEEN_AT + LARGEST + i, _most(record, lowest))
+
+
+@in_place
+def find_turns(runs, c, work):
+    """Find the turns that have been kept, by Newton's method and a parabola at last; note the largest displacements.
+
+    Of the polynomials, the first terms are enough for the time of a turn.
+    """
+    for i in range(2):
+        row, first = TURNS_AT + TURN * i, (ORDER + 1) * i
+        kept = load(runs, row + KEPT) > 0.0
+        if count(kept) > 0:
+            x1, x2, v1, v2 = load(runs, row), load(runs, row + 1), load(runs, row + 2), load(runs, row + 3)
+            _expand(c, x1, x2, v1, v2, load(runs, row + 4), load(runs, row + 5), work)
+            t = load(runs, row + SINCE)
+            for _ in range(2):
+                later = t - _slope(work, first, t) / _bend(work, first, t)
+                t = where(abs(later) <= load(c, STEP), later, t)
+            value, slope = _at(work, first, t)
+            turned = abs(value - 0.5 * slope * slope / _bend(work, first, t))
+            record = load(runs, SEEN_AT + LARGEST + i)
+            _replace(runs, kept & (turned > record), SEEN_AT + LARGEST + i, turned)
+            store(runs, row + KEPT, 0.0)
+
+
+@inlined
+def _slope(work, first, t):
+    """Return the derivative of a polynomial at t, from its first terms."""
+    total = 0.0 * t
+    for m in range(TERMS, 0, -1):
+        total = fused(total, t, m * load(work, first + m))
+    return total
+
+
+@inlined
+def _bend(work, first, t):
+    """Return the second derivative of a polynomial at t, from its first terms."""
+    total = 0.0 * t
+    for m in range(TERMS, 1, -1):
+        total = fused(total, t, m * (m - 1.0) * load(work, first + m))
+    return total

@@ -11,9 +11,9 @@ from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, glid
 from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
-IMPACTS, STICKS, LARGEST, PATH, LOST, STORED, INTEGRALS, SEEN = 0, 2, 4, 6, 8, 10, 11, 18
-"""Places of the statistics of a run. For each of the two modules: impacts and sticks, the largest |X_i|, the length of
-the ball's path, the energy lost in impacts; the change of the stored energy; integrals (`energy.OBSERVED`); number."""
+IMPACTS, STICKS, LARGEST, LOST, STORED, PATH, INTEGRALS, SEEN = 0, 2, 4, 6, 8, 9, 11, 18
+"""Places of the statistics of a run: for each module impacts and sticks, the largest |X_i| and the energy lost
+in impacts; the change of the stored energy; the length of each ball's path; integrals (`energy.OBSERVED`); number."""
 
 PIECE = 4  # spacings of the flow table: over so short a time a box turns once, but for 1e-5 of its path
 STEPS = 4  # of Newton's method for a turn
