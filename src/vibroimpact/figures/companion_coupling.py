@@ -1,0 +1,306 @@
+"""Companion: the method from weak to strong coupling, two ways to lean, and the power that impacts take."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.absorbers.references import tuned
+from vibroimpact.absorbers.tuning import den_hartog
+from vibroimpact.claims.coupling import errors
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.figures.kit.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    STABLE,
+    UNSTABLE,
+    letter_panel,
+    new_figure,
+    styled,
+)
+from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.regimes.basins import plane
+from vibroimpact.regimes.classification import starts
+from vibroimpact.regimes.coupling import (
+    OPPOSITE,
+    SAME,
+    coupled,
+    impact_power,
+    lean,
+    leaning_orbits,
+    over_coupling,
+    shares,
+)
+
+SPEC = {
+    "title": "From weak to strong coupling",
+    "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
+        "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside it. "
+        "b: difference of the flight times of ball 1 over the period where both balls lean, the same way or opposite "
+        "ways; thick: stable, dashed: unstable. Modules tuned alike, forces 1.52 and 1.54. c: mean power taken by all "
+        "impacts, over the square of both forces: exact symmetric orbits, the stable leaning one, mean and standard "
+        "deviation over starts; dotted: dampers of linear absorbers of the same mass.",
+    "alt": "Three panels. First: errors near six per cent at all couplings, and crosses near 2 and 40 where the damper "
+        "is held. Second: a thick curve of opposite ways up to 4.6, dashed to 13; two thick pieces of the same way, up "
+        "to 6 and from 16 on. Third: the mean over starts falls from above the dotted level to the lowest circles.",
+    "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
+    "systems": True,
+    "needs": ["cases.equal"],
+    "columns": {
+        "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
+        "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and the branch; of power: "
+            "the motion"},
+        "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
+        "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
+            "unit": "dimensionless", "compared": "roots"},
+        "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
+        "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
+            "compared": "roots"},
+        "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
+        "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
+        "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
+            "compared": {"all starts": "extremes", "others": "roots"}},
+        "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless"},
+        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share"},
+    },
+    "tables": {
+        "summary": {
+            "file": "results/regimes/coupling.csv",
+            "about": "Numbers of [strong coupling](coupling.md), by name.",
+            "columns": {
+                "quantity": {"meaning": "what was measured", "unit": "text"},
+                "value": {"meaning": "couplings, shares, ratios, numbers of points", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
+STRONG = ("equal", "unequal")
+"""Cases that have points called stable."""
+COUPLINGS = (0.3, 1.0, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
+PROPORTION, HELD = "damper in proportion", "damper held"
+ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
+"""Where both balls lean: modules tuned alike, their impacts not in the same instant."""
+FINE = np.geomspace(0.5, 100.0, 70)
+FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
+STARTS, SEED, CYCLES, SETTLE = 32, 1, 2000, 1500
+WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
+SYMMETRIC, LEANING, ALL, OTHERS, LINEAR = "symmetric", "leaning", "all starts", "other starts", "linear absorber"
+WELL = 5.0
+"""Coupling from which the error no longer falls."""
+SAME_POWER = 1e-3
+"""Relative difference of powers of one and the same motion."""
+MISSING = 0.15
+
+
+def compute(systems: dict) -> dict:
+    """Return the errors over the coupling, the patterns of lean, and the power at the impacts.
+
+    Args:
+        systems: case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
+
+    Returns "csv": panel "error" (series damper in proportion, held: coupling, error, predicted, stable), "lean" (series
+    pattern and branch: coupling, v, stable) and "power" (force, power, spread, leaning, stable); and "summary".
+    """
+    equal = systems["equal"]
+    strong = [system for case, system in systems.items() if case in STRONG]
+    found = [_errors(strong, held) for held in (False, True)]
+    leans, watched = _patterns(equal.with_(**ALIKE))
+    power = _power(equal)
+    summary = _of_errors(found) | _of_patterns(leans) | watched | _of_power(power)
+    rows = pd.DataFrame({"quantity": summary.keys(), "value": summary.values()})
+    return {"csv": join([*found, *leans, power]), "summary": rows}
+
+
+def _errors(systems, held):
+    rows = [
+        {"coupling": value} | row
+        for system in systems
+        for value in COUPLINGS
+        for row in errors(coupled(system, value, held))
+    ]
+    table = pd.DataFrame(rows, columns=["coupling", "error", "predicted", "exact"])
+    columns = {name: table[name].to_numpy() for name in ("coupling", "error", "predicted")}
+    return curve("error", HELD if held else PROPORTION, **columns, stable=table["exact"].to_numpy())
+
+
+def _patterns(system):
+    """Return the curves of all branches, and the shares of starts that end on each pattern."""
+    rows = [
+        (name, branch, value, abs(lean(orbit)[0]), orbit.stable)
+        for name, branch, value, orbit in over_coupling(system, FINE)
+    ]
+    table = pd.DataFrame(rows, columns=["name", "branch", "coupling", "v", "stable"])
+    curves = [
+        curve("lean", f"{name}, from {branch:g}", **{column: part[column] for column in ("coupling", "v", "stable")})
+        for (name, branch), part in table.groupby(["name", "branch"], sort=False)
+    ]
+    ends = {}
+    for value in WATCHED:
+        here = coupled(system, value)
+        leaning = leaning_orbits(here)
+        if leaning:
+            ended = shares(leaning, plane(leaning[0].state, POINTS), ENOUGH)
+            ends |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
+    return curves, ends
+
+
+def _power(equal):
+    rows, begun = [], starts(STARTS, SEED)
+    for force in FORCES:
+        system = equal.with_(f10_hat=force, f20_hat=force)
+        unit = force**2
+        taken = impact_power(system, begun, CYCLES, SETTLE) / unit
+        leaning = leaning_orbits(system, both=False)[:1]
+        found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+        symmetric = [one for one in found if one.admissible]
+        powers = [impact_power(system, [one.state], 1)[0] / unit for one in leaning]
+        on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
+        for one in symmetric:
+            alone = impact_power(system, [one.state], 1)[0] / unit
+            near = bool(leaning) and one is min(symmetric, key=lambda o: np.abs(o.C - leaning[0].C).max())
+            rows.append((SYMMETRIC, force, alone, 0.0, float(near), bool(one.stable)))
+        rows += [(LEANING, force, power, 0.0, on_it.mean(), True) for power in powers]
+        rows.append((ALL, force, taken.mean(), taken.std(), on_it.mean(), False))
+        if 0 < on_it.sum() < STARTS:
+            rest = taken[~on_it]
+            rows.append((OTHERS, force, rest.mean(), rest.std(), 0.0, False))
+        rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
+    table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "leaning", "stable"])
+    table.insert(0, "panel", "power")
+    return table
+
+
+def _damper_power(system):
+    """Return the mean power in the dampers of linear absorbers of the balls' mass, tuned by the textbook."""
+    tuning = den_hartog(system)
+    damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
+    strokes = tuned(system, tuning).strokes(system.Omega)
+    return float(damping @ strokes**2 * system.Omega**2 / 2)
+
+
+def _of_errors(tables):
+    summary = {}
+    for name, table in zip((PROPORTION, HELD), tables, strict=True):
+        known = table.dropna(subset="error")
+        at_ours = table[table["coupling"] == 1.0]["error"]
+        beyond = known[known["coupling"] >= WELL]
+        summary |= {
+            f"points, {name}": len(table),
+            f"largest error, {name}": known["error"].max(),
+            f"coupling of the largest error, {name}": known["coupling"][known["error"].idxmax()],
+            f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
+            f"largest error at coupling 1, {name}": at_ours.max(),
+            f"without a motion, {name}": len(table) - len(known),
+            f"called stable, {name}": int(table["predicted"].sum()),
+            f"called stable and unstable, {name}": int((table["predicted"] & ~table["stable"]).sum()),
+            f"called unstable and stable, {name}": int((~table["predicted"] & table["stable"]).sum()),
+        }
+    return summary
+
+
+def _of_patterns(curves):
+    summary = {}
+    for part in curves:
+        stable = part["coupling"][part["stable"].astype(bool)]
+        series = part["series"].iloc[0]
+        summary |= {f"{series}: stable from": stable.min(), f"{series}: stable up to": stable.max()}
+        summary |= {f"{series}: ends": part["coupling"].max()}
+    return summary
+
+
+def _of_power(table):
+    summary = {}
+    for force, rows in table.groupby("force"):
+        by = dict(list(rows.groupby("series")))
+        mean, spread = by[ALL]["power"].iloc[0], by[ALL]["spread"].iloc[0]
+        linear = by[LINEAR]["power"].iloc[0]
+        summary[f"starts over linear, force {force:g}"] = mean / linear
+        if len(by.get(SYMMETRIC, ())) == 1:
+            only = by[SYMMETRIC]["power"].iloc[0]
+            summary[f"starts over symmetric, force {force:g}"] = mean / only
+            summary[f"spread over symmetric, force {force:g}"] = spread / only
+        if LEANING in by:
+            leaning = by[LEANING].iloc[0]
+            summary[f"leaning share, force {force:g}"] = leaning["leaning"]
+            near = by[SYMMETRIC][by[SYMMETRIC]["leaning"] == 1.0]["power"]
+            summary[f"leaning over symmetric, force {force:g}"] = leaning["power"] / near.iloc[0]
+            if OTHERS in by:
+                other = by[OTHERS].iloc[0]
+                summary[f"others over leaning, force {force:g}"] = other["power"] / leaning["power"]
+                summary[f"spread over leaning, force {force:g}"] = other["spread"] / leaning["power"]
+    return summary
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the table "csv" of `compute`: errors, patterns of lean, power."""
+    table = tables["csv"]
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    grid = figure.subplots(1, 3)
+    for axes, letter in zip(grid, "abc", strict=True):
+        letter_panel(axes, letter)
+    _draw_errors(grid[0], table)
+    _draw_leans(grid[1], table[table["panel"] == "lean"])
+    _draw_power(grid[2], table)
+    return figure
+
+
+def _draw_errors(axes, table):
+    looks = {PROPORTION: ("o", BLACK, 3.2), HELD: ("s", "white", 3.8)}
+    for name, (marker, face, size) in looks.items():
+        rows = select(table, "error", name)
+        missing = rows[rows["error"].isna()]
+        look = {"color": BLACK, "markeredgewidth": 0.7, "linestyle": "none"}
+        axes.plot(
+            rows["coupling"], 100 * rows["error"], marker, markerfacecolor=face, markersize=size, label=name, **look
+        )
+        if name == HELD and len(missing):
+            axes.plot(missing["coupling"], [100 * MISSING] * len(missing), "x", markersize=5, label="no motion", **look)
+    axes.set(
+        xscale="log",
+        xlabel=r"$\hat\alpha_{12}$",
+        ylabel="error of $C$ in %",
+        ylim=(0, 100 * MISSING + 1),
+        xlim=(0.2, 150),
+    )
+    axes.legend(loc="lower left", fontsize=8)
+
+
+def _draw_leans(axes, table):
+    for series, rows in table.groupby("series", sort=False):
+        colour = {"color": BLACK if series.startswith(SAME) else GREY}
+        axes.plot(rows["coupling"], rows["v"], **UNSTABLE | colour)
+        axes.plot(rows["coupling"], rows["v"].where(rows["stable"].astype(bool)), **STABLE | colour)
+    words = {"textcoords": "offset points", "fontsize": 8.5}
+    for name, colour, above in ((SAME, BLACK, (0, -12)), (OPPOSITE, GREY, (-8, 12))):
+        rows = table[table["series"].str.startswith(name)]
+        if len(rows):
+            middle = rows.iloc[(rows["coupling"] - 3.0).abs().argmin()]
+            axes.annotate(name, (middle["coupling"], middle["v"]), above, color=colour, ha="center", **words)
+    axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, None), xlim=(FINE[0], FINE[-1]))
+
+
+def _draw_power(axes, table):
+    marks = {
+        SYMMETRIC: {"marker": "o", "markerfacecolor": "white", "markersize": 3.6},
+        LEANING: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.4},
+    }
+    for name, look in marks.items():
+        rows = select(table, "power", name)
+        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=name, **look)
+    rows = select(table, "power", ALL)
+    axes.errorbar(
+        rows["force"], 100 * rows["power"], 100 * rows["spread"], color=GREY, capsize=2, linewidth=1.2, label=ALL
+    )
+    rows = select(table, "power", LINEAR)
+    axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label=LINEAR)
+    axes.set(
+        xlabel=r"$\hat f_{10} = \hat f_{20}$",
+        ylabel=r"power / $\hat f_{10}^2$, in $10^{-2}$",
+        ylim=(1, 6),
+        xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),
+    )
+    axes.legend(fontsize=8)
