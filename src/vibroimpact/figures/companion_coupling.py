@@ -275,10 +275,10 @@ def _draw_leans(axes, table):
         axes.plot(rows["coupling"], rows["v"], **UNSTABLE | colour)
         axes.plot(rows["coupling"], rows["v"].where(rows["stable"].astype(bool)), **STABLE | colour)
     words = {"textcoords": "offset points", "fontsize": 8.5}
-    for name, colour, above in ((SAME, BLACK, (0, -12)), (OPPOSITE, GREY, (-8, 12))):
+    for name, colour, above in ((SAME, BLACK, (0, -12)), (OPPOSITE, GREY, (-6, 14))):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
-            middle = rows.iloc[(rows["coupling"] - 3.0).abs().argmin()]
+            middle = rows.iloc[(rows["coupling"] - 1.7).abs().argmin()]
             axes.annotate(name, (middle["coupling"], middle["v"]), above, color=colour, ha="center", **words)
     axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, None), xlim=(FINE[0], FINE[-1]))
 
