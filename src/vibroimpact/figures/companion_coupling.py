@@ -46,8 +46,6 @@ SPEC = {
         "is held. Second: a thick curve of opposite ways up to 4.6, dashed to 13; two thick pieces of the same way, up "
         "to 6 and from 16 on. Third: the mean over starts falls from above the dotted level to the lowest circles.",
     "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
-    "systems": True,
-    "needs": ["cases.equal"],
     "columns": {
         "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
         "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and the branch; of power: "
