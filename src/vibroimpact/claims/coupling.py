@@ -3,7 +3,7 @@
 import numpy as np
 
 from vibroimpact.claims.finding import Finding
-from vibroimpact.claims.verdict_grid import exact_orbits
+from vibroimpact.claims.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.regimes.classification import starts
@@ -23,15 +23,18 @@ def errors(system) -> list[dict]:
 
     error: the largest difference of C_1 or C_2 from that of the exact orbit, over the larger of its C; nan where there
     is none that is a motion. predicted, exact: True if called stable on both time scales, and if all multipliers are
-    inside the unit circle.
+    inside the unit circle. orbits: how many symmetric motions there are, the same in all rows.
     """
-    points, rows = fixed_points(system), []
-    found = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
-    for point, orbit in zip(points, found, strict=True):
+    points = fixed_points(system)
+    found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    places = partners([point.C for point in points], np.array([orbit.C for orbit in found]).reshape(-1, 2))
+    motions, rows = sum(orbit.admissible for orbit in found), []
+    for point, place in zip(points, places, strict=True):
+        orbit = None if place is None else found[place]
         moves = orbit is not None and orbit.admissible
         error = float(np.abs(point.C - orbit.C).max() / orbit.C.max()) if moves else np.nan
-        predicted = criteria.fast_and_slow(criteria.of_fixed_point(system, point)) == STABLE
-        rows.append({"error": error, "predicted": predicted, "exact": moves and orbit.stability == STABLE})
+        predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == STABLE
+        rows.append({"error": error, "predicted": predicted, "exact": moves and orbit.stable, "orbits": motions})
     return rows
 
 
@@ -57,14 +60,14 @@ def one_sided_impacts(evidence):
     return Finding({"one-sided impacts need another model, with a force on the ball": None})
 
 
-def harvesting(evidence, case, forces, number, seed):
-    """Mean power at the impacts of all starts that end on no 1:1 response, against such responses at the same force.
+def harvesting(evidence, cases, number, seed):
+    """Mean power at the impacts of all starts that end on no 1:1 response, against such responses at the same forces.
 
     These are the stable leaning response and the symmetric one next to it; the only symmetric one where none leans.
     """
     begun, parts, numbers = starts(number, seed), {}, {}
-    for force in forces:
-        system = evidence.systems[case].with_(f10_hat=force, f20_hat=force)
+    for case in cases:
+        system = evidence.systems[case]
         taken = impact_power(system, begun, SETTLED + OBSERVED, SETTLED)
         found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
         symmetric, leaning = [one for one in found if one.admissible], leaning_orbits(system, both=False)
@@ -73,9 +76,9 @@ def harvesting(evidence, case, forces, number, seed):
         known |= {"stable leaning": leaning[0]} if leaning else {}
         powers = {name: float(impact_power(system, [one.state], 1)[0]) for name, one in known.items()}
         others = taken[~np.isclose(taken[:, None], list(powers.values()), rtol=ALIKE).any(axis=1)]
-        numbers[f"starts that end on no 1:1 response, force {force:g}"] = len(others)
+        numbers[f"starts that end on no 1:1 response, case {case}"] = len(others)
         for name, power in powers.items() if len(others) else ():
-            parts[f"more than the {name} response, force {force:g}"] = others.mean() > power
+            parts[f"more than the {name} response, case {case}"] = others.mean() > power
             measured = [float(others.mean() / power), float(others.std() / power)]
-            numbers[f"over that of the {name} response, force {force:g}: mean and standard deviation"] = measured
+            numbers[f"over that of the {name} response, case {case}: mean and standard deviation"] = measured
     return Finding(parts, numbers)

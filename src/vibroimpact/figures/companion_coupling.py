@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from vibroimpact.absorbers.references import tuned
 from vibroimpact.absorbers.tuning import den_hartog
 from vibroimpact.claims.coupling import errors
+from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.kit.style import (
@@ -15,7 +16,6 @@ from vibroimpact.figures.kit.style import (
     GREY,
     LEVEL,
     STABLE,
-    UNSTABLE,
     letter_panel,
     new_figure,
     styled,
@@ -26,37 +26,45 @@ from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.coupling import (
     OPPOSITE,
     SAME,
+    STRAIGHT,
     coupled,
     impact_power,
     lean,
     leaning_orbits,
-    over_coupling,
     shares,
+    stable_ranges,
 )
+from vibroimpact.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
+from vibroimpact.regimes.two_terms import amplitudes
+from vibroimpact.theory.fixed_points.search import fixed_points
 
 SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
         "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside it. "
         "b: difference of the flight times of ball 1 over the period where both balls lean, the same way or opposite "
-        "ways; thick: stable, dashed: unstable. Modules tuned alike, forces 1.52 and 1.54. c: mean power taken by all "
-        "impacts, over the square of both forces: exact symmetric orbits, the stable leaning one, mean and standard "
-        "deviation over starts; dotted: dampers of linear absorbers of the same mass.",
+        "ways, while that is stable; it ends at a fold (F), period doubling (P), Neimark-Sacker bifurcation (N), or as "
+        "a ball no longer leans (L). Modules tuned alike, forces 1.52 and 1.54. c: mean power taken by all impacts, over "
+        "the square of both forces: exact symmetric orbits, the stable leaning one, mean and standard deviation over "
+        "starts; dotted: dampers of linear absorbers of the same mass.",
     "alt": "Three panels. First: errors near six per cent at all couplings, and crosses near 2 and 40 where the damper "
-        "is held. Second: a thick curve of opposite ways up to 4.6, dashed to 13; two thick pieces of the same way, up "
-        "to 6 and from 16 on. Third: the mean over starts falls from above the dotted level to the lowest circles.",
+        "is held. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
+        "and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of leaning.",
     "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
     "columns": {
         "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
-        "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and the branch; of power: "
-            "the motion"},
+        "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and where it was found; of "
+            "power: the motion"},
+        "case": {"meaning": "of error: the case of the config"},
         "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
         "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
             "unit": "dimensionless", "compared": "roots"},
         "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
+        "orbits": {"meaning": "symmetric motions of that case at that coupling", "unit": "number"},
         "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
             "compared": "roots"},
         "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
+        "ends": {"meaning": "how the range in which the pattern is stable ends there"},
         "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
             "compared": {"all starts": "extremes", "others": "roots"}},
@@ -81,16 +89,23 @@ COUPLINGS = (0.3, 1.0, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 
 PROPORTION, HELD = "damper in proportion", "damper held"
 ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
 """Where both balls lean: modules tuned alike, their impacts not in the same instant."""
-FINE = np.geomspace(0.5, 100.0, 70)
+LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
 STARTS, SEED, CYCLES, SETTLE = 32, 1, 2000, 1500
+LONG = 10000
+"""Cycles of starts that are not on the leaning orbit after SETTLE: some are on long transients."""
+SIDE = 8
 WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
-SYMMETRIC, LEANING, ALL, OTHERS, LINEAR = "symmetric", "leaning", "all starts", "other starts", "linear absorber"
+SYMMETRIC, LEANING, ALL, LINEAR = "symmetric", "leaning", "all starts", "linear absorber"
+NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
+"""Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
 """Coupling from which the error no longer falls."""
 SAME_POWER = 1e-3
 """Relative difference of powers of one and the same motion."""
 MISSING = 0.15
+ENDS = {FOLD: "F", PERIOD_DOUBLING: "P", NEIMARK_SACKER: "N", GRAZING: "G", STRAIGHT: "L"}
+"""Letters of how a stable range ends."""
 
 
 def compute(systems: dict) -> dict:
@@ -103,72 +118,110 @@ def compute(systems: dict) -> dict:
     pattern and branch: coupling, v, stable) and "power" (force, power, spread, leaning, stable); and "summary".
     """
     equal = systems["equal"]
-    strong = [system for case, system in systems.items() if case in STRONG]
+    strong = {case: system for case, system in systems.items() if case in STRONG}
     found = [_errors(strong, held) for held in (False, True)]
     leans, watched = _patterns(equal.with_(**ALIKE))
-    power = _power(equal)
-    summary = _of_errors(found) | _of_patterns(leans) | watched | _of_power(power)
+    power, lasting = _power(equal)
+    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(leans) | watched | _of_power(power) | lasting
+    if "unequal" in systems:
+        summary |= _coexisting(systems["unequal"])
     rows = pd.DataFrame({"quantity": summary.keys(), "value": summary.values()})
     return {"csv": join([*found, *leans, power]), "summary": rows}
 
 
 def _errors(systems, held):
     rows = [
-        {"coupling": value} | row
-        for system in systems
+        {"case": case, "coupling": value} | row
+        for case, system in systems.items()
         for value in COUPLINGS
         for row in errors(coupled(system, value, held))
     ]
-    table = pd.DataFrame(rows, columns=["coupling", "error", "predicted", "exact"])
-    columns = {name: table[name].to_numpy() for name in ("coupling", "error", "predicted")}
+    table = pd.DataFrame(rows, columns=["case", "coupling", "error", "predicted", "exact", "orbits"])
+    columns = {name: table[name].to_numpy() for name in ("case", "coupling", "error", "predicted", "orbits")}
     return curve("error", HELD if held else PROPORTION, **columns, stable=table["exact"].to_numpy())
 
 
+def _two_terms(system):
+    """Return the largest error of C with the second term of (10.7), and the largest second term, by coupling."""
+    summary = {}
+    for value in NEXT_ORDER:
+        here = coupled(system, value)
+        points, roots = fixed_points(here), symmetric_solutions(here)
+        pairs = zip(points, exact_orbits(here, [point.C for point in points], roots), strict=True)
+        found = [(point.C, amplitudes(here, point), orbit.C) for point, orbit in pairs if orbit is not None]
+        if found:
+            leading, C, exact = np.array(found).swapaxes(0, 1)
+            error = np.abs(C - exact).max(axis=1) / exact.max(axis=1)
+            summary[f"largest error with two terms, coupling {value:g}"] = error.max()
+            summary[f"largest second term, coupling {value:g}"] = np.abs(C - leading).max() / here.epsilon
+    return summary
+
+
 def _patterns(system):
-    """Return the curves of all branches, and the shares of starts that end on each pattern."""
-    rows = [
-        (name, branch, value, abs(lean(orbit)[0]), orbit.stable)
-        for name, branch, value, orbit in over_coupling(system, FINE)
-    ]
-    table = pd.DataFrame(rows, columns=["name", "branch", "coupling", "v", "stable"])
-    curves = [
-        curve("lean", f"{name}, from {branch:g}", **{column: part[column] for column in ("coupling", "v", "stable")})
-        for (name, branch), part in table.groupby(["name", "branch"], sort=False)
-    ]
-    ends = {}
+    """Return the curves of all stable ranges, and the shares of starts that end on each pattern."""
+    curves = []
+    for name, start, found, (below, above) in stable_ranges(system, LIMITS):
+        ends = [below or None, *[None] * (len(found) - 2), above or None]
+        coupling, orbits = zip(*found, strict=True)
+        v = [abs(lean(orbit)[0]) for orbit in orbits]
+        curves.append(curve("lean", f"{name}, from {start:g}", coupling=coupling, v=v, stable=True, ends=ends))
+    shared = {}
     for value in WATCHED:
         here = coupled(system, value)
         leaning = leaning_orbits(here)
         if leaning:
             ended = shares(leaning, plane(leaning[0].state, POINTS), ENOUGH)
-            ends |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
-    return curves, ends
+            shared |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
+    return curves, shared
 
 
 def _power(equal):
-    rows, begun = [], starts(STARTS, SEED)
+    """Return the powers along the force, and how those starts did that settle late."""
+    rows, lasting, begun = [], {}, starts(STARTS, SEED)
     for force in FORCES:
         system = equal.with_(f10_hat=force, f20_hat=force)
         unit = force**2
         taken = impact_power(system, begun, CYCLES, SETTLE) / unit
         leaning = leaning_orbits(system, both=False)[:1]
         found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
-        symmetric = [one for one in found if one.admissible]
         powers = [impact_power(system, [one.state], 1)[0] / unit for one in leaning]
         on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
-        for one in symmetric:
+        if leaning and not on_it.all():
+            late = ~on_it
+            lasting[f"leaning share after {SETTLE} cycles, force {force:g}"] = on_it.mean()
+            lasting[f"not yet over leaning, force {force:g}"] = taken[late].mean() / powers[0]
+            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLE) / unit
+            on_it = np.isclose(taken, powers[0], rtol=SAME_POWER)
+        for one in (one for one in found if one.admissible):
             alone = impact_power(system, [one.state], 1)[0] / unit
-            near = bool(leaning) and one is min(symmetric, key=lambda o: np.abs(o.C - leaning[0].C).max())
-            rows.append((SYMMETRIC, force, alone, 0.0, float(near), bool(one.stable)))
+            rows.append((SYMMETRIC, force, alone, 0.0, 0.0, bool(one.stable)))
         rows += [(LEANING, force, power, 0.0, on_it.mean(), True) for power in powers]
         rows.append((ALL, force, taken.mean(), taken.std(), on_it.mean(), False))
-        if 0 < on_it.sum() < STARTS:
-            rest = taken[~on_it]
-            rows.append((OTHERS, force, rest.mean(), rest.std(), 0.0, False))
         rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
+        if leaning:
+            near = min((one for one in found if one.admissible), key=lambda one: np.abs(one.C - leaning[0].C).max())
+            beside = impact_power(system, [near.state], 1)[0] / unit
+            lasting[f"leaning over symmetric, force {force:g}"] = powers[0] / beside
     table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "leaning", "stable"])
     table.insert(0, "panel", "power")
-    return table
+    return table, lasting
+
+
+def _coexisting(system):
+    """Return the power of modulated starts over that of the leaning orbit, which attracts the others."""
+    leaning = leaning_orbits(system, both=False)[:1]
+    if not leaning:
+        return {}
+    alone = impact_power(system, [leaning[0].state], 1)[0]
+    taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLE) / alone
+    others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
+    return {
+        "starts at unequal forces": len(taken),
+        "leaning share, unequal forces": 1 - len(others) / len(taken),
+        "modulated over leaning, unequal forces": others.mean() if len(others) else np.nan,
+        "spread over leaning, unequal forces": others.std() if len(others) else np.nan,
+        "all starts over leaning, unequal forces": taken.mean(),
+    }
 
 
 def _damper_power(system):
@@ -182,16 +235,23 @@ def _damper_power(system):
 def _of_errors(tables):
     summary = {}
     for name, table in zip((PROPORTION, HELD), tables, strict=True):
-        known = table.dropna(subset="error")
+        known, missing = table.dropna(subset="error"), table[table["error"].isna()]["coupling"]
         at_ours = table[table["coupling"] == 1.0]["error"]
         beyond = known[known["coupling"] >= WELL]
         summary |= {
             f"points, {name}": len(table),
+            f"motions, {name}": (
+                table["orbits"] / table.groupby(["case", "coupling"])["error"].transform("size")
+            ).sum(),
             f"largest error, {name}": known["error"].max(),
             f"coupling of the largest error, {name}": known["coupling"][known["error"].idxmax()],
             f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
             f"largest error at coupling 1, {name}": at_ours.max(),
-            f"without a motion, {name}": len(table) - len(known),
+            f"least of the largest errors, {name}": known.groupby("coupling")["error"].max().min(),
+            f"without a motion, {name}": len(missing),
+            f"without a motion, from coupling, {name}": missing[missing >= WELL].min(),
+            f"without a motion, up to coupling, {name}": missing.max(),
+            f"without a motion, below coupling {WELL:g}, {name}": int((missing < WELL).sum()),
             f"called stable, {name}": int(table["predicted"].sum()),
             f"called stable and unstable, {name}": int((table["predicted"] & ~table["stable"]).sum()),
             f"called unstable and stable, {name}": int((~table["predicted"] & table["stable"]).sum()),
@@ -202,10 +262,11 @@ def _of_errors(tables):
 def _of_patterns(curves):
     summary = {}
     for part in curves:
-        stable = part["coupling"][part["stable"].astype(bool)]
         series = part["series"].iloc[0]
-        summary |= {f"{series}: stable from": stable.min(), f"{series}: stable up to": stable.max()}
-        summary |= {f"{series}: ends": part["coupling"].max()}
+        summary |= {
+            f"{series}: stable from": part["coupling"].min(),
+            f"{series}: stable up to": part["coupling"].max(),
+        }
     return summary
 
 
@@ -214,21 +275,12 @@ def _of_power(table):
     for force, rows in table.groupby("force"):
         by = dict(list(rows.groupby("series")))
         mean, spread = by[ALL]["power"].iloc[0], by[ALL]["spread"].iloc[0]
-        linear = by[LINEAR]["power"].iloc[0]
-        summary[f"starts over linear, force {force:g}"] = mean / linear
+        summary[f"starts over linear, force {force:g}"] = mean / by[LINEAR]["power"].iloc[0]
+        summary[f"leaning share, force {force:g}"] = by[ALL]["leaning"].iloc[0]
         if len(by.get(SYMMETRIC, ())) == 1:
             only = by[SYMMETRIC]["power"].iloc[0]
             summary[f"starts over symmetric, force {force:g}"] = mean / only
             summary[f"spread over symmetric, force {force:g}"] = spread / only
-        if LEANING in by:
-            leaning = by[LEANING].iloc[0]
-            summary[f"leaning share, force {force:g}"] = leaning["leaning"]
-            near = by[SYMMETRIC][by[SYMMETRIC]["leaning"] == 1.0]["power"]
-            summary[f"leaning over symmetric, force {force:g}"] = leaning["power"] / near.iloc[0]
-            if OTHERS in by:
-                other = by[OTHERS].iloc[0]
-                summary[f"others over leaning, force {force:g}"] = other["power"] / leaning["power"]
-                summary[f"spread over leaning, force {force:g}"] = other["spread"] / leaning["power"]
     return summary
 
 
@@ -268,17 +320,21 @@ def _draw_errors(axes, table):
 
 
 def _draw_leans(axes, table):
+    words = {"textcoords": "offset points", "fontsize": 8.5, "ha": "center"}
     for series, rows in table.groupby("series", sort=False):
-        colour = {"color": BLACK if series.startswith(SAME) else GREY}
-        axes.plot(rows["coupling"], rows["v"], **UNSTABLE | colour)
-        axes.plot(rows["coupling"], rows["v"].where(rows["stable"].astype(bool)), **STABLE | colour)
-    words = {"textcoords": "offset points", "fontsize": 8.5}
-    for name, colour, above in ((SAME, BLACK, (0, -12)), (OPPOSITE, GREY, (-6, 14))):
+        look = {"color": BLACK if series.startswith(SAME) else GREY}
+        axes.plot(rows["coupling"], rows["v"], **STABLE | look)
+        for end, side in ((rows.iloc[0], -7), (rows.iloc[-1], 7)):
+            if end["ends"] in ENDS:
+                place = end["coupling"], end["v"]
+                axes.plot(*place, "o", markersize=3.5, **look)
+                axes.annotate(ENDS[end["ends"]], place, (abs(side) if end["ends"] == STRAIGHT else side, -3), **words)
+    for name, colour, near, above in ((SAME, BLACK, 30.0, 6), (OPPOSITE, GREY, 1.4, 26)):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
-            middle = rows.iloc[(rows["coupling"] - 1.7).abs().argmin()]
-            axes.annotate(name, (middle["coupling"], middle["v"]), above, color=colour, ha="center", **words)
-    axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, None), xlim=(FINE[0], FINE[-1]))
+            place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
+            axes.annotate(name, (place["coupling"], place["v"]), (0, above), color=colour, **words)
+    axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, 0.45), xlim=LIMITS)
 
 
 def _draw_power(axes, table):

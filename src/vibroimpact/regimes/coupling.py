@@ -10,17 +10,28 @@ import numpy as np
 
 from vibroimpact.exact.engine.ensemble import ensemble, finals
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
+from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.regimes.families import AsymmetricOrbits, flight_fractions
-from vibroimpact.regimes.followed import along
+from vibroimpact.regimes.families import (
+    FOLD,
+    GRAZING,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    AsymmetricOrbits,
+    flight_fractions,
+)
 
 SAME, OPPOSITE = "the same way", "opposite ways"
-SOUGHT = (1.0, 30.0)
+STRAIGHT = "a ball no longer leans"
+SOUGHT = (1.0, 14.0, 30.0)
 """Couplings at which stable orbits of each pattern are looked for."""
 LEANING = 0.05
 """|v| of both modules from which both lean."""
+STEP, SHARP = 0.1, 1e-3
+"""Longest and shortest step in the logarithm of the coupling."""
 _HARMONICS = 2 * np.arange(1, 200)
 _NEAR = 0.01
+_SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
 
 def coupled(system, alpha12_hat: float, held: bool = False):
@@ -48,22 +59,54 @@ def patterns(system) -> dict[str, np.ndarray]:
     return {name: root for root, one in stable if (name := pattern(one)) and lean(one)[0] > 0}
 
 
-def over_coupling(system, values, held: bool = False) -> Iterator[tuple[str, float, float, object]]:
-    """Yield (pattern, where it was found, alpha12_hat, Orbit) along patterns stable at SOUGHT, while they are motions.
+def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
+    """Yield each pattern found at SOUGHT with the couplings over which it is stable, its damper in proportion.
 
     Args:
-        values: of alpha12_hat, ascending.
+        limits: least and largest alpha12_hat.
+
+    Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
+    Neimark-Sacker, a period doubling, grazing, STRAIGHT; "" at a limit.
     """
-    systems, seen = {value: coupled(system, value, held) for value in map(float, values)}, []
+    seen = []
     for start in SOUGHT:
-        middle = min(systems, key=lambda value: abs(np.log(value / start)))
-        for name, root in patterns(systems[middle]).items():
-            if any(value == middle and known_name == name for known_name, _, value, _ in seen):
+        here = coupled(system, start)
+        for name, root in patterns(here).items():
+            if any(name == other and low <= start <= high for other, low, high in seen):
                 continue
-            below, above = [v for v in systems if v <= middle][::-1], [v for v in systems if v > middle]
-            found = {value: orbit for way in (below, above) for value, _, orbit in along(way, systems, root)}
-            seen += [(name, start, value, found[value]) for value in sorted(found)]
-    yield from seen
+            below, above = (list(_followed(system, root, start, name, limit)) for limit in limits)
+            found = [*below[::-1], (start, AsymmetricOrbits.member(here, root)), *above]
+            low, high = found[0], found[-1]
+            seen.append((name, low[0], high[0]))
+            yield name, start, found, tuple("" if at in limits else _end(orbit) for at, orbit in (low, high))
+
+
+def _followed(system, root, value, name, limit):
+    """Couplings towards a limit, each with its Orbit, while the pattern stays and is stable."""
+    way, step = np.sign(limit - value), STEP
+    while step > SHARP and value != limit:
+        reached = value * np.exp(way * step)
+        reached = limit if way * (reached - limit) >= 0 else float(reached)
+        found = newton(AsymmetricConditions(coupled(system, reached)), root[None])
+        if len(found) and np.abs(found[0] - root).max() < _SAME_BRANCH:
+            orbit = AsymmetricOrbits.member(coupled(system, reached), found[0])
+            if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and pattern(orbit) == name:
+                root, value, step = found[0], reached, min(STEP, 2 * step)
+                yield value, orbit
+                continue
+        step /= 2
+
+
+def _end(orbit):
+    """How a pattern ends, from its last stable orbit."""
+    mu = orbit.multipliers[0]
+    if np.abs(lean(orbit)).min() < LEANING + _AT_THE_END:
+        return STRAIGHT
+    if orbit.excursion > 1 - _AT_THE_END:
+        return GRAZING
+    if abs(mu.imag) > _AT_THE_END:
+        return NEIMARK_SACKER
+    return FOLD if mu.real > 0 else PERIOD_DOUBLING
 
 
 def splitting(system, root) -> np.ndarray:

@@ -31,7 +31,7 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
         for x in _stable(system):
             if not _known(x, [root for root, _ in found[values[middle]]], system):
                 for way in (values[middle:], values[:middle][::-1]):
-                    for value, root, orbit in along(way, systems, x):
+                    for value, root, orbit in _along(way, systems, x):
                         found[value].append((root, orbit))
     for value, there in found.items():
         yield from ((value, orbit) for _, orbit in there)
@@ -53,7 +53,7 @@ def _known(x, roots, system):
     return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
 
 
-def along(way, systems, x):
+def _along(way, systems, x):
     """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
     for value in way:
         found = newton(AsymmetricConditions(systems[value]), x[None])
