@@ -34,7 +34,9 @@ def errors(system) -> list[dict]:
         moves = orbit is not None and orbit.admissible
         error = float(np.abs(point.C - orbit.C).max() / orbit.C.max()) if moves else np.nan
         predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == STABLE
-        rows.append({"error": error, "predicted": predicted, "exact": moves and orbit.stable, "orbits": motions})
+        rows.append(
+            {"error": error, "predicted": predicted, "exact": moves and orbit.stability == STABLE, "orbits": motions}
+        )
     return rows
 
 

@@ -27,7 +27,7 @@ SOUGHT = (1.0, 14.0, 30.0)
 """Couplings at which stable orbits of each pattern are looked for."""
 LEANING = 0.05
 """|v| of both modules from which both lean."""
-STEP, SHARP = 0.1, 1e-3
+STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
 _HARMONICS = 2 * np.arange(1, 200)
 _NEAR = 0.01
