@@ -31,6 +31,7 @@ from vibroimpact.regimes.coupling import (
     impact_power,
     lean,
     leaning_orbits,
+    patterns,
     shares,
     stable_ranges,
 )
@@ -99,14 +100,6 @@ WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
 SYMMETRIC, LEANING, ALL, LINEAR = "symmetric", "leaning", "all starts", "linear absorber"
 TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 """Couplings at which patterns are looked for at the forces of the cases, too."""
-TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are looked for at the forces of the cases, too."""
-TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are looked for at the forces of the cases, too."""
-TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are looked for at the forces of the cases, too."""
-TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are looked for at the forces of the cases, too."""
 NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
@@ -124,8 +117,9 @@ def compute(systems: dict) -> dict:
     Args:
         systems: case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
 
-    Returns "csv": panel "error" (series damper in proportion, held: coupling, error, predicted, stable), "lean" (series
-    pattern and branch: coupling, v, stable) and "power" (force, power, spread, leaning, stable); and "summary".
+    Returns "csv": panel "error" (series damper in proportion, held: case, coupling, error, predicted, stable, orbits),
+    "lean" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread, leaning,
+    stable); and "summary".
     """
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
@@ -136,27 +130,7 @@ def compute(systems: dict) -> dict:
     tried = [coupled(system, value) for system in strong.values() for value in TRIED]
     summary |= {
         "searches at the forces of the cases": len(tried),
-        "patterns at the forces of the cases": sum(bool(leaning_orbits(system)) for system in tried),
-    }
-    tried = [coupled(system, value) for system in strong.values() for value in TRIED]
-    summary |= {
-        "searches at the forces of the cases": len(tried),
-        "patterns at the forces of the cases": sum(bool(leaning_orbits(system)) for system in tried),
-    }
-    tried = [coupled(system, value) for system in strong.values() for value in TRIED]
-    summary |= {
-        "searches at the forces of the cases": len(tried),
-        "patterns at the forces of the cases": sum(bool(leaning_orbits(system)) for system in tried),
-    }
-    tried = [coupled(system, value) for system in strong.values() for value in TRIED]
-    summary |= {
-        "searches at the forces of the cases": len(tried),
-        "patterns at the forces of the cases": sum(bool(leaning_orbits(system)) for system in tried),
-    }
-    tried = [coupled(system, value) for system in strong.values() for value in TRIED]
-    summary |= {
-        "searches at the forces of the cases": len(tried),
-        "patterns at the forces of the cases": sum(bool(leaning_orbits(system)) for system in tried),
+        "patterns at the forces of the cases": sum(len(patterns(system)) for system in tried),
     }
     if "unequal" in systems:
         summary |= _coexisting(systems["unequal"])
@@ -233,8 +207,9 @@ def _power(equal):
         rows += [(LEANING, force, power, 0.0, on_it.mean(), True) for power in powers]
         rows.append((ALL, force, taken.mean(), taken.std(), on_it.mean(), False))
         rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
-        if leaning:
-            near = min((one for one in found if one.admissible), key=lambda one: np.abs(one.C - leaning[0].C).max())
+        symmetric = [one for one in found if one.admissible]
+        if leaning and symmetric:
+            near = min(symmetric, key=lambda one: np.abs(one.C - leaning[0].C).max())
             beside = impact_power(system, [near.state], 1)[0] / unit
             lasting[f"leaning over symmetric, force {force:g}"] = powers[0] / beside
     table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "leaning", "stable"])
@@ -275,11 +250,8 @@ def _of_errors(tables):
         beyond = known[known["coupling"] >= WELL]
         summary |= {
             f"points, {name}": len(table),
-            f"motions, {name}": (
-                table["orbits"] / table.groupby(["case", "coupling"])["error"].transform("size")
-            ).sum(),
+            f"motions, {name}": table.groupby(["case", "coupling"])["orbits"].first().sum(),
             f"largest error, {name}": known["error"].max(),
-            f"coupling of the largest error, {name}": known["coupling"][known["error"].idxmax()],
             f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
             f"largest error at coupling 1, {name}": at_ours.max(),
             f"least of the largest errors, {name}": known.groupby("coupling")["error"].max().min(),
@@ -362,11 +334,11 @@ def _draw_leans(axes, table):
                 place = end["coupling"], end["v"]
                 axes.plot(*place, "o", markersize=3.5, **look)
                 axes.annotate(ENDS[end["ends"]], place, (abs(side) if end["ends"] == STRAIGHT else side, -3), **words)
-    for name, colour, near, above in ((SAME, BLACK, 30.0, 6), (OPPOSITE, GREY, 1.4, 26)):
+    for name, colour, near, apart in ((SAME, BLACK, 30.0, (0, 6)), (OPPOSITE, GREY, 3.0, (36, -8))):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
             place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
-            axes.annotate(name, (place["coupling"], place["v"]), (0, above), color=colour, **words)
+            axes.annotate(name, (place["coupling"], place["v"]), apart, color=colour, **words)
     axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, 0.45), xlim=LIMITS)
 
 

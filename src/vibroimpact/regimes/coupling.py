@@ -49,12 +49,17 @@ def lean(orbit) -> np.ndarray:
 def pattern(orbit) -> str | None:
     """SAME or OPPOSITE, or None if a ball does not lean."""
     v = lean(orbit)
-    return None if np.abs(v).min() < LEANING else SAME if v.prod() > 0 else OPPOSITE
+    return None if not _both_lean(v) else SAME if v.prod() > 0 else OPPOSITE
+
+
+def _both_lean(v):
+    return np.abs(v).min() >= LEANING
 
 
 def patterns(system) -> dict[str, np.ndarray]:
     """Return the root (6,) of a stable orbit of each pattern, one of two mirror images."""
-    roots = [(root, AsymmetricOrbits.member(system, root)) for root in AsymmetricOrbits.roots(system)]
+    leaning = [root for root in AsymmetricOrbits.roots(system) if _both_lean(1 - 2 * flight_fractions(system, root))]
+    roots = [(root, AsymmetricOrbits.member(system, root)) for root in leaning]
     stable = [(root, one) for root, one in roots if one.admissible and AsymmetricOrbits.stable(system, one)]
     return {name: root for root, one in stable if (name := pattern(one)) and lean(one)[0] > 0}
 
