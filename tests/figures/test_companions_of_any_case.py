@@ -10,6 +10,7 @@ from vibroimpact.figures import (
     companion_asymmetric,
     companion_basins,
     companion_branches,
+    companion_coupling,
     companion_epsilon,
     companion_ladder,
     companion_modulation,
@@ -41,6 +42,15 @@ def test_forces_too_weak_for_a_response_are_drawn_without_one():
     tables = companion_response.compute(STILL, frequency, force, band)
     assert tables["shares"].empty  # no start meets a wall
     companion_response.draw(tables).draw_without_rendering()
+
+
+def test_couplings_without_fixed_points_have_no_errors(monkeypatch):
+    monkeypatch.setattr(companion_coupling, "FORCES", (0.05, 0.4))
+    monkeypatch.setattr(companion_coupling, "STARTS", 2)
+    tables = companion_coupling.compute({"equal": STILL})
+    assert set(tables["csv"]["panel"]) == {"lean", "power"}  # their forces are the figure's own
+    assert tables["summary"].set_index("quantity")["value"]["points, damper held"] == 0
+    companion_coupling.draw(tables)
 
 
 @pytest.mark.parametrize("first", ["f10_hat", "f20_hat"])

@@ -38,6 +38,7 @@ COMPANIONS = {
         "systems": True,
         "settings": ["regimes.branches.*", "regimes.observation"],
     },
+    "companion_coupling": {"systems": True, "needs": ["cases.equal"]},
     "companion_decay": {"case": "regimes.decay.case", "settings": ["regimes.decay.*", "sweeps.clearance.band"]},
     "companion_epsilon": {"systems": True, "settings": ["regimes.epsilon.*"]},
     "companion_field": {"needs": ["cases.equal"]},

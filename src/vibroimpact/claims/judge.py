@@ -6,11 +6,11 @@ that fail for the same reason); docs/claims.yaml holds them all. A check takes t
 returns a Finding.
 """
 
-from vibroimpact.claims import absorber_checks, equation_checks, manifold_checks, motion_checks, point_checks
+from vibroimpact.claims import absorber_checks, coupling_checks, equation_checks, manifold_checks, motion_checks, point_checks
 from vibroimpact.claims.evidence import Evidence, NotOfTheChapter
 from vibroimpact.claims.finding import REFUTED, VERDICTS
 
-MODULES = (equation_checks, manifold_checks, point_checks, motion_checks, absorber_checks)
+MODULES = (equation_checks, manifold_checks, point_checks, motion_checks, absorber_checks, coupling_checks)
 CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
 NOT_JUDGED = "not judged"
 NOT_ABOUT = "Not judged are claims that depend on what is not as in the chapter, or not as they were written for:"
