@@ -10,7 +10,7 @@ from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.coupling import coupled, impact_power, leaning_orbits
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory import criteria
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 CHECKS = ("strong_coupling", "one_sided_impacts", "harvesting")
 SETTLED, OBSERVED = 1500, 500

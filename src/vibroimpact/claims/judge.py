@@ -6,7 +6,14 @@ that fail for the same reason); docs/claims.yaml holds them all. A check takes t
 returns a Finding.
 """
 
-from vibroimpact.claims import absorber_checks, coupling_checks, equation_checks, manifold_checks, motion_checks, point_checks
+from vibroimpact.claims import (
+    absorber_checks,
+    coupling_checks,
+    equation_checks,
+    manifold_checks,
+    motion_checks,
+    point_checks,
+)
 from vibroimpact.claims.evidence import Evidence, NotOfTheChapter
 from vibroimpact.claims.finding import REFUTED, VERDICTS
 

@@ -37,7 +37,7 @@ from vibroimpact.regimes.coupling import (
 )
 from vibroimpact.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
 from vibroimpact.regimes.two_terms import amplitudes
-from vibroimpact.theory.fixed_points.search import fixed_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "From weak to strong coupling",
