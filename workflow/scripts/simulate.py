@@ -12,9 +12,9 @@ from vibroimpact.system.state import KINDS, NAMES
 from vibroimpact_pipeline.jobs import running
 
 
-def summarise(window: Window, settings: dict) -> dict:
+def summarise(simulated: Window, settings: dict) -> dict:
     """Return numbers of the window: events by kind and module, and recurrence errors after 1 to 4 cycles."""
-    events, states = window.events, window.samples[list(NAMES)].to_numpy()
+    events, states = simulated.events, window.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}
         for kind in KINDS.values()
@@ -25,7 +25,7 @@ def summarise(window: Window, settings: dict) -> dict:
         for cycles in range(1, min(4, settings["window_cycles"]) + 1)
     }
     return {
-        "window": window.samples["tau"].iloc[[0, -1]].tolist(),
+        "window": simulated.samples["tau"].iloc[[0, -1]].tolist(),
         "events": counts,
         "largest_change_after_cycles": returns,
         "final": states[-1].tolist(),
@@ -42,6 +42,6 @@ with running(snakemake) as out:
         "system": parameters,
         "settings": settings,
         **summarise(simulated, settings),
-        "trust": window.trust,
+        "trust": simulated.trust,
     }
     Path(out.summary).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
