@@ -14,7 +14,7 @@ from vibroimpact_pipeline.jobs import running
 
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return numbers of the window: events by kind and module, and recurrence errors after 1 to 4 cycles."""
-    events, states = simulated.events, window.samples[list(NAMES)].to_numpy()
+    events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}
         for kind in KINDS.values()
