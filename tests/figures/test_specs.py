@@ -14,14 +14,14 @@ from snakemake.settings.types import ConfigSettings, ResourceSettings
 
 from pipeline_trees import ROOT
 from vibroimpact.figures.kit.tables import read
-from vibroimpact_pipeline.figure_check.check import kept
+from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import columns, each, spec_of, specs
 
 SPECS = specs()
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 DATA = yaml.safe_load((ROOT / "report/data.yaml").read_text(encoding="utf-8"))
 DRAWN = sorted(path.stem for path in (ROOT / "figures").glob("*.png"))
-PUBLISHED = [(name, file) for name in DRAWN for file, _ in kept(name, SPECS[name]).values()]
+PUBLISHED = [(name, file) for name in DRAWN for file, _ in compared_files(name, SPECS[name]).values()]
 OWN = {"notebook": "theoretical_response", "case": "weak", "fixed_point": "a", "periods": 1}
 
 
@@ -95,7 +95,7 @@ def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the
 
 @pytest.mark.parametrize(("figure", "file"), PUBLISHED)
 def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is_there(figure, file):
-    (name,) = (name for name, (kept_as, _) in kept(figure, SPECS[figure]).items() if kept_as == file)
+    (name,) = (name for name, (kept_as, _) in compared_files(figure, SPECS[figure]).items() if kept_as == file)
     table, declared = read(ROOT / "figures" / file), columns(SPECS[figure]["tables"][name], each(DATA["shared"]))
     assert list(table) == list(declared)
     for column, entry in declared.items():

@@ -16,7 +16,9 @@ DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / 
 PLACES = yaml.safe_load((ROOT / "docs/numbers.yaml").read_text(encoding="utf-8"))
 SOURCED = [(number, PLACES[key]) for number, key in re.findall(r"\[(−?[\d.]+)\]\(numbers\.yaml#([\w.-]+)\)", DOCUMENTS)]
 """Numbers of documents with the place in a build that each is from."""
-CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
+CHAOTIC = tuple(
+    f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "coupling")
+)
 LARGEST_OF_FEW = (
     *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa", "one ball")),
     *(

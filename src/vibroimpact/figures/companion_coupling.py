@@ -63,9 +63,9 @@ SPEC = {
         "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
         "orbits": {"meaning": "number of symmetric motions of that case at that coupling", "unit": "dimensionless",
             "compared": "algebra"},
+        "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
         "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
             "compared": "roots"},
-        "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
         "ends": {"meaning": "how the range in which the pattern is stable ends there", "unit": "text"},
         "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
@@ -80,6 +80,8 @@ SPEC = {
             "columns": {
                 "quantity": {"meaning": "what was measured", "unit": "text"},
                 "value": {"meaning": "couplings, shares, ratios, numbers of points", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "standard error from the spread over starts, of a spread that of a normal "
+                    "distribution; 0 of motions that repeat", "unit": "dimensionless"},
             },
         },
     },
@@ -135,7 +137,9 @@ def compute(systems: dict) -> dict:
     }
     if "unequal" in systems:
         summary |= _coexisting(systems["unequal"])
-    rows = pd.DataFrame({"quantity": summary.keys(), "value": summary.values()})
+    known = [value if isinstance(value, tuple) else (value, 0.0) for value in summary.values()]
+    rows = pd.DataFrame(known, columns=["value", "uncertainty"])
+    rows.insert(0, "quantity", list(summary))
     return {"csv": join([*found, *leans, power]), "summary": rows}
 
 
@@ -198,8 +202,7 @@ def _power(equal):
         on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
         if leaning and not on_it.all():
             late = ~on_it
-            lasting[f"leaning share after {SETTLE} cycles, force {force:g}"] = on_it.mean()
-            lasting[f"not yet over leaning, force {force:g}"] = taken[late].mean() / powers[0]
+            lasting[f"leaning share after {SETTLE} cycles, force {force:g}"] = on_it.mean(), on_it.std() / STARTS**0.5
             taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLE) / unit
             on_it = np.isclose(taken, powers[0], rtol=SAME_POWER)
         for one in (one for one in found if one.admissible):
@@ -226,12 +229,16 @@ def _coexisting(system):
     alone = impact_power(system, [leaning[0].state], 1)[0]
     taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLE) / alone
     others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
+    if not len(others):
+        return {"leaning share, unequal forces": 1.0}
+    mean, spread, share = others.mean(), others.std(), len(others) / len(taken)
+    error = spread / len(others) ** 0.5
     return {
         "starts at unequal forces": len(taken),
-        "leaning share, unequal forces": 1 - len(others) / len(taken),
-        "modulated over leaning, unequal forces": others.mean() if len(others) else np.nan,
-        "spread over leaning, unequal forces": others.std() if len(others) else np.nan,
-        "all starts over leaning, unequal forces": taken.mean(),
+        "leaning share, unequal forces": 1 - share,
+        "modulated over leaning, unequal forces": (mean, error),
+        "spread over leaning, unequal forces": (spread, error / 2**0.5),
+        "all starts over leaning, unequal forces": (taken.mean(), share * error),
     }
 
 
@@ -281,12 +288,13 @@ def _of_power(table):
     for force, rows in table.groupby("force"):
         by = dict(list(rows.groupby("series")))
         mean, spread = by[ALL]["power"].iloc[0], by[ALL]["spread"].iloc[0]
-        summary[f"starts over linear, force {force:g}"] = mean / by[LINEAR]["power"].iloc[0]
+        error, linear = spread / STARTS**0.5, by[LINEAR]["power"].iloc[0]
+        summary[f"starts over linear, force {force:g}"] = mean / linear, error / linear
         summary[f"leaning share, force {force:g}"] = by[ALL]["leaning"].iloc[0]
         if len(by.get(SYMMETRIC, ())) == 1:
             only = by[SYMMETRIC]["power"].iloc[0]
-            summary[f"starts over symmetric, force {force:g}"] = mean / only
-            summary[f"spread over symmetric, force {force:g}"] = spread / only
+            summary[f"starts over symmetric, force {force:g}"] = mean / only, error / only
+            summary[f"spread over symmetric, force {force:g}"] = spread / only, error / only / 2**0.5
     return summary
 
 
