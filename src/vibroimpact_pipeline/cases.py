@@ -7,7 +7,7 @@ CHAPTER = ("equal", "unequal", "weak")
 NOTEBOOKS = ("fixed_points", "theoretical_response", "simulation")
 """Notebooks of figures that show a case."""
 STUDIES = ("accuracy.benchmark", "report.force_sweep", *(f"regimes.{name}" for name in
-    ("branches", "basins", "decay")))  # fmt: skip
+    ("branches", "basins")))  # fmt: skip
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
 

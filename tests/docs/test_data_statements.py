@@ -134,7 +134,7 @@ def test_statistics_of_the_modulated_response_are_those_of_its_samples(table):
 
 
 def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
-    shares = table("figures/companion_regime_map.csv").query("series == 'cell'")
+    shares = table("figures/companion_regime_map.csv")
     both, names = table("sweeps/regime_map.csv"), [*REGIMES]
     np.testing.assert_allclose(shares[names].sum(axis=1), 1.0, atol=1e-12)
     assert (shares["stable_points"] <= shares["fixed_points"]).all()
@@ -144,7 +144,7 @@ def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
 
 
 def test_shares_of_basins_are_those_of_the_figure(table):
-    starts = table("figures/companion_basins.csv").query("series == 'start'")
+    starts = table("figures/companion_basins.csv")
     for row in table("regimes/basin_shares.csv").itertuples():
         share = (starts["label"] == row.regime).mean()
         assert row.share == pytest.approx(share, rel=1e-12)
@@ -160,17 +160,6 @@ def test_orders_are_slopes_of_the_curves(table):
         small = line[line["epsilon"] < 0.005]
         slope = np.cov(np.log(small["epsilon"]), np.log(small["error"]))
         assert row.order == pytest.approx(slope[0, 1] / slope[0, 0], rel=1e-9)
-
-
-def test_bursts_are_counted_from_the_shortest(table):
-    bursts = table("figures/companion_modulation.csv").query("panel == 'bursts' and series != 'window'")
-    for _, rows in bursts.groupby("series"):
-        longest = rows["length"].to_numpy()
-        expected = [(longest >= length).mean() for length in longest]
-        # Of equally long ones the first has the part that all of them share.
-        assert (rows["longer"].to_numpy() <= np.array(expected) + 1e-12).all()
-        assert rows["longer"].iloc[0] == 1.0
-        assert rows["longer"].iloc[-1] == pytest.approx(1 / len(rows))
 
 
 def test_models_meet_their_tolerance_and_one_is_in_use(table):

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
@@ -68,9 +69,21 @@ def scenes():
         "fig10_05": fig10_05.compute(C_range=(0.5, 1.1)),
         "fig10_06": fig10_06.compute(equal, table_of_points(equal), (2.0, 3.5)),
         "fig10_07": fig10_07.compute(equal, table_of_points(equal), "c", 2),
-        "fig10_08": fig10_08.compute(*tables_of_run(equal, np.zeros(8), 1000, 6, 200)),
+        "fig10_08": fig10_08.compute(equal, *tables_of_run(equal, np.zeros(8), 1000, 6, 200)),
         "fig10_09": fig10_06.compute(unequal, table_of_points(unequal), (2.0, 3.5)),
         "fig10_10": fig10_10.compute(weak, table_of_points(weak), "a", 2, (2.0, 2.0)),
-        "fig10_11": fig10_08.compute(*tables_of_run(weak, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 1000, 120, 40)),
+        "fig10_11": fig10_08.compute(weak, *tables_of_run(weak, [0, 0, 0, 0, 0, 0.5, 0, 0.5], 1000, 120, 40)),
     }
     return {name: SimpleNamespace(table=table) for name, table in made.items()}
+
+
+@pytest.fixture(scope="session")
+def lightness():
+    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
+
+    def of(colour):
+        channels = np.array(to_rgb(colour))
+        linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+        return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
+
+    return of

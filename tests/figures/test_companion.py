@@ -11,7 +11,6 @@ from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_r
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures import companion_10_05, companion_stability
-from vibroimpact.figures.kit.tables import select
 
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 BREAKING = np.pi**2 / (np.pi**2 - 4)
@@ -26,7 +25,7 @@ def verdict_tables():
 def tables(verdict_tables):
     return {
         "companion_10_05": companion_10_05.compute((0.5, 2.2)),
-        "companion_stability": companion_stability.compute(SYSTEMS, *verdict_tables),
+        "companion_stability": companion_stability.compute(verdict_tables[0]),
     }
 
 
@@ -79,10 +78,7 @@ def test_without_orbits_fixed_points_are_left_without_multipliers(verdict_tables
         "records"
     )
     assert (row["orbit"], row["exact"]) == ("", NO_ORBIT)
-    table = companion_stability.compute(
-        {"weak": system}, pd.DataFrame([row]), nothing.astype({"symmetric": bool, "admissible": bool})
-    )
-    companion_stability.draw(table)
+    companion_stability.draw(companion_stability.compute(pd.DataFrame([row])))
 
 
 def test_no_two_fixed_points_share_an_orbit(verdict_tables):
@@ -94,10 +90,8 @@ def test_no_two_fixed_points_share_an_orbit(verdict_tables):
 
 
 def test_limits_over_kappa(tables):
-    table = tables["companion_10_05"]
-    rows = {
-        series: select(table, "regions", series) for series in ("fold", "symmetry breaking", "penetration", "printed")
-    }
+    table, outline = tables["companion_10_05"]["csv"], tables["companion_10_05"]["outline"]
+    rows = dict(iter(table.groupby("series")))
     for series, line in rows.items():
         kappa, C = line["kappa"].to_numpy(), line["C"].to_numpy()
         rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
@@ -114,7 +108,6 @@ def test_limits_over_kappa(tables):
                     W = (1 - x) * np.cos(t) + r * x * np.sin(t) + x * (1 - 2 * t / np.pi)
                     assert (W.max() <= 1 + 1e-9) == within, k
             assert C.max() <= 2.2
-    outline = select(table, "regions", "stable")
     assert outline["C"].max() == pytest.approx(BREAKING)
     assert outline["C"].min() == pytest.approx(rows["fold"]["C"].min())
 
@@ -125,15 +118,14 @@ def test_a_range_that_cuts_the_region_is_refused(C_range):
         companion_10_05.compute(C_range)
 
 
-def test_every_motion_and_verdict_is_in_the_table(tables, verdict_tables):
-    points, exact = verdict_tables
+def test_every_verdict_on_a_fixed_point_is_a_dot_filled_where_it_says_stable(tables, verdict_tables):
+    points, _ = verdict_tables
     table = tables["companion_stability"]
-    shown = table[table["series"].isin(companion_stability.KINDS)]
-    motions = pd.concat([points, exact[exact["admissible"]]])
-    columns = ["case", "label", "C1", "C2", *companion_stability.CRITERIA]
-    left = shown.rename(columns={"panel": "case"})[columns]
-    right = motions[columns]
-    order = ["case", "label"]
-    pd.testing.assert_frame_equal(
-        left.sort_values(order).reset_index(drop=True), right.sort_values(order).reset_index(drop=True)
-    )
+    columns = [*companion_stability.CRITERIA]
+    assert table[columns].to_numpy().tolist() == points[columns].to_numpy().tolist()
+    axes = companion_stability.draw(table).axes[0]
+    dots = {(line.get_xdata()[0], line.get_ydata()[0]): line.get_markerfacecolor() for line in axes.lines}
+    assert len(dots) == 7 * 4
+    for (x, y), face in dots.items():
+        assert face == ("black" if points[columns[x]].iloc[y] == "stable" else "white")
+    assert axes.get_yticklabels()[2].get_text() == "equal (c)"

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from absorber_sweeps import BAND, tables_of
@@ -13,20 +14,20 @@ from vibroimpact.absorbers.tuning import compared
 from vibroimpact.figures import (
     companion_absorber,
     companion_asymmetric,
-    companion_decay,
     companion_ladder,
     companion_response,
 )
 from vibroimpact.figures import companion_basins as basins
 from vibroimpact.figures import companion_branches as branches
 from vibroimpact.figures import companion_epsilon as epsilon_limit
-from vibroimpact.figures import companion_modulation as modulation
 from vibroimpact.figures import companion_regime_map as regime_map
 from vibroimpact.figures.kit import style
+from vibroimpact.figures.kit.regime_colours import COLOURS, MARKS
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows as rows_of
 from vibroimpact.sweeps.spec import Spec
+from vibroimpact.system.state import NAMES
 
 OBSERVATION = {"cycles": 200, "rounds": 2, "window": 24, "nearness": 0.02, "blocks": 6, "block": 20, "retest": 1000}
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
@@ -34,14 +35,12 @@ EQUAL = {"equal": SYSTEMS["equal"]}
 MODULES = {
     "branches": branches,
     "regime_map": regime_map,
-    "modulation": modulation,
     "basins": basins,
     "epsilon": epsilon_limit,
     "asymmetric": companion_asymmetric,
     "ladder": companion_ladder,
     "absorber": companion_absorber,
     "response": companion_response,
-    "decay": companion_decay,
 }
 
 
@@ -75,10 +74,6 @@ def tables(balls):
         "regime_map": regime_map.compute(swept(), SYSTEMS["equal"], SYSTEMS, 3),
         "absorber": companion_absorber.compute(SYSTEMS["equal"], **balls),
         "response": companion_response.compute(SYSTEMS["equal"], balls["response"], balls["clearance"], balls["band"]),
-        "decay": companion_decay.compute(SYSTEMS["equal"], [0.5, 50.0], 9, 0.1, balls["band"]),
-        "modulation": modulation.compute(
-            SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
-        ),
         "basins": basins.compute(SYSTEMS["unequal"], "unequal", points=9, observation=OBSERVATION),
         "asymmetric": companion_asymmetric.compute(
             EQUAL, verdicts_of(EQUAL)[1], kappa=0.65, epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
@@ -118,50 +113,24 @@ def test_folds_ends_and_losses_of_stability_are_marked_and_no_other_special_poin
 
 
 def test_simulated_attractors_lie_on_the_stable_branch(tables):
-    table = tables["branches"]["csv"]
-    simulated = table[(table["series"] == "attractor") & (table["label"] == "asymmetric")]
+    table, simulated = tables["branches"]["csv"], tables["branches"]["attractors"].query("label == 'asymmetric'")
     stable = table[(table["series"] == "asymmetric orbit") & table["stable"].eq(True)].sort_values("p")
     assert len(simulated)
     for module in ("C1", "C2"):
         np.testing.assert_allclose(simulated[module], np.interp(simulated["p"], stable["p"], stable[module]), atol=0.02)
 
 
-def test_windows_show_what_converges(tables):
-    windows = tables["modulation"]["windows"]
-    assert set(windows["cycles"]) == {100, 200}
-    assert set(windows["quantity"]) == {"amplitude variation", "depth from extremes"}
-    measures = tables["modulation"]["measures"]
-    rest = measures[(measures["start"] == "rest") & (measures["quantity"] == "largest Lyapunov exponent")]
-    assert rest["uncertainty"].notna().all()
-
-
-def test_spectra_say_the_same_as_the_measures_and_add_up(tables):
-    """The largest exponent, the eight of the periodic case against what damping and impacts say, its dimension 0."""
-    spectra, measures = tables["modulation"]["spectra"], tables["modulation"]["measures"]
-    values = spectra.pivot(index=["case", "start", "regime"], columns="quantity", values="mean")
-    largest = measures[measures["quantity"] == "largest Lyapunov exponent"].set_index(["case", "start", "regime"])[
-        "mean"
-    ]
-    assert values["exponent 1"].sort_index().equals(largest.sort_index().rename("exponent 1"))
-    np.testing.assert_allclose(values["sum of exponents"], values["contraction"], atol=1e-6)
-    eight = values.loc["equal"].filter(like="exponent ").sum(axis=1)
-    np.testing.assert_allclose(eight, values.loc["equal"]["contraction"], atol=1e-9)
-    assert (values.loc["equal"]["Kaplan-Yorke dimension"] == 0).all()
-    assert 5 < values.loc["weak", "spread"]["Kaplan-Yorke dimension"].item() < 6.5
-
-
 def test_the_map_has_every_point_and_shows_those_without_a_value(tables, figures):
-    cells = tables["regime_map"].query("series == 'cell'")
+    cells = tables["regime_map"]["csv"]
     assert cells["f10_hat"].tolist() == np.repeat(cells["f20_hat"][:6], 6).tolist()
     assert cells["label"].isna().tolist() == [number == 7 for number in range(36)]
     assert figures["regime_map"].axes[0].patch.get_hatch() == "xxx"
-    table = tables["regime_map"]
-    gone = (table["f10_hat"] == cells["f10_hat"][7]) & (table["series"] == "cell")
-    assert regime_map.draw(table[~gone]).axes[0].patch.get_hatch() is None
+    gone = tables["regime_map"] | {"csv": cells[cells["f10_hat"] != cells["f10_hat"][7]]}
+    assert regime_map.draw(gone).axes[0].patch.get_hatch() is None
 
 
 def test_a_cell_shows_what_most_starts_other_than_rest_end_in(tables):
-    cells = tables["regime_map"].query("series == 'cell'").dropna(subset="label")
+    cells = tables["regime_map"]["csv"].dropna(subset="label")
     for cell in cells.to_dict("records"):
         ended = {name: round(3 * cell[name]) - (cell["label"] == name) for name in REGIMES}
         assert sum(ended.values()) == 2
@@ -172,10 +141,9 @@ def test_a_cell_shows_what_most_starts_other_than_rest_end_in(tables):
 
 def test_on_a_border_the_theory_s_number_of_fixed_points_changes(tables):
     """Within the last halving, to the side or upwards; where it crosses the way between two cells."""
-    table = tables["regime_map"]
-    centres = np.unique(table.query("series == 'cell'")["f10_hat"])
-    pieces = table[table["series"] == "fixed points"]
-    assert (pieces.groupby("label").size() == 2).all()
+    centres = np.unique(tables["regime_map"]["csv"]["f10_hat"])
+    pieces = tables["regime_map"]["borders"].query("series == 'fixed points'")
+    assert (pieces.groupby("piece").size() == 2).all()
     step = 0.2 / 2**regime_map.HALVINGS
     aside = [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)]
 
@@ -188,42 +156,50 @@ def test_on_a_border_the_theory_s_number_of_fixed_points_changes(tables):
         assert len({count(f10 + dx, f20 + dy) for dx, dy in aside}) > 1
 
 
-def test_measures_have_uncertainties_over_starts(tables):
-    measures = tables["modulation"]["measures"]
-    assert set(measures["case"]) == set(FORCES)
-    spread = measures[(measures["start"] == "spread") & (measures["quantity"] != "burst length")]
-    assert spread["uncertainty"].notna().all()
-    rest = measures[(measures["case"] == "weak") & (measures["start"] == "rest")]
-    assert set(rest["regime"]) == {"one ball idle"}
-    shares = measures[measures["quantity"] == "share of starts"].groupby("case")["mean"].sum()
-    np.testing.assert_allclose(shares, 1)
-    exponents = measures[measures["quantity"] == "largest Lyapunov exponent"].set_index(["case", "start"])["mean"]
-    assert exponents["equal", "spread"] < 0 < exponents["weak", "spread"]
-
-
 def test_basins_name_every_start_and_the_orbit_in_its_own(tables):
-    table, shares = tables["basins"]["csv"], tables["basins"]["shares"]
-    assert (table["series"] == "start").sum() == 81
+    starts, shares = tables["basins"]["csv"], tables["basins"]["shares"]
+    assert len(starts) == 81
     assert shares["share"].sum() == pytest.approx(1)
-    orbit = table[table["series"] == "orbit"].iloc[0]
-    starts = table[table["series"] == "start"]
-    nearest = starts.iloc[np.hypot(starts["W1"] - orbit["W1"], starts["W2"] - orbit["W2"]).argmin()]
-    assert nearest["label"] == orbit["label"]
+    orbit = tables["basins"]["orbits"].iloc[0]
+    distances = np.hypot(starts["W1"] - orbit["X1"] + orbit["Y1"], starts["W2"] - orbit["X2"] + orbit["Y2"])
+    assert starts["label"].iloc[distances.argmin()] == "asymmetric"
 
 
-def test_basins_show_the_mirror_image_and_their_table_has_what_all_starts_share(tables, figures):
-    """The mirror image against the twin that the search for orbits finds."""
-    table = tables["basins"]["csv"].set_index("series")
-    stable = [o for o in vi.orbits(SYSTEMS["unequal"]) if not o.symmetric and np.abs(o.multipliers).max() < 1]
-    twins = np.array([[o.state[0] - o.state[1], o.state[2] - o.state[3]] for o in stable])
-    shown = table.loc[["orbit", "mirror image"], ["W1", "W2"]].to_numpy(float)
-    np.testing.assert_allclose(shown[shown[:, 0].argsort()], twins[twins[:, 0].argsort()], atol=1e-8)
-    (own,) = [o for o in stable if abs(o.state[0] - table.loc["shared", "X1"]) < 1e-9]
-    np.testing.assert_allclose(
-        table.loc["shared", basins.SHARED].to_numpy(float), own.state[[0, 2, 4, 5, 6, 7]], atol=1e-12
-    )
+def test_basins_show_the_orbit_and_its_mirror_image(tables, figures):
+    """Against the twins that the search for orbits finds, in the figure too."""
+    shown = tables["basins"]["orbits"][[*NAMES]].to_numpy(float)
+    stable = [o.state for o in vi.orbits(SYSTEMS["unequal"]) if not o.symmetric and np.abs(o.multipliers).max() < 1]
+    for state in stable:
+        assert np.abs(shown - state).max(axis=1).min() < 1e-8
     (axes,) = figures["basins"].axes
-    assert axes.get_title("left") == "unequal"
+    marks = [line.get_xydata()[0] for line in axes.lines]
+    np.testing.assert_allclose(marks, shown[:, [0, 2]] - shown[:, [1, 3]], rtol=1e-12)
+    assert axes.get_title("left").endswith("case unequal")
+
+
+def test_hopping_is_not_painted_as_chaos(tables):
+    """Each regime in its own colour and, where it is rare, under its own mark; the key has both."""
+    cells = tables["regime_map"]["csv"]
+    given = cells.assign(regime=["hopping" if number == 3 else "chaotic" for number in range(len(cells))])
+    figure = regime_map.draw(tables["regime_map"] | {"csv": given})
+    mesh = figure.axes[0].collections[0]
+    painted = mesh.to_rgba(mesh.get_array())[..., :3].reshape(-1, 3)
+    assert len(np.unique(painted, axis=0)) == 2
+    painted = painted.reshape(6, 6, 3)  # f20_hat, f10_hat; rows of the table the other way
+    np.testing.assert_allclose(painted[3, 0], to_rgb(COLOURS["hopping"]))
+    np.testing.assert_allclose(painted[0, 3], to_rgb(COLOURS["chaotic"]))
+    (mark,) = (line for line in figure.axes[0].lines if line.get_marker() == MARKS["hopping"])
+    assert mark.get_xydata().tolist() == cells[["f10_hat", "f20_hat"]].iloc[[3]].to_numpy().tolist()
+    assert "hopping" in {text.get_text() for text in figure.legends[0].get_texts()}
+
+
+def test_neighbours_in_a_map_differ_in_grey_print(lightness):
+    """Asymmetric responses beside modulated ones, and the others that fill patches."""
+    large = ["symmetric", "chaotic", "asymmetric", "strongly modulated", "other periodic"]
+    shades = [lightness(COLOURS[name]) for name in large]
+    assert np.diff(shades).min() > 10
+    assert shades[3] - shades[2] > 15
+    assert abs(lightness(COLOURS["asymmetric"]) - lightness(COLOURS["asymmetric, mirrored"])) > 15
 
 
 @pytest.mark.parametrize("forces", [(0.0, 0.0), (0.5, 0.5)])
@@ -339,11 +315,16 @@ def test_what_impacts_take_is_told_for_every_source_and_pair_of_forces(balls, ta
     assert shares["greatest"].lt(1).all()
 
 
-def test_linear_systems_decay_in_the_same_time_after_any_impulse_and_balls_in_their_own(tables):
-    table = tables["decay"]
-    for module in (1, 2):
-        mine = table[table["panel"] == f"module {module}"].set_index("series")
-        assert mine.loc["without balls", "cycles"].nunique() == 1
-        balls, shortest = mine.loc["balls"], mine.loc["shortest"]
-        assert shortest["cycles"] <= balls["cycles"].min() < mine.loc["without balls", "cycles"].iloc[0]
-        assert balls["cycles"].iloc[0] == pytest.approx(mine.loc["without balls", "cycles"].iloc[0], rel=1e-9)
+def test_an_impulse_is_told_for_balls_after_the_best_one_and_for_each_linear_system(balls, tables):
+    """That of the balls is below all times of a coarse search, and reached within one; linear ones do not ask how large
+    the impulse is.
+    """
+    cycles = tables["absorber"]["summary"].query("quantity == 'decay'").set_index("who")["value"]
+    times = [
+        vi.decay_time(SYSTEMS["equal"], impulse) / SYSTEMS["equal"].period for impulse in np.geomspace(0.5, 50, 81)
+    ]
+    assert min(times) - 0.5 < cycles["balls"] <= min(times)
+    assert cycles["without balls"] == pytest.approx(times[0], rel=1e-9)  # no ball meets a wall
+    linear = compared(SYSTEMS["equal"], (0.9, 1.1))
+    for name, one in linear.items():
+        assert cycles[name] == pytest.approx(one.decay_time(1, 0.1) / SYSTEMS["equal"].period, rel=1e-9)

@@ -208,6 +208,21 @@ def test_the_caption_says_where_point_b_of_the_unequal_case_lies(scenes):
     assert min(C["a"]) < min(C["b"]) < min(C["c"])
 
 
+@pytest.mark.parametrize(
+    ("name", "verdicts"),
+    [("fig10_06", ["unstable", "stable", "stable"]), ("fig10_09", ["unstable", "stable", "stable"])],
+)
+def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(scenes, name, verdicts):
+    """By the smaller C_i of each point against the limit computed here."""
+    table = scenes[name].table
+    C = [min(select(table, f"{label}{i}", f"P_{i}")["C"].item() for i in (1, 2)) for label in "abc"]
+    assert ["stable" if one > float(LIMIT) else "unstable" for one in C] == verdicts
+    axes = fig10_06.draw(table).axes
+    assert [one.get_title("left").split("   ")[1] for one in axes[::2]] == verdicts
+    assert [one.get_title("right") for one in axes[:2]] == ["module 1", "module 2"]
+    assert len({one.get_xlim() for one in axes}) == 1
+
+
 def test_planes_keep_the_order_of_the_labels(scenes):
     panels = list(dict.fromkeys(scenes["fig10_06"].table["panel"]))
     assert panels == ["a1", "a2", "b1", "b2", "c1", "c2"]
@@ -279,7 +294,7 @@ def test_no_periods_are_refused(system, points_of):
 def test_simulated_lines_agree_with_a_library_integrator(system, run_of):
     """(10.2) integrated by DOP853 with its event detection, restarted at every impact."""
     start = np.array([0.2, 0.1, -0.3, 0.2, 0.1, -0.6, 0.2, 0.9])
-    table = fig10_08.compute(*run_of(system, start, 0, 3, 50))
+    table = fig10_08.compute(system, *run_of(system, start, 0, 3, 50))
     end = 3 * system.period
     stiffness, damping = np.array([[1.1, -0.1], [-0.1, 1.15]]), np.array([[0.04, -0.02], [-0.02, 0.04]])
 
@@ -318,7 +333,7 @@ def test_simulated_lines_agree_with_a_library_integrator(system, run_of):
         assert W_2["value"].iloc[index] == pytest.approx(s[2] - s[3], abs=1e-8)
 
 
-def test_corners_of_the_second_module_are_drawn_at_the_wall():
+def test_corners_of_the_second_module_are_drawn_at_the_wall(system):
     samples = pd.DataFrame({"tau": [1.0, 2.0, 3.0], "X2": [0.1, 0.2, 0.3], "Y2": [0.0, -0.5, 0.6]})
     events = pd.DataFrame(
         {
@@ -328,10 +343,11 @@ def test_corners_of_the_second_module_are_drawn_at_the_wall():
             "X2": [9.0, 9.0, 0.2, 0.25, 9.0],
         }
     )
-    table = fig10_08.compute(samples, events)
+    table = fig10_08.compute(system, samples, events)
     W_2 = select(table, "b", "W_2")
     assert W_2[["tau", "value"]].to_numpy().tolist() == [[1, 0.1], [2, 1], [2.5, -1], [3, pytest.approx(-0.3)]]
     assert select(table, "a", "X_2")["value"].tolist() == [0.1, 0.2, 0.25, 0.3]
+    np.testing.assert_allclose(W_2["cycle"], 1.02 / (2 * np.pi) * W_2["tau"], rtol=1e-12)
 
 
 def test_the_modulated_ball_reaches_both_walls_and_goes_no_further(scenes):

@@ -4,7 +4,9 @@ import pandas as pd
 
 from vibroimpact.figures import hazards, work_precision
 
-ROW = dict(problem="s", method="a", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0)
+ROW = dict(
+    problem="s", method="a", family="Taylor", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0
+)
 ROW |= dict(seconds_per_cycle=1e-3, outcome="finished", reason="", order=None)
 
 
@@ -31,11 +33,14 @@ def test_chart_keeps_failed_and_unavailable_methods():
     assert any(x > work_precision.LARGEST and y == 1e-3 for x, y in drawn)
 
 
-def test_fitted_orders_are_in_the_legend():
-    rows = [ROW | dict(order=4.96), ROW | dict(method="b")]
-    shown = texts(work_precision.draw(pd.DataFrame(rows), footer=""))
-    assert "a (order 5.0)" in shown
-    assert "b" in shown
+def test_each_kind_of_method_has_its_own_colour_and_mark_and_each_method_its_name():
+    rows = [ROW | dict(method=kind, family=kind) for kind in work_precision.KINDS]
+    figure = work_precision.draw(pd.DataFrame(rows), footer="")
+    (key,) = (legend for part in figure.subfigs for legend in part.legends)
+    looks = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
+    assert len({colour for colour, _ in looks}) == len({marker for _, marker in looks}) == len(rows)
+    named = {text.get_text() for text in figure.subfigs[0].axes[0].texts}
+    assert named - {"better"} == set(work_precision.KINDS) - set(work_precision.CROWDED)
 
 
 def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_ones():
@@ -59,4 +64,4 @@ def test_no_text_is_too_small_to_read():
     verdict = dict(group="g", hazard="h", method="m", verdict="right", error_state=3e-5, missed=12, spurious=34)
     for figure in (work_precision.draw(pd.DataFrame([ROW, failed]), "versions"), hazards.draw(pd.DataFrame([verdict]))):
         drawn = figure.findobj(lambda artist: hasattr(artist, "get_fontsize") and artist.get_text())
-        assert min(text.get_fontsize() for text in drawn) >= 6.5
+        assert min(text.get_fontsize() for text in drawn) >= 7

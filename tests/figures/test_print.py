@@ -27,14 +27,7 @@ def figure(request):
     return drawn
 
 
-def lightness(colour):
-    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
-    channels = np.array(matplotlib.colors.to_rgb(colour))
-    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
-    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
-
-
-def test_fit_for_print(figure):
+def test_fit_for_print(figure, lightness):
     """Width of a column or page; nothing beyond the paper; lettering that can be read; no line told by hue alone."""
     width, height = figure.get_size_inches() * 25.4
     assert round(width, 6) in (84, 174)
@@ -44,7 +37,9 @@ def test_fit_for_print(figure):
     assert needed.x1 < width / 25.4 + 0.02
     assert needed.y1 < height / 25.4 + 0.02
     for text in figure.findobj(Text):
-        assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.499, text.get_text()
+        assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.999, text.get_text()
+    keys = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
+    assert all(len(key.get_texts()) <= 7 for key in keys)
     hues = {matplotlib.colors.to_rgb(line.get_color()) for line in figure.findobj(Line2D)}
     hues = {hue for hue in hues if len(set(hue)) > 1}
     apart = np.diff(sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)}))

@@ -71,5 +71,5 @@ def test_a_map_marks_the_cases_that_differ_in_forces(base, marked):
     counts = dict.fromkeys(companion_regime_map.REGIMES, 0.0) | {"symmetric 1:1": 1.0}
     cells = pd.DataFrame({"f10_hat": f10, "f20_hat": f20, "fixed_points": 1, "stable_points": 1} for f10, f20 in places)
     cells = cells.assign(**counts, **{companion_regime_map.FROM_REST: "symmetric 1:1"})
-    table = companion_regime_map.compute(cells, SYSTEMS[base], SYSTEMS, 2)
-    assert set(table.query("series == 'case'")["label"]) == marked
+    tables = companion_regime_map.compute(cells, SYSTEMS[base], SYSTEMS, 2)
+    assert set(tables["cases"]["case"]) == marked

@@ -84,9 +84,9 @@ def test_the_cases_of_the_chapter_are_known_without_the_library():
 
 def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are_left_out():
     made = checked(
-        edited("cases.equal = null & default_case = weak & regimes.decay.case = ... & sweeps.design.case = ...")
+        edited("cases.equal = null & default_case = weak & regimes.branches.case = ... & sweeps.design.case = ...")
     )
-    assert made["regimes"]["decay"]["case"] == made["sweeps"]["design"]["case"] == "weak"
+    assert made["regimes"]["branches"]["case"] == made["sweeps"]["design"]["case"] == "weak"
     assert made["regimes"]["basins"]["case"] == "unequal"
     assert {"fig10_09", "fig10_10"} <= made["figures"].keys()
     assert not {"fig10_06", "fig10_07", "fig10_08"} & made["figures"].keys()

@@ -21,7 +21,6 @@ EVIDENCE = {
 
 # What a config does not make.
 ABSENT = {
-    *({"modulation"} if "companion_modulation" not in MADE else ()),
     *({"special_points"} if "companion_branches" not in MADE else ()),
     *({"epsilon_orders"} if "companion_epsilon" not in MADE else ()),
     *({"absorber"} if "companion_absorber" not in MADE else ()),

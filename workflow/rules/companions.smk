@@ -39,7 +39,6 @@ COMPANIONS = {
         "settings": ["regimes.branches.*", "regimes.observation"],
     },
     "companion_coupling": {"systems": True, "needs": ["cases.equal"]},
-    "companion_decay": {"case": "regimes.decay.case", "settings": ["regimes.decay.*", "sweeps.clearance.band"]},
     "companion_epsilon": {"systems": True, "settings": ["regimes.epsilon.*"]},
     "companion_field": {"needs": ["cases.equal"]},
     "companion_horizon": {
@@ -49,7 +48,6 @@ COMPANIONS = {
         "needs": ["cases.{case}.simulation.digits"],
     },
     "companion_ladder": {"systems": True, "settings": ["regimes.ladder.*"]},
-    "companion_modulation": {"systems": True, "settings": ["regimes.modulation.*", "regimes.observation"]},
     "companion_regime_map": {
         "case": "sweeps.regime_map.case",
         "systems": True,
@@ -64,10 +62,7 @@ COMPANIONS = {
             "force": "results/sweeps/clearance.csv",
         },
     },
-    "companion_stability": {
-        "systems": True,
-        "inputs": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
-    },
+    "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
 }
 MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
 

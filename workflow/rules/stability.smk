@@ -94,8 +94,29 @@ rule verdict_grid:
         "../scripts/verdict_grid.py"
 
 
+# Measures of the regime of every case, and their Lyapunov spectra.
+rule modulation:
+    output:
+        measures="results/regimes/modulation.csv",
+        windows="results/regimes/modulation_windows.csv",
+        spectra="results/regimes/spectra.csv",
+    params:
+        systems=all_systems(),
+        settings=config["regimes"]["modulation"] | {"observation": config["regimes"]["observation"]},
+        code=LIBRARY,
+    log:
+        "results/logs/modulation.log",
+    benchmark:
+        "results/benchmarks/modulation.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/modulation.py"
+
+
 rule stability:
     input:
+        rules.modulation.output,
         rules.gather.output,
         rules.proofs.output,
         rules.verdict_grid.output,

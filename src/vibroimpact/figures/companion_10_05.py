@@ -5,7 +5,6 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, UNSTABLE, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import largest_C, rho
 from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
@@ -20,31 +19,37 @@ SPEC = {
         r"\frac{2p}{\pi}\big(1+\kappa\cot^2p\big)"],
     "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
     "columns": {
-        "panel": {},
-        "series": {"meaning": r"outline of the stable region; lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of the $C$ "
-            "at which the ball grazes the wall that it has left, and of (10.26); ends of the axes", "values": ["stable",
-            "fold", "symmetry breaking", "penetration", "printed", "range"]},
+        "series": {"meaning": r"lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of the $C$ at which the ball grazes the "
+            "wall that it has left, and of (10.26)", "values": ["fold", "symmetry breaking", "penetration", "printed"]},
         "kappa, C": {"compared": "algebra"},
+    },
+    "tables": {
+        "outline": {
+            "file": "results/figures/companion_10_05.outline.csv",
+            "about": "Outline of the region of `companion_10_05` in which motions exist and are stable.",
+            "columns": {"kappa, C": {"compared": "algebra"}},
+        },
     },
 }  # fmt: skip
 
 BORDER = {"color": BLACK, "linewidth": 1.0, "linestyle": "-"}
 LIMITS = {"fold": BORDER, "symmetry breaking": BORDER, "penetration": UNSTABLE, "printed": LEVEL}
 NAMES = {
-    "fold": ("$C_{\\min}$", 0.3, (6, 7), "left"),
-    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$: symmetry breaks", 0.62, (0, 6), "center"),
-    "printed": ("(10.26)", 0.4, (5, -10), "left"),
+    "fold": (r"$C_{\min}$", 0.3, (6, 9), "left"),
+    "symmetry breaking": (r"$\pi^2/(\pi^2-4)$: symmetry breaks", 0.62, (0, 9), "center"),
+    "printed": ("(10.26)", 0.4, (5, -8), "left"),
+    "penetration": (r"$\leftarrow$ the ball would leave the box", 0.16, (5, 0), "left"),
 }
 """By limit: its name in the figure, the kappa where it stands, its distance from the line in points, and its side."""
 END = 1e-9
 """Distance from kappa = 0 and 1, where the impact law ends."""
 
 
-def compute(C_range: tuple[float, float]) -> pd.DataFrame:
+def compute(C_range: tuple[float, float]) -> dict:
     """The limits of docs/stability.md and of (10.26) over kappa, and the region between, for C in C_range.
 
-    Returns columns panel ("regions"), series ("stable": outline of the region of stable motions within the walls;
-    "fold", "symmetry breaking", "penetration", "printed": lines), kappa, C; lines stop where they leave C_range.
+    Returns "csv": columns series ("fold", "symmetry breaking", "penetration", "printed"), kappa, C, lines that stop
+    where they leave C_range; "outline" of the region of stable motions within the walls: kappa, C.
 
     Raises:
         ValueError: C_range does not hold all of the stable region and of (10.26).
@@ -53,40 +58,31 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     kappa = np.clip(np.linspace(0.0, 1.0, 401), END, 1 - END)
     limits = {
         "fold": lower_limit(kappa),
-        "symmetry breaking": upper_limit(kappa),
+        "symmetry breaking": np.broadcast_to(upper_limit(kappa), kappa.shape),
         "penetration": np.array([largest_C(k) for k in kappa]),
         "printed": printed_limit(rho(kappa)),
     }
     if not (lowest <= limits["printed"].min() and limits["symmetry breaking"].max() <= highest):
         raise ValueError(f"C_range: {C_range} does not hold the limits of stability")
     top = np.minimum(limits["symmetry breaking"], limits["penetration"])
-    outline = np.append(kappa, kappa[::-1]), np.append(limits["fold"], top[::-1])
-    shown = {series: values <= highest for series, values in limits.items()}
-    return join(
-        [curve("regions", "stable", kappa=outline[0], C=outline[1])]
-        + [curve("regions", series, kappa=kappa[shown[series]], C=C[shown[series]]) for series, C in limits.items()]
-        + [curve("regions", "range", kappa=[0.0, 1.0], C=C_range)]
-    )
+    lines = pd.concat(pd.DataFrame({"series": name, "kappa": kappa, "C": C}) for name, C in limits.items())
+    outline = {"kappa": np.append(kappa, kappa[::-1]), "C": np.append(limits["fold"], top[::-1])}
+    return {"csv": lines[lines["C"] <= highest], "outline": pd.DataFrame(outline)}
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: stable shaded, limits solid, no motion beyond the dashed line, (10.26) dotted."""
-    figure = new_figure(SINGLE_COLUMN, 66.0)
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: stable shaded, limits solid, no motion beyond the dashed line, (10.26) dotted."""
+    figure = new_figure(SINGLE_COLUMN, 62.0)
     axes = figure.add_subplot()
-    outline = select(table, "regions", "stable")
-    axes.fill(outline["kappa"], outline["C"], facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
+    axes.fill(*tables["outline"].to_numpy().T, facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
     for series, style in LIMITS.items():
-        line = select(table, "regions", series)
+        line = tables["csv"].query("series == @series")
         axes.plot(line["kappa"], line["C"], **style)
-        if series in NAMES:
-            name, kappa, offset, side = NAMES[series]
-            at = (kappa, np.interp(kappa, line["kappa"], line["C"]))
-            axes.annotate(name, at, offset, textcoords="offset points", fontsize=10, ha=side, linespacing=1.0)
-    axes.text(0.62, 1.3, "stable", ha="center")
-    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 0, "relpos": (0.1, 0)}
-    above = {"xytext": (0.0, 1.03), "textcoords": "axes fraction", "fontsize": 10, "arrowprops": leader}
-    axes.annotate("the ball would leave the box", (0.05, 1.98), **above)  # the region there is too narrow for the words
-    frame = select(table, "regions", "range")
-    axes.set(xlim=frame["kappa"], ylim=frame["C"], xlabel=r"$\kappa$", ylabel="$C_i$")
+        name, kappa, offset, side = NAMES[series]
+        at = (kappa, np.interp(kappa, line["kappa"], line["C"]))
+        axes.annotate(name, at, offset, textcoords="offset points", fontsize=10, ha=side, va="center")
+    axes.text(0.6, 1.35, "stable", ha="center", fontsize=10)
+    lowest, highest = np.floor(10 * tables["csv"]["C"].min()) / 10 - 0.1, tables["csv"]["C"].max()
+    axes.set(xlim=(0.0, 1.0), ylim=(lowest, round(highest, 1)), xlabel=r"$\kappa$", ylabel="$C_i$")
     return figure

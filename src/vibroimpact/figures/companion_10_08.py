@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes.slow_variables import amplitude_and_lag
 from vibroimpact.theory.response import impact_times, leading_order
@@ -93,12 +93,10 @@ def draw(table: pd.DataFrame) -> Figure:
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):
         line = select(table, panel, "W_2")
         name = title.format(*line.get("label", [])) if len(line) else "theory: no fixed point"
-        axes.set_title(name, loc="left", fontsize=10, pad=3)
-        for wall in (-1.0, 1.0):
-            axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
+        heading(axes, words=name)
         image = select(table, panel, "mirror image")
         axes.plot(image["phase"], image["W2"], color=GREY, linewidth=1.0, label="mirror image")
-        axes.plot(line["phase"], line["W2"], color=BLACK, linewidth=1.3)
+        time_plot(axes, [(line["phase"], line["W2"], {"color": BLACK, "linewidth": 1.3})])
         _name_flights(axes, select(table, panel, "impact"))
         axes.set(ylabel="$W_2$", ylim=(-1.75, 1.75), yticks=(-1, 0, 1), xlim=(0, PERIODS))
     grid[-1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1)

@@ -1,4 +1,4 @@
-"""Companion: which clearance and restitution serve best, against no balls, fixed balls and tuned absorbers.
+"""Companion: how low balls bring the peak over a band of frequencies, against no balls and tuned absorbers.
 
 All is per force: X / f over 1 / f, displacement over static deflection, clearance over static deflection.
 """
@@ -10,47 +10,46 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.absorbers.peaks import peak
-from vibroimpact.figures.companion_response import FORCES, frequencies, linear_systems, per_force, ratios
-from vibroimpact.figures.kit.absorber_looks import BEST, DOTS, LEAST, LINES, MOST, draw_lines, logarithmic
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, letter_panel, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
-from vibroimpact.figures.sweep import SYMBOLS, edges
+from vibroimpact.figures.companion_response import (
+    FORCES,
+    LINES,
+    frequencies,
+    linear_systems,
+    logarithmic,
+    per_force,
+    ratios,
+)
+from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.regimes.settling import settle as settled
-from vibroimpact.sweeps.grid import LOGARITHMIC, axis
+from vibroimpact.sweeps.grid import axis
 
 SPEC = {
-    "title": "Which balls serve best",
+    "title": "How low balls bring the peak",
     "caption": r"Peaks of :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat f_{i0}`, "
-        "in a band of frequencies: at its worst frequency, what one cycle in a hundred exceeds. a: over the clearance; "
-        "triangles: from rest only one ball ever meets a wall; lines: linear systems in closed form, the absorbers of "
-        "the mass of the balls. b: for each restitution the lowest peak over the clearances of c, the lower of two "
-        "measured again from rest and seven other starts at twice as many frequencies; upright bars: its standard "
-        "error to either side. c: the peak over both, lighter is better. Stars: the lowest peak of each panel, in a "
-        "and b as high as measured again; level bars: clearances whose peak is at most 1.25 times as high.",
-    "alt": "Three panels. a: the peak over the clearance, a valley between two horizontal pairs of lines, triangles "
-        "around its lowest dots. b: dots with upright bars, level at small restitution, then rising to more than twice "
-        "as much, all above the lines of linear absorbers. c: a map in grey with the lowest peak marked by a star.",
+        "in a band of frequencies, over the clearance, at the restitution coefficient of the chapter and at the best "
+        "that was tried: at the worst frequency of the band, what one cycle in a hundred exceeds. Level lines: no "
+        "balls, and the best linear absorbers of the mass of the balls, in closed form. Stars: the lowest peaks, "
+        "measured again from rest and seven other starts at twice as many frequencies.",
+    "alt": "Peak over clearance on logarithmic axes. Two valleys of dots, that of small restitution half as high as "
+        "that of the chapter's, lie between a level line without balls far above and one of the best linear absorbers "
+        "at half the height of the lower valley.",
     "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
     "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
         "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
-        "panel": {"values": ["clearance", "restitution", "design"]},
-        "series": {"meaning": "balls, as simulated, one ball where from rest the other never meets a wall, the lowest "
-            "peak of the balls measured again, or the linear system", "values": ["balls", "one ball", "lowest peak",
-            "without balls", "balls fixed", "absorbers of the textbook", "best absorbers"]},
-        "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
-            "compared": {"lowest peak": "extremes", "others": "algebra"}},
-        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more; of balls what one "
-            "cycle in a hundred of all starts exceeds", "unit": "dimensionless", "compared": {
-            "best absorbers": "trajectory", "balls": "extremes", "one ball": "extremes", "lowest peak": "peaks",
-            "others": "algebra"}},
+        "sweep": {"meaning": "the sweep of the config", "unit": "text", "values": ["clearance", "design"]},
         "kappa": {"compared": "algebra"},
-        "low, high": {"meaning": "of a lowest peak: less and more its standard error, the `spread` of `absorber.csv`",
-            "unit": "dimensionless", "compared": "peaks"},
+        "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
+            "compared": "algebra"},
+        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more: what one cycle in "
+            "a hundred of all starts exceeds", "unit": "dimensionless", "compared": "extremes"},
+        "one_ball": {"meaning": "the same from rest, where only one ball ever meets a wall; blank elsewhere",
+            "unit": "dimensionless", "compared": "extremes"},
     },
     "tables": {
         "summary": {
@@ -65,9 +64,10 @@ SPEC = {
                     r"greatest of these. stroke: the largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
                     "linear absorbers need to each side; of balls the clearance. Of balls against who, at one "
                     "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
-                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who", "unit": "text",
-                    "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to", "stroke",
-                    "frequencies won", "least", "greatest"]},
+                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who. decay: cycles until a tenth of "
+                    "the energy of an impulse on box 1 is left, of balls after the impulse for which this is soonest",
+                    "unit": "text", "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to",
+                    "stroke", "frequencies won", "least", "greatest", "decay"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
                     "one ball at the kappa of the config while the other meets no wall, or what they are held against",
                     "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
@@ -75,7 +75,7 @@ SPEC = {
                 "value": {"meaning": "what the quantity says; of a peak of balls the lower of two measured again where "
                     "the sweep has its lowest, from rest and seven other starts, at frequencies half-way between, too; "
                     "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {
-                    "without balls": "algebra",
+                    "decay": "trajectory", "without balls": "algebra",
                     "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
                     "frequencies won": "free", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
@@ -101,15 +101,10 @@ SPEC = {
 }  # fmt: skip
 
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
-SWEPT = {
-    BALLS: {**DOTS, "linestyle": "-", "linewidth": 0.6},
-    ONE_BALL: {**DOTS, "marker": "^", "markersize": 6.5, "markerfacecolor": "none"},
-}
-PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
+PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
 """Quantities of the summary, beside those of `_held_against`."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
-_MARGIN = {"color": BLACK, "linewidth": 2.6, "solid_capstyle": "butt", "label": f"at most {NEARLY} times the lowest"}
 LEVEL = 1.2
 """The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
@@ -117,8 +112,8 @@ FEW = 2
 """The lowest peaks of a sweep that are measured again."""
 FRESH = 8
 """Starts that a lowest peak is measured from again, rest among them."""
-PANELS = {"clearance": "clearance", "kappa": "restitution"}
-"""Panels of curves, by what they are over."""
+IMPULSES, LEFT = np.geomspace(0.5, 50.0, 81), 0.1
+"""Velocities given to box 1, in units of L omega_10, and the part of their energy that is left after a decay."""
 TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
 """Columns of the summary."""
 
@@ -141,8 +136,7 @@ def compute(
         observation, starts: how long, and from how many starts, the regime at an optimum is looked for.
         seed: of the starts of the sweeps. cycles, settle: of their runs.
 
-    Returns "csv": columns panel ("clearance", "restitution" or "design"), series, clearance, kappa, ratio (X / f), low
-    and high (of a lowest peak, by its standard error).
+    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball.
     "summary": columns quantity, who, value, ... (see SPEC).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
@@ -158,10 +152,6 @@ def compute(
         (one_ball,) = _lowest(alone, 1)
         optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
 
-    swept = (("clearance", BALLS, clearance), ("clearance", ONE_BALL, alone), ("design", BALLS, design))
-    columns = "clearance", "kappa", "ratio"
-    curves = [curve(panel, who, **{name: table[name] for name in columns}) for panel, who, table in swept]
-    levels = _levels(peaks, "clearance", clearance) + _levels(peaks, "kappa", design)
     rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
     rows += [
         {"quantity": PEAK, "who": who, **_told(place), "regime": _regime(system, place, observation, several, seed)}
@@ -171,10 +161,12 @@ def compute(
     rows += _strokes(system, linear, band)
     rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
     rows += _held_against(system, per_force(system, response), band)
+    rows += _decays(system, linear)
     summary = pd.DataFrame(rows)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
         summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
-    return {"csv": join([*levels, *curves, _lowest_peaks(restitution)]), "summary": summary}
+    swept = pd.concat([clearance.assign(sweep="clearance"), design.assign(sweep="design")])
+    return {"csv": swept[["sweep", "kappa", "clearance", "ratio", "one_ball"]], "summary": summary}
 
 
 def _peaks(system, table):
@@ -225,19 +217,6 @@ def _regime(system, place, observation, number, seed):
     return names.most_common(1)[0][0]
 
 
-def _lowest_peaks(places):
-    """Rows of the lowest peak at each kappa, with its standard error."""
-    table = pd.DataFrame(places)
-    low, high = (table["value"] + sign * table["spread"] for sign in (-1, 1))
-    return curve("restitution", LOWEST, **table[["clearance", "kappa"]], ratio=table["value"], low=low, high=high)
-
-
-def _levels(peaks, over, table):
-    """Rows of the linear systems over all that was tried of a column."""
-    panel, ends = PANELS[over], table[over].agg(["min", "max"]).to_numpy()
-    return [curve(panel, name, **{over: ends}, ratio=peak) for name, peak in peaks.items()]
-
-
 def _of_restitution(places):
     rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
     told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
@@ -271,55 +250,36 @@ def _held_against(system, response, band):
             yield from ({"quantity": q, "who": name, "value": v, **place} for q, v in measures.items())
 
 
+def _decays(system, linear):
+    """Yield the forcing periods that an impulse on box 1 is felt, with balls after the best impulse for them."""
+    times = [decay_time(system, impulse, fraction=LEFT) for impulse in IMPULSES]
+    found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=LEFT)[1]}
+    found |= {name: one.decay_time(1, LEFT) for name, one in linear.items()}
+    yield from ({"quantity": DECAY, "who": who, "value": time / system.period} for who, time in found.items())
+
+
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: peaks over the clearance, lowest ones over kappa, and the map of both."""
-    table, summary = tables["csv"], tables["summary"].query(f"quantity == '{PEAK}'").set_index("who")
-    peaks = summary.loc[list(LINES), "value"]
-    figure = new_figure(DOUBLE_COLUMN, 78.0)
-    left, middle, right = figure.subplots(1, 3, width_ratios=[1.0, 0.85, 1.15])
-    _draw_clearance(left, table[table["panel"] == "clearance"], summary.loc[BALLS])
-    logarithmic(left, "y", LEAST, MOST * peaks.max())
-    _draw_restitution(middle, table[table["panel"] == "restitution"], summary.loc[BEST_KAPPA])
-    middle.set(xlim=(0.0, 1.0), ylim=(0.0, 0.5 * peaks["without balls"]))
-    _draw_design(right, select(table, "design", BALLS), summary.loc[BEST_KAPPA], peaks["without balls"])
-    for axes, letter in zip((left, middle, right), "abc", strict=True):
-        letter_panel(axes, letter)
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
+    """Draw the tables of `compute`: peaks over the clearance at two restitution coefficients, between two levels."""
+    swept, peaks = tables["csv"], tables["summary"].query(f"quantity == '{PEAK}'").set_index("who")
+    figure = new_figure(SINGLE_COLUMN, 72.0)
+    axes = figure.add_subplot()
+    logarithmic(axes, "x", *swept["clearance"].agg(["min", "max"]))
+    logarithmic(axes, "y", 3.0, 80.0)
+    for name in ("without balls", "best absorbers"):
+        axes.axhline(peaks.loc[name, "value"], **LINES[name])
+    for who, sweep, face in ((BALLS, "clearance", BLACK), (BEST_KAPPA, "design", "white")):
+        best = peaks.loc[who]
+        rows = swept[(swept["sweep"] == sweep) & (swept["kappa"] == best["kappa"])]
+        axes.plot(
+            rows["clearance"], rows["ratio"], "o-", color=BLACK, markersize=3, linewidth=0.7, markerfacecolor=face
+        )
+        axes.plot(best["clearance"], best["value"], "*", color=BLACK, markersize=9, markerfacecolor=face, zorder=4)
+        below = {"textcoords": "offset points", "va": "top"}
+        axes.annotate(rf"balls, $\kappa = {best['kappa']:g}$", best[["clearance", "value"]], (0, -7), **below)
+    named = {"without balls": "without balls", "best absorbers": "best linear absorbers"}
+    for name, words in named.items():
+        place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
+        axes.annotate(words, (0.03, peaks.loc[name, "value"]), (0, 4), **place)
+    axes.set(xlabel="clearance over static deflection, $1/f$", ylabel="peak displacement per force, $|X_i|\\,/\\,f$")
     return figure
-
-
-def _draw_clearance(axes, rows, best):
-    draw_lines(axes, rows, "clearance", "ratio")
-    for series, look in SWEPT.items():
-        mine = select(rows, "clearance", series)
-        axes.plot(mine["clearance"], mine["ratio"], label=series, **look)
-    _mark(axes, best, best["value"])
-    logarithmic(axes, "x")
-    axes.set(xlabel="clearance $1/f$", ylabel="peak $|X_i|\\,/\\,f$ of the band")
-
-
-def _draw_restitution(axes, rows, best):
-    draw_lines(axes, rows, "kappa", "ratio")
-    mine = select(rows, "restitution", LOWEST)
-    axes.vlines(mine["kappa"], mine["low"], mine["high"], color=BLACK, linewidth=0.9, label="standard error")
-    axes.plot(mine["kappa"], mine["ratio"], label="lowest peaks", **DOTS)
-    axes.plot(best["kappa"], best["value"], label=LOWEST, **BEST)
-    axes.set(xlabel=SYMBOLS["kappa"], ylabel="lowest peak over the clearance")
-
-
-def _draw_design(axes, cells, best, darkest):
-    square = cells.pivot(index="kappa", columns="clearance", values="ratio")
-    hatch_gaps(axes)
-    sides = edges(square.columns, {"scale": LOGARITHMIC}), edges(square.index, {})
-    mesh = axes.pcolormesh(*sides, square, cmap="Greys", vmin=0.0, vmax=darkest, rasterized=True)
-    axes.figure.colorbar(mesh, ax=axes, label="peak $|X_i|\\,/\\,f$ (lighter is better)")
-    _mark(axes, best, best["kappa"])
-    logarithmic(axes, "x")
-    axes.set(xlabel="clearance $1/f$", ylabel=SYMBOLS["kappa"])
-
-
-def _mark(axes, best, height):
-    """The optimum, and its margin."""
-    axes.plot([best["narrowest"], best["widest"]], [height, height], **_MARGIN)
-    axes.plot(best["clearance"], height, label=LOWEST, **BEST)

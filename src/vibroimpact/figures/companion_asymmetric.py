@@ -8,9 +8,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, letter_panel, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.kit.regime_colours import COLOURS
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
 from vibroimpact.regimes import asymmetric_limit
+from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.epsilon_limit import order
 from vibroimpact.theory.asymmetric import branch
 from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points
@@ -21,29 +22,47 @@ from vibroimpact.theory.relaxation import lost_at, relax
 SPEC = {
     "title": "The asymmetric branch of the manifold",
     "caption": "Motions whose balls take unequal time for their two flights. a: the manifold; where symmetry breaks, "
-        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch (grey). Circles: fixed "
-        r"points of the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the "
-        r"cases. Then, per case, how unequal the flights of the exact pairs are as :math:`\varepsilon` falls "
-        "(:math:`v`: difference of the flight times over the period), and the fixed points that they lead to. The pair "
-        "A3 of the equal case is the response of Fig. 10.8.",
-    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a grey curve rises "
+        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch. Circles: fixed points of "
+        r"the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the cases. "
+        r"Then, per case, how unequal the flights of each exact pair of mirror images are as :math:`\varepsilon` falls "
+        "(:math:`v`: difference of the flight times over the period), down to the fixed point that it leads to. A3, A5 "
+        "and A7 are labels in `orbits.csv`; the stable A3 of the equal case is the response of Fig. 10.8.",
+    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a green curve rises "
         "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon that end in circles "
         "at epsilon 0; the lowest line crosses zero just before.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
     "columns": {
-        "panel": {"meaning": "manifold, or the case"},
-        "series": {"meaning": "a piece of the manifold; fixed point, or exact orbit; the way of an exact pair as "
-            r"$\varepsilon$ falls, and its end, the fixed point that it leads to"},
-        "label": {"meaning": "case and label of the point or orbit; of a way and its end the label of the orbit",
-            "unit": "text"},
-        "C, B": {"compared": {"fixed point": "roots", "exact orbit": "roots", "others": "algebra"}},
-        "epsilon": {"compared": "algebra"},
-        "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
-            "compared": "roots"},
+        "series": {"meaning": "a piece of the manifold", "values": ["symmetric, left", "symmetric, stable",
+            "symmetric, right", "asymmetric, stable", "asymmetric, right"]},
+        "C, B": {"compared": "algebra"},
     },
     "tables": {
+        "modules": {
+            "file": "results/figures/companion_asymmetric.modules.csv",
+            "about": "Modules with unequal flights in the plane of `companion_asymmetric`: of fixed points and exact "
+                "orbits, one of each pair of mirror images.",
+            "columns": {
+                "case": {}, "series": {"meaning": "of what", "values": ["fixed point", "exact orbit"]},
+                "label": {"meaning": "label in `asymmetric_fixed_points.csv` or `orbits.csv`", "unit": "text"},
+                "module": {"meaning": "the module, 1 or 2", "unit": "number", "compared": "algebra"},
+                "C, B": {"compared": "roots"},
+            },
+        },
+        "pairs": {
+            "file": "results/figures/companion_asymmetric.pairs.csv",
+            "about": r"How unequal the flights of exact pairs are as $\varepsilon$ falls.",
+            "columns": {
+                "case": {}, "label": {"meaning": "label in `orbits.csv`", "unit": "text"},
+                "exact": {"meaning": r"verdict of the multipliers at the $\varepsilon$ of the case"},
+                "epsilon": {"compared": "algebra"},
+                "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
+                    "compared": "roots"},
+                "limit": {"meaning": "the same of the fixed point that the pair leads to; blank without one",
+                    "unit": "dimensionless", "compared": "roots"},
+            },
+        },
         "points": {
             "file": "results/asymmetric_fixed_points.csv",
             "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
@@ -100,25 +119,21 @@ SPEC = {
     },
 }  # fmt: skip
 
-MANIFOLD, THEORY, EXACT, WAY, END = "manifold", "fixed point", "exact orbit", "way", "end"
-GREYED = {"color": GREY}
+_COLOUR = {"color": COLOURS[ASYMMETRIC]}
 PIECES = {
     "symmetric, left": UNSTABLE,
     "symmetric, stable": STABLE,
     "symmetric, right": UNSTABLE,
-    "asymmetric, stable": STABLE | GREYED,
-    "asymmetric, right": UNSTABLE | GREYED,
+    "asymmetric, stable": STABLE | _COLOUR,
+    "asymmetric, right": UNSTABLE | _COLOUR,
 }
-NAMES = {
-    "symmetric, stable": "symmetric, stable",
-    "symmetric, left": "symmetric, unstable",
-    "asymmetric, stable": "asymmetric, stable",
-    "asymmetric, right": "asymmetric, unstable",
-}
+POINT, ORBIT = "fixed point", "exact orbit"
 MARKS = {
-    THEORY: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6},
-    EXACT: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.6},
+    POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
+    ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
+SKEWED = 1e-3
+"""Flights of a module are unequal where its v^2 is above this."""
 _PHASES, _SPEEDS = (
     [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
 )
@@ -139,31 +154,39 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
         fit_below: the order in which the distance falls is fitted where epsilon is below this.
         C_max: right end of the symmetric branch.
 
-    Returns "csv": panel "manifold" (series: pieces of both branches with C, B; "fixed point", "exact orbit": modules
-    with unequal flights, labelled "case, label") and one per case (series "way" of each pair, labelled: epsilon,
-    squared, the larger v^2; "end": the fixed point it leads to, epsilon 0); "points", a row per fixed point; and
-    "relaxation", what the slow flow makes of balls that it loses, a row per case and module.
+    Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules" with unequal flights: case,
+    series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the larger
+    v^2), limit (that of the fixed point it leads to);
+    "points", a row per fixed point; and "relaxation", what the slow flow makes of balls that it loses, by module.
     """
     systems = {case: system for case, system in systems.items() if system.kappa == kappa}
-    curves, rows, relaxed = _manifold(kappa, C_max), [], []
+    modules, pairs, rows, relaxed = [], [], [], []
     for case, system in systems.items():
-        points = fixed_points(system)
-        pairs = _pairs(system, orbits[orbits["case"] == case])
+        points, here = fixed_points(system), orbits[orbits["case"] == case]
         falling = np.sort(np.geomspace(*epsilon, values))[::-1]
         ways = {
-            label: asymmetric_limit.follow(system, root, falling[falling < system.epsilon]) for label, root in pairs
+            label: asymmetric_limit.follow(system, root, falling[falling < system.epsilon])
+            for label, root in _pairs(system, here)
         }
         ends = {label: asymmetric_limit.leads_to(way, points) for label, way in ways.items()}
         for number, point in enumerate(points, start=1):
             label = next((name for name, end in ends.items() if end is point), "")
             rows.append(_row(system, case, f"U{number}", point, label, ways.get(label), fit_below))
-            curves += _in_plane(THEORY, f"{case}, U{number}", point.squared, point.C, point.B)
-        curves += [part for label, way in ways.items() for part in _way(case, label, way, ends[label])]
+            modules += _in_plane(case, POINT, f"U{number}", point.C, point.B, point.squared)
+        for label, way in ways.items():
+            (verdict,) = here.loc[here["label"] == label, "exact"]
+            limit = np.nan if ends[label] is None else ends[label].squared[ends[label].asymmetric].max()
+            pairs += [(case, label, verdict, each.system.epsilon, each.place[2:4].max(), limit) for each in way]
+            modules += _in_plane(case, ORBIT, label, way[0].place[:2], way[0].box_amplitudes, way[0].place[2:4])
         found = relax(system, *RELAXED)
         relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
-    table = pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED])
-    relaxation = pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"])
-    return {"csv": join(curves), "points": table, "relaxation": relaxation}
+    return {
+        "csv": _manifold(kappa, C_max),
+        "modules": pd.DataFrame(modules, columns=["case", "series", "label", "module", "C", "B"]),
+        "pairs": pd.DataFrame(pairs, columns=["case", "label", "exact", "epsilon", "squared", "limit"]),
+        "points": pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED]),
+        "relaxation": pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"]),
+    }
 
 
 def _manifold(kappa, C_max):
@@ -174,7 +197,9 @@ def _manifold(kappa, C_max):
     last = brentq(lambda squared: branch.amplitudes(squared, kappa)[1] - B_of_C(C_max, r), 0.0, 1 - 1e-9)
     squared = np.linspace(0, min(end, last), 101), np.linspace(min(end, last), last, 101)
     places = [(C, B_of_C(C, r)) for C in symmetric] + [branch.amplitudes(x, kappa) for x in squared]
-    return [curve(MANIFOLD, name, C=C, B=B) for name, (C, B) in zip(PIECES, places, strict=True)]
+    return pd.concat(
+        pd.DataFrame({"series": name, "C": C, "B": B}) for name, (C, B) in zip(PIECES, places, strict=True)
+    )
 
 
 def _pairs(system, orbits):
@@ -186,18 +211,11 @@ def _pairs(system, orbits):
         yield row["label"], np.concatenate([row[_PHASES].to_numpy(float) * system.period, speeds.sum(axis=1)])
 
 
-def _way(case, label, way, end):
-    places = np.array([station.place for station in way])
-    yield curve(case, WAY, label=label, epsilon=[s.system.epsilon for s in way], squared=places[:, 2:4].max(axis=1))
-    yield from _in_plane(EXACT, f"{case}, {label}", places[0, 2:4], places[0, :2], way[0].box_amplitudes)
-    if end is not None:
-        yield curve(case, END, label=label, epsilon=0.0, squared=end.squared[end.asymmetric].max())
-
-
-def _in_plane(series, label, squared, C, B):
-    """Modules whose flights are unequal, in the plane of the manifold."""
-    skewed = squared > 1e-3
-    return [curve(MANIFOLD, series, label=label, C=C[skewed], B=B[skewed])] if skewed.any() else []
+def _in_plane(case, series, label, *places):
+    """Yield the modules whose flights are unequal; places: C, B and v^2, each (2,)."""
+    for module, C, B, squared in zip((1, 2), *places, strict=True):
+        if squared > SKEWED:
+            yield case, series, label, module, C, B
 
 
 def _row(system, case, name, point, label, way, fit_below):
@@ -224,41 +242,48 @@ def _row(system, case, name, point, label, way, fit_below):
 @styled
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
-    table = tables["csv"]
-    cases = [panel for panel in dict.fromkeys(table["panel"]) if panel != MANIFOLD]
+    pairs = tables["pairs"]
+    cases = list(dict.fromkeys(pairs["case"]))
     figure = new_figure(DOUBLE_COLUMN, 84.0)
-    grid = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
-    for axes, letter in zip(grid, ascii_lowercase, strict=False):
-        letter_panel(axes, letter)
-    _draw_manifold(grid[0], table)
-    for axes, case in zip(grid[1:], cases, strict=True):
-        _draw_case(axes, table, case)
+    left, *others = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
+    for axes in others[1:]:
+        axes.sharey(others[0])
+        axes.tick_params(labelleft=False)
+    heading(left, "a", "the manifold")
+    _draw_manifold(left, tables["csv"], tables["modules"])
+    for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
+        heading(axes, letter, f"exact pairs, {case}")
+        _draw_case(axes, pairs[pairs["case"] == case])
     if cases:
-        grid[1].set_ylabel("$v^2$")
-    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)
+        others[0].set_ylabel("inequality of flights, $v^2$")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
-def _draw_manifold(axes, table):
+def _draw_manifold(axes, pieces, modules):
     for series, style in PIECES.items():
-        piece = select(table, MANIFOLD, series)
-        axes.plot(piece["C"], piece["B"], **style, label=NAMES.get(series))
+        piece = pieces[pieces["series"] == series]
+        axes.plot(piece["C"], piece["B"], **style)
     for series, style in MARKS.items():
-        rows = select(table, MANIFOLD, series)
-        axes.plot(rows["C"], rows["B"], linestyle="none", color=BLACK, label=series, zorder=3, **style)
+        rows = modules[modules["series"] == series]
+        axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
+    end = pieces.iloc[-1]
+    beside = {"textcoords": "offset points", "ha": "right"}
+    axes.annotate("asymmetric", end[["C", "B"]], (-8, -8), **beside, **_COLOUR)
+    lowest = pieces[pieces["series"] == "symmetric, stable"].iloc[-1]
+    axes.annotate("symmetric", lowest[["C", "B"]], (-24, -24), **beside)
     axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_i$", ylabel="$B_i$")
 
 
-def _draw_case(axes, table, case):
-    ways = select(table, case, WAY)
-    for label, way in ways.groupby("label", sort=False):
+def _draw_case(axes, pairs):
+    for (label, verdict), way in pairs.groupby(["label", "exact"], sort=False):
         axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
         last = way.iloc[0]
-        axes.annotate(label, (last["epsilon"], last["squared"]), (-2, 3), textcoords="offset points", ha="right")
-    ends = select(table, case, END)
-    axes.plot(ends["epsilon"], ends["squared"], linestyle="none", color=BLACK, clip_on=False, zorder=3, **MARKS[THEORY])
+        above = {"textcoords": "offset points", "ha": "right"}
+        axes.annotate(f"{label}, {verdict}", last[["epsilon", "squared"]], (-3, 4), **above)
+    ends = pairs.drop_duplicates("label")["limit"]
+    axes.plot(np.zeros(len(ends)), ends, clip_on=False, zorder=3, **MARKS[POINT])
     axes.axhline(0, color=BLACK, linewidth=0.6)
-    axes.set_title(case, loc="right", pad=3)
     axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
     axes.margins(y=0.08)
     axes.locator_params(axis="x", nbins=3)

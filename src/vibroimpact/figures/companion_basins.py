@@ -2,49 +2,40 @@
 
 import numpy as np
 import pandas as pd
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, letter_panel, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join
-from vibroimpact.regimes.basins import MIRRORED, ends, plane, stable_response
-from vibroimpact.regimes.classification import (
-    ASYMMETRIC,
-    CHAOTIC,
-    HOPPING,
-    IDLE,
-    NO_IMPACTS,
-    OTHER,
-    QUASI_PERIODIC,
-    STRONGLY_MODULATED,
-    SYMMETRIC,
-    UNSETTLED,
-)
+from vibroimpact.figures.kit.regime_colours import key, paint
+from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.regimes.basins import ends, plane, stable_response
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.system.state import NAMES
 
 SPEC = {
     "title": "Basins of coexisting responses",
     "caption": "Basins: in which response a start ends, on the plane of starts whose boxes and velocities are those of "
-        r"the stable asymmetric orbit (circle) at :math:`\tau = 0`; the CSV has them in its row `shared`. Diamond: its "
-        "mirror image, whose boxes are elsewhere at that time.",
-    "alt": "Map of a plane of starts, each cell in the shade of the response in which the start ends, with the case as "
-        "heading. A circle marks the stable orbit in its own shade, a diamond its mirror image. Below, a key.",
+        r"the stable asymmetric orbit (circle) at :math:`\tau = 0`. Diamond: its mirror image, whose boxes are then "
+        "elsewhere.",
+    "alt": "Map of a plane of starts, each cell in the colour of the response in which the start ends, with the case "
+        "in the heading. A circle marks the stable orbit in its own colour, a diamond its mirror image. Below, a key.",
     "method": "direct integration of (10.1) from many starts, until it repeats",
     "columns": {
         "panel": {"meaning": "the case"},
-        "series": {"meaning": r"a start, the stable asymmetric orbit at $\tau = 0$, its mirror image there, or what "
-            "all starts share", "values": ["start", "orbit", "mirror image", "shared"]},
         "label": {"meaning": "regime that the start ends in; of two mirrored asymmetric responses one is called "
-            "mirrored", "unit": "text", "compared": {"start": "cells of a basin"}},
-        "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": {
-            "start": "algebra", "others": "roots"}},
-        "X1, X2, dX1, dY1, dX2, dY2": {"meaning": r"place or velocity (d is d/dtau) that all starts share, at $\tau = "
-            "0$", "unit": "dimensionless", "compared": "roots"},
+            "mirrored", "unit": "text", "compared": "cells of a basin"},
+        "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": "algebra"},
     },
     "tables": {
+        "orbits": {
+            "file": "results/figures/companion_basins.orbits.csv",
+            "about": "The stable asymmetric orbit of `companion_basins` and its mirror image, or boxes at rest.",
+            "columns": {
+                "series": {"meaning": "the state whose boxes and velocities all starts share, the orbit itself where "
+                    "there is one, and its mirror image", "values": ["shared", "mirror image"]},
+                "X1, Y1, X2, Y2, dX1, dY1, dX2, dY2": {"meaning": r"place or velocity (d is d/dtau) at $\tau = 0$",
+                    "unit": "dimensionless", "compared": "roots"},
+            },
+        },
         "shares": {
             "file": "results/regimes/basin_shares.csv",
             "about": "Share of the plane of `companion_basins` that leads to each regime.",
@@ -57,26 +48,8 @@ SPEC = {
     },
 }  # fmt: skip
 
-SHADES = {
-    STRONGLY_MODULATED: "white",
-    ASYMMETRIC: "0.25",
-    MIRRORED: "0.65",
-    CHAOTIC: "0.95",
-    OTHER: "0.82",
-    SYMMETRIC: "0.45",
-    QUASI_PERIODIC: "0.55",
-    HOPPING: "0.9",
-    IDLE: "0.75",
-    NO_IMPACTS: "0.35",
-    UNSETTLED: "0.1",
-}
+MARKS = {"shared": ("o", "the orbit itself"), "mirror image": ("D", "its mirror image")}
 _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.8, "markersize": 5}
-MARKS = {
-    "orbit": {"marker": "o", "label": "the orbit itself"},
-    "mirror image": {"marker": "D", "label": "its mirror image"},
-}
-SHARED = [name for name in NAMES if name not in ("Y1", "Y2")]
-"""Coordinates that all starts have in common."""
 
 
 def compute(system, case: str, points: int, observation: dict) -> dict:
@@ -89,49 +62,39 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
         points: starts along each axis, in the middles of equal parts of -1 < W_i < 1.
         observation: arguments of `regimes.settling.Observation`.
 
-    Returns "csv": columns panel (the case), series ("start", "orbit", "mirror image": of the orbit, whose boxes are
-    elsewhere; "shared": what all starts have in common), label (regime), W1, W2, SHARED; and "shares": columns
-    regime, share, uncertainty (of a share of so many independent starts, binomial).
+    Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": series ("shared",
+    the state that all starts have in common but for the balls, "mirror image", of the orbit), NAMES; and "shares":
+    columns regime, share, uncertainty (of a share of so many independent starts, binomial).
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)
-    shared = dict(zip(NAMES, states[0], strict=True))
     names = ends(system, states, Observation(**observation))
-    W1, W2 = states[:, 0] - states[:, 1], states[:, 2] - states[:, 3]
-    table = [curve(case, "start", label=names, W1=W1, W2=W2)]
+    starts = pd.DataFrame({"panel": case, "label": names})
+    starts = starts.assign(W1=states[:, 0] - states[:, 1], W2=states[:, 2] - states[:, 3])
+    own = {"shared": np.zeros(8)}
     if orbit is not None:
         half = simulate(system, orbit.state, 1, sample_times=[0.5 * system.period]).samples[0]
-        for series, label, own in (("orbit", ASYMMETRIC, orbit.state), ("mirror image", MIRRORED, -half)):
-            table.append(curve(case, series, label=label, W1=own[0] - own[1], W2=own[2] - own[3]))
-    table = join([*table, curve(case, "shared", **{name: shared[name] for name in SHARED})])
+        own = {"shared": orbit.state, "mirror image": -half}
+    orbits = pd.DataFrame(own, index=NAMES).T.rename_axis("series").reset_index()
     share = pd.Series(names).value_counts(normalize=True)
     shares = pd.DataFrame({"regime": share.index, "share": share.to_numpy()})
-    return {"csv": table, "shares": shares.assign(uncertainty=np.sqrt(share * (1 - share) / len(names)).to_numpy())}
+    shares = shares.assign(uncertainty=np.sqrt(share * (1 - share) / len(names)).to_numpy())
+    return {"csv": starts, "orbits": orbits, "shares": shares}
 
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table of `compute`: a shade per regime, the orbit itself as a circle, its mirror image as a diamond."""
-    table = tables["csv"]
-    starts = table[table["series"] == "start"]
-    order = [name for name in SHADES if (starts["label"] == name).any()]
-    codes = starts.assign(code=starts["label"].map(order.index)).pivot(index="W2", columns="W1", values="code")
-    figure = new_figure(SINGLE_COLUMN, 98.0)
+    """Draw the tables of `compute`: a colour per regime, the orbit a circle, its mirror image a diamond."""
+    starts, orbits = tables["csv"], tables["orbits"].set_index("series")
+    figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()
-    axes.pcolormesh(
-        codes.columns,
-        codes.index,
-        codes.to_numpy(),
-        cmap=ListedColormap([SHADES[name] for name in order]),
-        norm=BoundaryNorm(np.arange(len(order) + 1) - 0.5, len(order)),
-        rasterized=True,
-    )
-    marks = []
-    for series, style in MARKS.items():
-        own = table[table["series"] == series]
-        marks += axes.plot(own["W1"], own["W2"], **_MARK, **style) if len(own) else []
-    letter_panel(axes, table["panel"].iloc[0])
-    axes.set(xlabel="$W_1(0)$", ylabel="$W_2(0)$", aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
-    patches = [Patch(facecolor=SHADES[name], edgecolor=BLACK, linewidth=0.6, label=name) for name in order]
-    figure.legend(handles=patches + marks, loc="outside lower center", ncols=2, fontsize=8.5)
+    handles = key(paint(axes, starts.pivot(index="W2", columns="W1", values="label")))
+    for series, own in orbits.iterrows() if len(orbits) > 1 else ():
+        marker, name = MARKS[series]
+        place = own["X1"] - own["Y1"], own["X2"] - own["Y2"]
+        (handles[name],) = axes.plot(*place, marker=marker, **_MARK)
+    heading(axes, words=f"where starts end, case {starts['panel'].iloc[0]}")
+    axes.set(xlabel="start of ball 1, $W_1(0)$", ylabel="start of ball 2, $W_2(0)$")
+    axes.set(aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
     return figure

@@ -16,7 +16,7 @@ from vibroimpact.figures.kit.style import (
     GREY,
     LEVEL,
     STABLE,
-    letter_panel,
+    heading,
     new_figure,
     styled,
 )
@@ -305,7 +305,7 @@ def draw(tables: dict) -> Figure:
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     grid = figure.subplots(1, 3)
     for axes, letter in zip(grid, "abc", strict=True):
-        letter_panel(axes, letter)
+        heading(axes, letter)
     _draw_errors(grid[0], table)
     _draw_leans(grid[1], table[table["panel"] == "lean"])
     _draw_power(grid[2], table)

@@ -16,7 +16,7 @@ SPEC = {
     "title": "How the error of the theory falls with epsilon",
     "caption": r"The largest error of leading-order theory over the fixed points of the three cases, against exact "
         r"orbits, as :math:`\varepsilon` falls: of amplitudes and phases, also with the term of first order added "
-        "(grey), of the slow flow's rates, and of the fast multipliers. Triangle: slope 1.",
+        "(grey), of the slow flow's rates, and of the fast multipliers. Triangles: slopes 1 and 2.",
     "alt": "Errors of the theory over epsilon on logarithmic axes: three straight lines of slope 1, for fast "
         "multipliers, slow rates, and amplitudes and phases; a fourth, grey, falls twice as steeply.",
     "method": "fixed points and exact symmetric responses at every epsilon",
@@ -57,6 +57,8 @@ LOOKS = {
     TWO_TERMS: ("the same, first-order term added", {"color": GREY, "marker": "D"}),
 }
 """Names and looks of the errors that are drawn."""
+SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
+"""Triangles: slope, and how many times the error of a curve they stand above it."""
 _STEP = 2e-4
 
 
@@ -141,16 +143,16 @@ def draw(tables: dict) -> Figure:
             axes.plot(largest.index, largest, label=name, markersize=3.6, linewidth=0.8, **look)
             middle = largest.index[len(largest) // 2]
             beside = {"xytext": (-3, 5), "ha": "right"} if panel in ("fast", "slow") else {"xytext": (4, -12)}
-            axes.annotate(name, (middle, largest[middle]), textcoords="offset points", fontsize=8.5, **beside)
-            if panel == "slow":
-                _slope(axes, largest.index[-1], largest.iloc[-1])
+            axes.annotate(name, (middle, largest[middle]), textcoords="offset points", **beside)
+            if panel in SLOPES:
+                _slope(axes, largest.index[-1], largest.iloc[-1], *SLOPES[panel])
     axes.margins(y=0.12)
     return figure
 
 
-def _slope(axes, epsilon, error):
-    """A triangle of slope 1 over a decade, above a curve that ends here, as plots of convergence have it."""
-    x, y = epsilon * np.array([0.05, 0.5]), error * np.array([1.0, 10.0])
+def _slope(axes, epsilon, error, slope, times):
+    """A triangle of a slope, beside a curve that ends here, as plots of convergence have it."""
+    x = epsilon * np.array([0.05, 0.5])
+    y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))
-    above = {"xytext": (-2, 3), "textcoords": "offset points", "ha": "right", "va": "bottom"}
-    axes.annotate("slope 1", (np.sqrt(x.prod()), np.sqrt(y.prod())), fontsize=8.5, **above)
+    axes.annotate(f"slope {slope}", (x[1], np.sqrt(y.prod())), (4, 0), textcoords="offset points", va="center")

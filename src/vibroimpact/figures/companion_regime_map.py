@@ -5,28 +5,15 @@ from functools import cache
 import numpy as np
 import pandas as pd
 from matplotlib.collections import LineCollection
-from matplotlib.colors import ListedColormap, to_rgb
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from scipy import ndimage
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, hatch_gaps, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, select
-from vibroimpact.regimes.classification import (
-    ASYMMETRIC,
-    CHAOTIC,
-    HOPPING,
-    IDLE,
-    NO_IMPACTS,
-    OTHER,
-    QUASI_PERIODIC,
-    REGIMES,
-    STRONGLY_MODULATED,
-    SYMMETRIC,
-    UNSETTLED,
-)
+from vibroimpact.figures.kit.regime_colours import COLOURS, key, paint
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, new_figure, styled
+from vibroimpact.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 
 SPEC = {
@@ -42,19 +29,33 @@ SPEC = {
     "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
         "observe": ["regimes", "fixed_points"]}},
     "columns": {
-        "panel": {"meaning": "map"},
-        "series": {"meaning": "cell of the map, case of the config, or what changes on a border", "values": ["cell",
-            "case", "fixed points", "stable points"]},
-        "label": {"meaning": "regime that the start from rest ends in; name of the case; number of the straight piece "
-            "of the border, whose two ends are two rows", "unit": "text", "compared": {"cell": "cells of a map"}},
-        "f10_hat, f20_hat": {"compared": {"cell": "algebra", "case": "algebra", "others": "roots"}},
-        "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text", "compared": {
-            "cell": "cells of a map"}},
+        "label": {"meaning": "regime that the start from rest ends in", "unit": "text", "compared": "cells of a map"},
+        "f10_hat, f20_hat": {"compared": "algebra"},
+        "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text",
+            "compared": "cells of a map"},
         "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
-            "compared": {"cell": "cells of a map"}},
+            "compared": "cells of a map"},
         "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball idle, "
         "no impacts, unsettled": {"compared": "cells of a map"},
         "fixed_points, stable_points": {"compared": "counts of a map"},
+    },
+    "tables": {
+        "cases": {
+            "file": "results/figures/companion_regime_map.cases.csv",
+            "about": "The cases of the config in the plane of `companion_regime_map`.",
+            "columns": {"case": {}, "f10_hat, f20_hat": {"compared": "algebra"}},
+        },
+        "borders": {
+            "file": "results/figures/companion_regime_map.borders.csv",
+            "about": "Lines in the plane of `companion_regime_map` on which the theory's counts change, in straight "
+                "pieces.",
+            "columns": {
+                "series": {"meaning": "the count that changes", "values": ["fixed points", "stable points"]},
+                "piece": {"meaning": "number of the piece of the line, from 1 on, whose two ends are two rows",
+                    "unit": "number", "compared": "algebra"},
+                "f10_hat, f20_hat": {"compared": "roots"},
+            },
+        },
     },
 }  # fmt: skip
 
@@ -64,25 +65,16 @@ BORDERS = {
 }
 HALVINGS = 4
 """Halvings between two cells with different counts: the border is found to 1/32 of their distance."""
-CLASSES = {
-    "symmetric": ("#004488", (SYMMETRIC,)),
-    "asymmetric": ("#7aa6d6", (ASYMMETRIC,)),
-    "other periodic": ("#d5e7f2", (OTHER,)),
-    "strongly modulated": ("#e8b84a", (STRONGLY_MODULATED,)),
-    "chaotic": ("#994455", (CHAOTIC, HOPPING)),
-    "quasi-periodic or unsettled": ("#848484", (QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED)),
-}
-"""Classes drawn alike, in colours that differ in grey print: colour and regimes of each."""
 TOGETHER = "coexisting"
 NAMED_FROM = 20
-"""A patch of so many cells or more bears the name of its class; the legend has the classes without one."""
+"""A patch of so many cells or more bears the name of its regime; the key has the regimes without one."""
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 6.0, "markeredgewidth": 1.4}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 8.0, "markeredgewidth": 0.8}
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
 
-def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> pd.DataFrame:
+def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
     """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Args:
@@ -90,21 +82,20 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> pd.DataF
             marked.
         starts: of each point, the first of them rest.
 
-    Returns columns panel, series ("cell", "case", or what changes on a border), label (regime from rest; name
-    of the case; number of the piece of the border), f10_hat, f20_hat, the share of each regime, fixed_points,
-    stable_points, and what is drawn: the regime that most starts other than rest end in, and how many regimes they do.
+    Returns "csv", a row per cell: columns label (regime from rest), f10_hat, f20_hat, the regime that most starts other
+    than rest end in, and how many regimes they do, the share of each regime, fixed_points, stable_points; "cases":
+    case, f10_hat, f20_hat; "borders" of the theory's counts: series, piece, f10_hat, f20_hat.
     """
-    cells = table.rename(columns={FROM_REST: "label"}).assign(series="cell")
+    cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
     forces = {case: {"f10_hat": one.f10_hat, "f20_hat": one.f20_hat} for case, one in systems.items()}
-    marks = [
-        {"label": case, "series": "case", **at} for case, at in forces.items() if systems[case] == system.with_(**at)
-    ]
-    marked = [pd.DataFrame(marks)] if marks else []
-    borders = _borders(system, cells)
-    table = pd.concat([cells, *marked, *borders], ignore_index=True).assign(panel="map")
-    shown = ["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]
-    return table[["panel", "series", *shown]]
+    marks = [{"case": case, **at} for case, at in forces.items() if systems[case] == system.with_(**at)]
+    pieces = [(series, *piece) for series in BORDERS for piece in _border(system, cells, series)]
+    return {
+        "csv": cells[["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]],
+        "cases": pd.DataFrame(marks, columns=["case", "f10_hat", "f20_hat"]),
+        "borders": pd.DataFrame(pieces, columns=["series", "piece", "f10_hat", "f20_hat"]),
+    }
 
 
 def _dominant(cells, starts):
@@ -118,30 +109,29 @@ def _dominant(cells, starts):
     return names, np.where(counts.max(axis=1) >= 0, (counts[:, settled] > 0).sum(axis=1), np.nan)
 
 
-def _borders(system, cells):
-    """Return where the counts of the theory change: pieces of lines between points found by halving."""
+def _border(system, cells, series):
+    """Yield number, f10_hat and f20_hat of both ends of each piece of the lines where a count of the theory changes.
+
+    Their ends are found by halving.
+    """
+    which, square = list(BORDERS).index(series), _square(cells, series.replace(" ", "_"))
 
     @cache
-    def counts(f10, f20):
-        return fixed_point_counts(system.with_(f10_hat=f10, f20_hat=f20))
+    def count(f10, f20):
+        return fixed_point_counts(system.with_(f10_hat=f10, f20_hat=f20))[which]
 
-    for which, series in enumerate(BORDERS):
-        square = _square(cells, series.replace(" ", "_"))
+    @cache
+    def crossing(first, second):
+        (a, start), (b, _) = first, second
+        low, high = np.array(a), np.array(b)
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if count(*middle) == start else (low, middle)
+        return tuple((low + high) / 2)
 
-        @cache
-        def crossing(first, second, which=which):
-            (a, start), (b, _) = first, second
-            low, high = np.array(a), np.array(b)
-            for _ in range(HALVINGS):
-                middle = (low + high) / 2
-                low, high = (middle, high) if counts(*middle)[which] == start else (low, middle)
-            return tuple((low + high) / 2)
-
-        pieces = [piece for corners in _squares(cells, square) for piece in _pieces(corners, crossing)]
-        if pieces:
-            f10, f20 = np.array(pieces).reshape(-1, 2).T
-            numbers = np.repeat(np.arange(len(pieces)) + 1, 2).astype(str)
-            yield curve("map", series, f10_hat=f10, f20_hat=f20).assign(label=numbers)
+    pieces = (piece for corners in _squares(cells, square) for piece in _pieces(corners, crossing))
+    for number, ends in enumerate(pieces, start=1):
+        yield from ((number, *end) for end in ends)
 
 
 def _squares(cells, square):
@@ -166,47 +156,47 @@ def _pieces(corners, crossing):
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a colour for each class of regimes, a stroke where several coexist; borders."""
-    cells, cases = (select(table, "map", name) for name in ("cell", "case"))
-    f10, f20 = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
-    numbers = {name: n for n, (_, names) in enumerate(CLASSES.values()) for name in names}
-    shown = _square(cells.assign(number=cells["regime"].map(numbers)), "number")
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: a colour for each regime, a stroke where several coexist; borders of the theory."""
+    cells, cases, borders = (tables[name] for name in ("csv", "cases", "borders"))
+    regimes = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
     figure = new_figure(DOUBLE_COLUMN, 104.0)
     axes = figure.add_subplot()
-    colours = ListedColormap([colour for colour, _ in CLASSES.values()])
-    axes.pcolormesh(f10, f20, shown, cmap=colours, vmin=-0.5, vmax=len(CLASSES) - 0.5, rasterized=True)
-    if np.isnan(shown).any():
-        hatch_gaps(axes)
+    occurring = paint(axes, regimes)
     together = cells[cells[TOGETHER] > 1]
-    axes.plot(together["f10_hat"], together["f20_hat"], label=TOGETHER, **_STROKES)
+    axes.plot(together["f10_hat"], together["f20_hat"], **_STROKES)
     for series, style in BORDERS.items():
-        pieces = select(table, "map", series)[["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
+        pieces = borders[borders["series"] == series][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
         axes.add_collection(LineCollection(pieces, colors=BLACK, **style))
     axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
     paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
-    for _, case in cases.iterrows():
-        offset = {"xytext": (5, 3), "textcoords": "offset points", "fontsize": 9}
-        axes.annotate(case["label"], (case["f10_hat"], case["f20_hat"]), bbox=paper, **offset)
-    named = {number for number in range(len(CLASSES)) if _name(axes, f10, f20, shown == number, number)}
+    for case, *place in cases.itertuples(index=False):
+        axes.annotate(case, place, (5, 3), textcoords="offset points", bbox=paper)
+    unnamed = [name for name in occurring if not _name(axes, regimes, name)]
+    f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
-    figure.legend(handles=_legend(set(np.unique(shown)) - named), loc="outside right center", fontsize=9, frameon=False)
+    handles = key(unnamed) | {"others coexist": Line2D([], [], **_STROKES)}
+    for series, style in BORDERS.items():
+        look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
+        handles[f"number of {series} changes"] = Line2D([], [], color=BLACK, **look)
+    figure.legend(handles.values(), handles, loc="outside right center", fontsize=9)
     return figure
 
 
-def _name(axes, x, y, inside, number):
-    """Write the name of a class on its largest patch, where this is widest; return True if it is large enough."""
-    patches, _ = ndimage.label(inside)
+def _name(axes, regimes, name):
+    """Write the name of a regime on its largest patch, where this is widest; return True if it is large enough."""
+    patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
     if not len(sizes) or sizes.max() < NAMED_FROM:
         return False
     depth = ndimage.distance_transform_edt(np.pad(patches == sizes.argmax() + 1, 1))
     i, j = np.unravel_index(depth.argmax(), depth.shape)
-    name, (colour, _) = list(CLASSES.items())[number]
-    dark = np.dot(to_rgb(colour), (0.3, 0.59, 0.11)) < 0.5
-    axes.text(x[j - 1], y[i - 1], name, ha="center", va="center", fontsize=9, color="white" if dark else BLACK)
+    dark = np.dot(to_rgb(COLOURS[name]), (0.3, 0.59, 0.11)) < 0.5
+    place = regimes.columns[j - 1], regimes.index[i - 1]
+    behind = {"facecolor": COLOURS[name], "edgecolor": "none", "pad": 1.0}  # of the lines that cross it
+    axes.text(*place, name, ha="center", va="center", color="white" if dark else BLACK, bbox=behind)
     return True
 
 
@@ -219,14 +209,3 @@ def _ends(centres):
 def _square(cells, column):
     """Values on the grid, f20_hat along the first axis."""
     return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)
-
-
-def _legend(numbers):
-    box = {"edgecolor": BLACK, "linewidth": 0.4}
-    classes = enumerate(CLASSES.items())
-    made = [Patch(facecolor=colour, label=name, **box) for n, (name, (colour, _)) in classes if n in numbers]
-    made.append(Line2D([], [], label="others coexist", **_STROKES))
-    for series, style in BORDERS.items():
-        look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
-        made.append(Line2D([], [], color=BLACK, label=f"number of {series} changes", **look))
-    return [*made, Line2D([], [], label="cases of the config", **_CASES)]

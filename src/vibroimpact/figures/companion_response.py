@@ -4,22 +4,24 @@ All is per force: |X_i| / f of the box that moves more, f the larger force.
 """
 
 from functools import lru_cache
+from string import ascii_lowercase
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from vibroimpact.absorbers.tuning import compared
-from vibroimpact.figures.kit.absorber_looks import DOTS, LEAST, LINES, MOST, logarithmic
 from vibroimpact.figures.kit.style import (
+    BLACK,
     DOUBLE_COLUMN,
+    GREY,
     LIGHT_GREY,
-    letter_panel,
+    heading,
     new_figure,
     side_by_side,
     styled,
 )
-from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.figures.sweep import SYMBOLS
 from vibroimpact.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
 from vibroimpact.regimes.one_to_one import by_exact_orbits, by_theory
@@ -30,8 +32,7 @@ SPEC = {
     "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, :math:`f` the larger "
         r"of the forces :math:`\varepsilon\hat f_{i0}`. a to c: over the frequency, forces on both boxes and on one; "
         "d: over the force. Dots: balls, the largest of three starts, filled where most of them repeat; grey: between "
-        "5 % and 95 % of the cycles; lines: linear systems in closed form. The table also has balls fixed, absorbers "
-        "of the textbook, and symmetric 1:1 responses.",
+        "5 % and 95 % of the cycles; lines: linear systems in closed form, named in d.",
     "alt": "Four panels. a to c: response over the detuning; a high resonance peak without balls, dots and a grey band "
         "of the balls below it near resonance and above it beside it, a flat line of the best absorbers below nearly "
         "all dots. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
@@ -40,24 +41,48 @@ SPEC = {
     "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
         "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
     "columns": {
-        "panel": {"values": ["frequency", "force"]},
-        "series": {"meaning": "balls, as simulated; symmetric 1:1 responses by the theory and exact; or the linear "
-            "system", "values": ["balls", "theory", "symmetric orbits", "without balls", "balls fixed",
-            "absorbers of the textbook", "best absorbers"]},
-        "label": {"meaning": "of balls: the `regime` that most starts end in", "unit": "text", "compared": {
-            "balls": "few outcomes"}},
+        "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency", "force"]},
+        "label": {"meaning": "the `regime` that most starts end in", "unit": "text", "compared": "few outcomes"},
         "f10_hat, f20_hat": {"compared": "algebra"},
         "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
-        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of balls also of all starts",
-            "unit": "dimensionless", "compared": {"best absorbers": "trajectory", "balls": "extremes",
-            "theory": "roots", "symmetric orbits": "roots", "others": "algebra"}},
-        "low, high": {"meaning": "of balls: amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of "
-            "the cycles", "unit": "dimensionless", "compared": "extremes"},
-        "impact_share": {"compared": {"balls": "extremes", "others": "roots"}},
-        "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
-            "analysis and the slow flow say so", "unit": "true or false"},
+        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of all starts",
+            "unit": "dimensionless", "compared": "extremes"},
+        "low, high": {"meaning": "amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of the cycles",
+            "unit": "dimensionless", "compared": "extremes"},
+        "impact_share": {"compared": "extremes"},
     },
     "tables": {
+        "linear": {
+            "file": "results/figures/companion_response.linear.csv",
+            "about": "The linear systems beside the balls of `companion_response`.",
+            "columns": {
+                "panel": {"meaning": "over the frequency, or over the force", "values": ["frequency", "force"]},
+                "series": {"meaning": "the linear system", "values": ["without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"$\lvert X_i\rvert/f$ of the box that moves more", "unit": "dimensionless",
+                    "compared": {"best absorbers": "trajectory", "others": "algebra"}},
+            },
+        },
+        "one_to_one": {
+            "file": "results/figures/companion_response.one_to_one.csv",
+            "about": "The symmetric 1:1 responses where the sweeps of `companion_response` have been.",
+            "columns": {
+                "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency",
+                    "force"]},
+                "series": {"meaning": "by the theory, or exact", "values": ["theory", "symmetric orbits"]},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more",
+                    "unit": "dimensionless", "compared": "roots"},
+                "impact_share": {"compared": "roots"},
+                "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
+                    "analysis and the slow flow say so", "unit": "true or false"},
+            },
+        },
         "shares": {
             "file": "results/impact_shares.csv",
             "about": "What impacts take of the work of the forces, over the frequencies of `companion_response`.",
@@ -75,13 +100,18 @@ SPEC = {
 
 FORCES = ["f10_hat", "f20_hat"]
 PLACE = [*FORCES, "sigma_e_hat"]
-OF_BALLS = ("label", *PLACE, "ratio", "low", "high", "impact_share")
-BALLS, THEORY, ORBITS = "balls", "theory", "symmetric orbits"
-ONE_TO_ONE = {THEORY: by_theory, ORBITS: by_exact_orbits}
-DRAWN = {"without balls": LINES["without balls"], "best absorbers": LINES["best absorbers"]}
-REPEATING, MODULATED = "balls, largest, repeating", "balls, largest, modulated"
-LOOKS = {REPEATING: DOTS, MODULATED: {**DOTS, "markerfacecolor": "white"}}
+OF_BALLS = ["label", *PLACE, "ratio", "low", "high", "impact_share"]
+ONE_TO_ONE = {"theory": by_theory, "symmetric orbits": by_exact_orbits}
+LINES = {
+    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
+    "best absorbers": {"color": BLACK, "linestyle": "-", "linewidth": 0.9},
+}
+"""The linear systems that are drawn."""
+_DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
+DOTS = {"balls, largest, repeating": _DOTS, "balls, largest, modulated": {**_DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
+LEAST, MOST = 0.8, 1.3
+"""Lower end of the axis of displacement per force, and margin above the highest line."""
 LINE_POINTS = 451
 
 
@@ -94,26 +124,39 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
             regimes, amplitudes, envelopes and energy.
         band: arguments of `sweeps.grid.axis`, along sigma_e_hat, over which the best absorbers are tuned.
 
-    Returns "csv": columns panel ("frequency" or "force"), series, label (of balls the regime of most starts), f10_hat,
-    f20_hat, sigma_e_hat, ratio (X / f), low and high (its envelope), impact_share, stable (of 1:1 responses).
-    "shares": what impacts take of the work, columns panel, source, f10_hat, f20_hat, points, least, middle, greatest.
+    Returns "csv", the balls: columns panel ("frequency" or "force"), label (the regime of most starts), f10_hat,
+    f20_hat, sigma_e_hat, ratio (X / f), low and high (its envelope), impact_share. "linear", the linear systems: panel,
+    series, the place, ratio. "one_to_one", symmetric responses: panel, series, the place, ratio, impact_share, stable.
+    "shares": what impacts take of the work over the frequency, columns source, f10_hat, f20_hat, points, least, middle,
+    greatest.
     """
-    frequency, force = per_force(system, frequency), per_force(system, force.assign(sigma_e_hat=system.sigma_e_hat))
-    curves = []
-    for pair, rows in frequency.groupby(FORCES, sort=False):
-        linear = linear_systems(system, pair, band)
-        fine = np.linspace(rows["sigma_e_hat"].min(), rows["sigma_e_hat"].max(), LINE_POINTS)
-        at = dict(zip(FORCES, pair, strict=True)) | {"sigma_e_hat": fine}
-        curves += [curve("frequency", name, **at, ratio=ratios(system, one, fine)) for name, one in linear.items()]
-    for name, one in linear_systems(system, (1.0, 1.0), band).items():
-        level = float(ratios(system, one, system.sigma_e_hat))
-        ends = force[FORCES].iloc[[0, -1]]
-        curves.append(curve("force", name, **ends, sigma_e_hat=system.sigma_e_hat, ratio=level))
-    for panel, table in (("frequency", frequency), ("force", force)):
-        curves.append(curve(panel, BALLS, **{name: table[name] for name in OF_BALLS}))
-        curves += [_one_to_one(system, panel, series, table) for series in ONE_TO_ONE]
-    table = join(curves)
-    return {"csv": table, "shares": _shares(table)}
+    sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
+    balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])
+    linear = [
+        _linear(system, "frequency", pair, np.linspace(*rows["sigma_e_hat"].agg(["min", "max"]), LINE_POINTS), band)
+        for pair, rows in frequency.groupby(FORCES, sort=False)
+    ]
+    for pair in force[FORCES].iloc[[0, -1]].itertuples(index=False, name=None):
+        linear.append(_linear(system, "force", pair, np.array([system.sigma_e_hat]), band))
+    one_to_one = pd.concat(
+        _one_to_one(system, name, series, table) for name, table in sweeps.items() for series in ONE_TO_ONE
+    )
+    return {
+        "csv": balls[["panel", *OF_BALLS]],
+        "linear": pd.concat(linear).sort_values(["panel", "series"], kind="stable"),
+        "one_to_one": one_to_one,
+        "shares": _shares(balls, one_to_one),
+    }
+
+
+def _linear(system, panel, pair, detunings, band):
+    """Rows of all linear systems at a pair of forces."""
+    place = {"panel": panel, **dict(zip(FORCES, pair, strict=True)), "sigma_e_hat": detunings}
+    rows = [
+        pd.DataFrame({**place, "series": name, "ratio": ratios(system, one, detunings)})
+        for name, one in linear_systems(system, pair, band).items()
+    ]
+    return pd.concat(rows)[["panel", "series", *PLACE, "ratio"]]
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
@@ -154,56 +197,66 @@ def _one_to_one(system, panel, series, table):
         force = system.epsilon * max(place[name] for name in FORCES)
         for found in ONE_TO_ONE[series](system.with_(**place)):
             measures = {"ratio": found.largest.max() / force, "impact_share": found.impact_share}
-            rows.append({**place, **measures, "stable": found.stable})
-    numbers = dict.fromkeys([*PLACE, "ratio", "impact_share"], float)
-    columns = pd.DataFrame(rows, columns=[*numbers, "stable"]).astype(numbers)  # numbers even where there is no row
-    return curve(panel, series, **{name: columns[name] for name in columns})
+            rows.append({"panel": panel, "series": series, **place, **measures, "stable": found.stable})
+    return pd.DataFrame(rows, columns=["panel", "series", *PLACE, "ratio", "impact_share", "stable"])
 
 
-def _shares(table):
-    known = table[table["impact_share"].notna()]
-    keys = ["panel", "series", *FORCES]
-    frequency = known[known["panel"] == "frequency"].groupby(keys, sort=False)["impact_share"]
-    found = frequency.agg(points="size", least="min", middle="median", greatest="max").reset_index()
-    return found.drop(columns="panel").rename(columns={"series": "source"})
+def _shares(balls, one_to_one):
+    """Shares of the impacts over the frequency: least, median and greatest by source and forces."""
+    known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
+    shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
+    found = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
+    return found.rename(columns={"series": "source"})
 
 
 @styled
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: a panel for each pair of forces over the frequency, and one over the force."""
-    table = tables["csv"]
-    panels = list(table[table["panel"] == "frequency"].groupby(FORCES, sort=False))
-    columns, rows = side_by_side(len(panels) + 1, most=2)
-    figure = new_figure(DOUBLE_COLUMN, 76.0 * rows + 16.0)
-    places = [*figure.subplots(rows, columns, squeeze=False).flat]
-    for (pair, mine), axes in zip(panels, places, strict=False):
-        _draw_panel(axes, mine, "sigma_e_hat")
-        f10, f20 = (f"{value:g}" for value in pair)
-        axes.set_title(rf"$\hat f_{{10}} = {f10}$, $\hat f_{{20}} = {f20}$", loc="right", pad=3, fontsize=9.5)
+    balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
+    pairs = list(balls["frequency"].groupby(FORCES, sort=False))
+    columns, rows = side_by_side(len(pairs) + 1, most=2)
+    figure = new_figure(DOUBLE_COLUMN, 72.0 * rows + 10.0)
+    panels = [*figure.subplots(rows, columns, squeeze=False, sharey=True).flat]
+    for axes, letter, (pair, mine) in zip(panels, ascii_lowercase, pairs, strict=False):
+        lines = linear["frequency"]
+        _draw_panel(axes, mine, lines[(lines[FORCES].to_numpy() == pair).all(axis=1)], "sigma_e_hat")
+        heading(axes, letter, f"forces {pair[0]:g} and {pair[1]:g}")
         axes.set_xlabel(SYMBOLS["sigma_e_hat"])
-    last = places[len(panels)]
-    force = table[table["panel"] == "force"]
-    _draw_panel(last, force, "f10_hat")
+    last = panels[len(pairs)]
+    _draw_panel(last, balls["force"], linear["force"], "f10_hat")
+    heading(last, ascii_lowercase[len(pairs)], f"detuning {balls['force']['sigma_e_hat'].iloc[0]:g}")
+    for name, rows in linear["force"][linear["force"]["series"].isin(LINES)].groupby("series"):
+        end = rows.iloc[-1]
+        below = {"textcoords": "offset points", "ha": "right", "va": "top"}
+        last.annotate(name, end[["f10_hat", "ratio"]], (-4, -3), **below)
     logarithmic(last, "x")
     last.set_xlabel(r"$\hat f_{10} = \hat f_{20}$")
-    last.set_title(rf"$\hat\sigma_e = {force['sigma_e_hat'].iloc[0]:g}$", loc="right", pad=3, fontsize=9.5)
-    for axes in places[len(panels) + 1 :]:
+    for axes in panels[len(pairs) + 1 :]:
         axes.set_axis_off()
-    linear = table.loc[table["series"] == "without balls", "ratio"].max()
-    for axes, letter in zip(places[: len(panels) + 1], "abcdefghijklmnop", strict=False):
-        logarithmic(axes, "y", LEAST, MOST * linear)
+    without = tables["linear"].query("series == 'without balls'")["ratio"].max()
+    logarithmic(last, "y", LEAST, MOST * without)
+    for axes in panels[: len(pairs) + 1 : columns]:
         axes.set_ylabel("largest $|X_i|\\,/\\,f$")
-        letter_panel(axes, letter)
-    figure.legend(*places[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)
+    figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure
 
 
-def _draw_panel(axes, rows, x):
-    balls = rows[rows["series"] == BALLS]
+def _draw_panel(axes, balls, linear, x):
     axes.fill_between(balls[x], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
-    for name, look in DRAWN.items():
-        line = rows[rows["series"] == name]
-        axes.plot(line[x], line["ratio"], label=name, **look)
+    for name, look in LINES.items():
+        line = linear[linear["series"] == name]
+        axes.plot(line[x], line["ratio"], **look)
     repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
-    for (name, look), shown in zip(LOOKS.items(), (repeating, ~repeating), strict=True):
+    for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
         axes.plot(balls[x][shown], balls["ratio"][shown], label=name, **look)
+
+
+def logarithmic(axes, side: str, *ends: float) -> None:
+    """A logarithmic axis whose ends, if given, do not depend on what was simulated."""
+    axes.set(**{f"{side}scale": "log"})
+    axis = getattr(axes, f"{side}axis")
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+    if ends:
+        axes.set(**{f"{side}lim": ends})

@@ -82,7 +82,6 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.set_yticks([-C, 0.0, C], ["$-C_i$", "$0$", "$C_i$"])
     axes.set_xticks(impacts["tau0"], [_instant(j) for j in range(len(impacts))])
     axes.tick_params(labelsize=10, right=False, top=False)
-    axes.yaxis.label.set_rotation(0)
     return figure
 
 

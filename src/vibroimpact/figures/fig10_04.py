@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.manifold import branches, draw_branches
 from vibroimpact.figures.kit.markdown import EXACTLY
-from vibroimpact.figures.kit.style import LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
@@ -70,6 +70,11 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.annotate(
         r"$B_{\min}$", (level["C"].iloc[0], level["B"].iloc[0]), (6, 4), textcoords="offset points", fontsize=10
     )
+    border, B = select(table, "SIM", "SIM stable")[["C", "B"]].iloc[0]
+    axes.plot(border, B, "|", color=BLACK, markersize=9, markeredgewidth=1.2)
+    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 4}
+    place = {"textcoords": "offset points", "ha": "center", "arrowprops": leader, "fontsize": 10}
+    axes.annotate(f"(10.26)\n$C_i = {border:.3f}$", (border, B), (2, 36), **place)
     axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
     axes.legend(loc="upper center", reverse=True)
     return figure

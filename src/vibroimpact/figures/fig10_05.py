@@ -90,6 +90,8 @@ def draw(table: pd.DataFrame) -> Figure:
         ha="right",
         fontsize=10,
     )
+    border = select(table, "regions", "stable")[["kappa", "C"]].iloc[len(fold) * 2 // 3]
+    axes.annotate("(10.26)", border, (4, -4), textcoords="offset points", va="top", fontsize=10)
     for name, height, side in (("stable", 0.97, "top"), ("unstable", 0.05, "bottom")):
         axes.text(0.5, height, name, transform=axes.transAxes, ha="center", va=side)
     axes.set(xlim=(0.0, 1.0), ylim=(table["C"].min(), table["C"].max()), xlabel=r"$\kappa$", ylabel="$C_i$")

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.fixed_point_table import labelled_points
 from vibroimpact.figures.kit.manifold import branches, draw_branches
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
 
@@ -15,8 +15,8 @@ SPEC = {
     "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
         "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "
-        "arrow after :math:`S_2`: there is one further up the SIM, off the frame. The chapter's verdicts: a unstable, "
-        "b stable, c stable.",
+        "arrow after :math:`S_2`: there is one further up the SIM, off the frame. Heads: verdicts of (10.26), those "
+        "of the chapter.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, hollow grey squares S1, S2 the "
         "singular points; in row b an arrow points to an S2 beyond the frame.",
@@ -100,14 +100,27 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i hollow grey squares."""
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + FOOT)
-    grid = figure.subplots(len(labels), len(MODULES), sharex="col", sharey="col", squeeze=False)
+    grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
     for row, label in zip(grid, labels, strict=True):
-        letter_panel(row[0], label)
+        heading(row[0], label, verdict(table, label))
         for axes, module in zip(row, MODULES, strict=True):
             draw_plane(axes, table, f"{label}{module}")
+    for axes, module in zip(grid[0], MODULES, strict=True):
+        axes.set_title(f"module {module}", loc="right", pad=4)
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
     return figure
+
+
+def verdict(table: pd.DataFrame, label: str) -> str:
+    """Return the verdict of (10.26) on a fixed point: stable where both projections lie on the stable branch."""
+    panels = [f"{label}{module}" for module in MODULES]
+    places = [select(table, panel, f"P_{module}")["C"] for panel, module in zip(panels, MODULES, strict=True)]
+    borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]
+    if not all(map(len, places)):
+        return ""
+    stable = all(place.item() > border for place, border in zip(places, borders, strict=True))
+    return "stable" if stable else "unstable"
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> None:

@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.kit.fixed_point_table import labelled_point
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, GREY, HALO, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.theory.response import impact_times, leading_order
 
@@ -44,6 +44,8 @@ COORDINATES = {
     "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
 }
 """U_i and X_i grey, W_i and Y_i black, as in the chapter; within a colour the line style tells them apart."""
+LOWEST = ("X", "Y")
+"""Named where they are lowest; the others where they are highest."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float) -> pd.DataFrame:
@@ -83,19 +85,30 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: the first module above the second."""
     figure = new_figure(SINGLE_COLUMN, 92.0)
     grid = figure.subplots(len(MODULES), 1, sharex=True, sharey=True)
-    for axes, module in zip(grid, MODULES, strict=True):
+    for axes, module, letter in zip(grid, MODULES, "ab", strict=True):
         draw_response(axes, table, module)
+        heading(axes, letter, f"module {module}")
     grid[-1].set_xlabel(r"$\tau$")
     return figure
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> None:
-    """Draw the four coordinates of one module over tau, the walls W_i = 1 and W_i = -1 as thin lines."""
-    for wall in (-1.0, 1.0):
-        axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
-    for name, style in COORDINATES.items():
-        line = select(table, f"module {module}", f"{name}_{module}")
-        axes.plot(line["tau"], line["value"], **style, label=f"${name}_{module}$")
-    axes.set_xlim(line["tau"].min(), line["tau"].max())
-    axes.set_ylabel(f"$U_{module},\\ X_{module},\\ W_{module},\\ Y_{module}$")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(COORDINATES))
+    """Draw the four coordinates of one module over tau with their names, and the walls W_i = 1 and W_i = -1."""
+    lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
+    time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
+    for name, line in lines.items():
+        inner = line[line["tau"].between(*line["tau"].quantile([0.05, 0.95]))]
+        at = inner["value"].argmin() if name in LOWEST else inner["value"].argmax()
+        side = {"va": "top" if name in LOWEST else "bottom", "ha": "center", "color": COORDINATES[name]["color"]}
+        offset = (0, -2 if name in LOWEST else 2)
+        axes.annotate(
+            f"${name}_{module}$",
+            inner[["tau", "value"]].iloc[at],
+            offset,
+            textcoords="offset points",
+            fontsize=10,
+            **side,
+            **HALO,
+        )
+    axes.set_ylabel("displacement")
+    axes.margins(y=0.2)

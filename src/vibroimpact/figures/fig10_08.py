@@ -20,6 +20,7 @@ SPEC = {
     "method": "motion of the second module as simulated, with its events as corners",
     "columns": {
         "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "trajectory"},
+        "cycle": {"meaning": r"time in forcing periods, $\tau/T$", "unit": "forcing periods", "compared": "trajectory"},
         "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
             "points", "unit": "dimensionless", "compared": "trajectory"},
     },

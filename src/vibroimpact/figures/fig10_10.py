@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures import fig10_06, fig10_07
 from vibroimpact.figures.kit.fixed_point_table import labelled_point
-from vibroimpact.figures.kit.style import SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.kit.style import SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.figures.kit.tables import join
 
 SPEC = {
@@ -49,10 +49,12 @@ def draw(table: pd.DataFrame) -> Figure:
     figure = new_figure(SINGLE_COLUMN, 132.0)
     panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
     label = table["panel"].iloc[0][:-1]
-    for module in fig10_06.MODULES:
+    for module, letters in zip(fig10_06.MODULES, ("ac", "bd"), strict=True):
         fig10_06.draw_plane(panels[module], table, f"{label}{module}")
         panels[module].set_xlabel(f"$C_{module}$")
+        heading(panels[module], letters[0], f"point {label}, module {module}")
         fig10_07.draw_response(panels[f"module {module}"], table, module)
+        heading(panels[f"module {module}"], letters[1], f"its response, module {module}")
     panels["module 1"].sharex(panels["module 2"])
     panels["module 1"].sharey(panels["module 2"])
     panels["module 1"].tick_params(labelbottom=False)

@@ -17,6 +17,7 @@ SPEC = {
     "method": "motion of the second module as simulated, with its events as corners",
     "columns": {
         "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "exact"},
+        "cycle": {"meaning": r"time in forcing periods, $\tau/T$", "unit": "forcing periods", "compared": "exact"},
         "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
             "points", "unit": "dimensionless", "compared": "exact"},
     },
@@ -43,7 +44,7 @@ SPEC = {
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
     """The motion as in figure 10.8, "csv", and how the amplitudes of both boxes vary, "statistics"."""
-    return {"csv": simulated.compute(samples, events), "statistics": simulated.statistics(system, samples)}
+    return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 
 
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:

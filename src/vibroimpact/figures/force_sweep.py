@@ -10,8 +10,10 @@ from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.kit.manifold import branches
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.regime_colours import COLOURS
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.figures.kit.tables import join
+from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
@@ -19,13 +21,12 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, label
 
 SPEC = {
     "title": "Fixed points over the second force",
-    "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`. Filled markers: stable by "
-        "both time scales; hollow: not; in a ring: the exact orbit is stable. Broad and pale: exact asymmetric orbits, "
-        "which belong to no fixed point, darker where they are stable. Letters, right: as in the chapter, where they "
-        "change.",
-    "alt": "Two panels with C1 and C2 of every fixed point over f20, one line style per point, filled markers where "
-        "both time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad "
-        "pale dots for the asymmetric orbits.",
+    "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`, with the letters that the "
+        "chapter would give them. Broad: exact asymmetric orbits, which belong to no fixed point, darker where they "
+        "are stable.",
+    "alt": "Two panels with C1 and C2 of every fixed point over f20, one line per point, filled markers where both "
+        "time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad dots "
+        "for the asymmetric orbits.",
     "method": "fixed points and exact orbits at every value of the force",
     "file": "results/force_sweep/force_sweep.csv",
     "on_demand": "make report",
@@ -40,8 +41,16 @@ SPEC = {
     },
 }  # fmt: skip
 
-LOOKS = [(BLACK, "-", "o"), (BLACK, (0, (4.5, 1.5)), "s"), (GREY, "-", "^"), (GREY, (0, (4.5, 1.5)), "D")]
-"""Colour, line and marker of each track."""
+LINES = [(BLACK, "-"), (BLACK, (0, (4.5, 1.5))), (GREY, "-"), (GREY, (0, (4.5, 1.5)))]
+"""Colour and line of each track."""
+MARKS = {
+    "theory: stable on both time scales": {"markerfacecolor": BLACK, "markersize": 3.6},
+    "theory: not": {"markerfacecolor": "white", "markersize": 3.6},
+    "exact orbit: stable": {"markerfacecolor": "none", "markersize": 7.0},
+}
+PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
+NAMED_FROM = 5
+"""Letters stand in the middle of so many values, or more, at which they stay the same."""
 EVERY = 6
 """Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
 PAIR = 0
@@ -85,14 +94,6 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
     return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
 
 
-def _draw_pair(axes, orbits, C):
-    pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
-    stable = pair[EXACT] == STABLE
-    for shown, grey, name in ((stable, "0.6", "asymmetric, stable"), (~stable, "0.85", "asymmetric, unstable")):
-        dots = {"color": grey, "linestyle": "none", "marker": "o", "markersize": 3.5}
-        axes.plot(pair["value"][shown], pair[C][shown], label=name, **dots)
-
-
 def _multipliers(value, track, orbit):
     place = value, track, *orbit.C, floquet(orbit)
     return [(*place, multiplier.real, multiplier.imag) for multiplier in orbit.multipliers]
@@ -109,32 +110,35 @@ def _continued(names, last, now, tracks):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """C_1 and C_2 of each track over the second force.
-
-    Filled markers: stable by both time scales; in a ring: its exact orbit is stable. Letters: where the label changes.
-    Broad and pale: exact asymmetric orbits, darker where they are stable.
-    """
-    figure = new_figure(DOUBLE_COLUMN, 62.0)
-    points = tables["points"]
+    """Draw C_1 and C_2 of each track over the second force, and the exact asymmetric orbits."""
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    points, orbits = tables["points"], tables["orbits"]
+    pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
-        _draw_pair(axes, tables["orbits"], f"C{module}")
+        stable = pair[EXACT] == STABLE
+        for (name, colour), shown in zip(PAIRS.items(), (stable, ~stable), strict=True):
+            dots = {"linestyle": "none", "marker": "o", "markersize": 3.5, "color": colour, "label": name}
+            axes.plot(pair["value"][shown], pair[f"C{module}"][shown], **dots)
         for track, rows in points.groupby("track"):
-            colour, line, marker = LOOKS[(track - 1) % len(LOOKS)]
-            axes.plot(rows["value"], rows[f"C{module}"], color=colour, linestyle=line)
-            renamed = (
-                rows[rows["label"] != rows["label"].shift()] if module == 2 else rows[:0]
-            )  # there the lines keep apart
-            for value, C, label in renamed[["value", "C2", "label"]].itertuples(index=False):
-                axes.annotate(label, (value, C), (3, 4), textcoords="offset points", color=colour, fontsize=8)
-            marked = rows.iloc[::EVERY]
-            theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
-            for shown, face, size in ((theory, colour, 3.6), (~theory, "white", 3.6), (exact, "none", 6.6)):
-                style = {"color": colour, "markerfacecolor": face, "markersize": size, "linestyle": "none"}
-                axes.plot(marked["value"][shown], marked[f"C{module}"][shown], marker=marker, **style)
+            _draw_track(axes, rows, f"C{module}", *LINES[(track - 1) % len(LINES)])
         axes.set(xlabel=r"$\hat f_{20}$", ylabel=f"$C_{module}$")
         if len(points):
             axes.set_xlim(points["value"].min(), points["value"].max())
-        letter_panel(axes, letter)
-    if (tables["orbits"]["track"] == PAIR).any():
-        figure.axes[0].legend(loc="upper left", fontsize=8)
+        heading(axes, letter, f"module {module}")
+    handles = dict(zip(*reversed(figure.axes[0].get_legend_handles_labels()), strict=True))
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=3, fontsize=9)
     return figure
+
+
+def _draw_track(axes, rows, C, colour, line):
+    axes.plot(rows["value"], rows[C], color=colour, linestyle=line)
+    for _, same in rows.groupby((rows["label"] != rows["label"].shift()).cumsum()):
+        if len(same) >= NAMED_FROM:
+            middle = same.iloc[len(same) // 2]
+            axes.annotate(middle["label"], middle[["value", C]], (0, 5), textcoords="offset points", ha="center")
+    marked = rows.iloc[::EVERY]
+    theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
+    for (name, style), shown in zip(MARKS.items(), (theory, ~theory, exact), strict=True):
+        if shown.any():
+            dots = {"linestyle": "none", "marker": "o", "color": BLACK, "label": name}
+            axes.plot(marked["value"][shown], marked[C][shown], **dots, **style)

@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 from vibroimpact.absorbers.tuning import compared
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.system import PhysicalSystem
 
 SPEC = {
@@ -33,17 +32,25 @@ SPEC = {
         r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
     "method": "direct integration of (10.1) from rest; linear systems in closed form",
     "columns": {
-        "panel": {},
-        "series": {"meaning": "the linear systems and each clearance in panel a; box, ball and impacts in panel b",
-            "unit": "text"},
+        "series": {"meaning": "the linear systems, and each clearance", "unit": "text"},
         "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz", "compared": "algebra"},
         "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
             "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
-        "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
-        "place": {"meaning": "displacement $x_1$ of the box or $y_1$ of the ball", "unit": "millimetres",
-            "compared": "trajectory"},
     },
     "tables": {
+        "motion": {
+            "file": "results/figures/machines.motion.csv",
+            "about": "Box 1 of `machines` and its ball from rest.",
+            "columns": {
+                "L": {"meaning": "clearance $L$", "unit": "metres", "compared": "algebra"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
+                    "compared": "algebra"},
+                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+                "box, ball": {"meaning": "displacement $x_1$ or $y_1$", "unit": "millimetres",
+                    "compared": "trajectory"},
+                "at_wall": {"meaning": "the ball meets a wall then", "unit": "true or false"},
+            },
+        },
         "summary": {
             "file": "results/figures/machines.summary.csv",
             "about": "The machines at each clearance, at the frequency at which the boxes swing most.",
@@ -67,12 +74,8 @@ LINES = {
     "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
 }
 MARKERS = "o^sDvP"
-WALLS = "ball at a wall"
-MOTION = {
-    "box": {"color": GREY, "linewidth": 1.6},
-    "ball": {"color": BLACK, "linewidth": 0.7},
-    WALLS: {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4},
-}
+BOX, BALL = {"color": GREY, "linewidth": 1.6}, {"color": BLACK, "linewidth": 0.7}
+WALLS = {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4}
 FINE, PER_CYCLE = 301, 30
 
 
@@ -85,8 +88,8 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         cycles, settle: forcing periods that are simulated, and of these left out.
         shown: clearance L [m], frequency [Hz] and cycles of the motion.
 
-    Returns "csv": columns panel ("response": series "without balls", "best absorbers" or the clearance as "L = 5 mm",
-    frequency [Hz], swing [mm]; "motion": series "box", "ball", "ball at a wall", time [s], place [mm]). "summary": at
+    Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
+    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets one); "summary": at
     each clearance L [m] the worst frequency [Hz], there swing [mm], power [W], the share of it that impacts take, and
     the force F10 [N] that it suits as the best suits that of the plant: a clearance counts over the force alone.
     """
@@ -97,14 +100,15 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         machines = [_machines(plant, L, one) for one in hertz]
         runs = ensemble([one.dimensionless() for one in machines], np.zeros(8), cycles, settle=settle, energy=True)
         swing = MM * L * runs["largest"].max(axis=1)
-        curves.append(curve("response", f"L = {MM * L:g} mm", frequency=hertz, swing=swing))
+        curves.append(pd.DataFrame({"series": f"L = {MM * L:g} mm", "frequency": hertz, "swing": swing}))
         worst = int(swing.argmax())
         rows.append(_at_worst(machines[worst], runs["energy"][worst], cycles - settle) | {"swing": swing[worst]})
     summary = pd.DataFrame(rows)
     summary.insert(0, "L", clearances)
     summary["force"] = plant["F10"] * summary["L"] / summary["L"][summary["swing"].idxmin()]
-    machine = _machines(plant, shown["L"], shown["frequency"])
-    return {"csv": join([*curves, *_motion(machine, shown["cycles"])]), "summary": summary}
+    place = {name: shown[name] for name in ("L", "frequency")}
+    motion = _motion(_machines(plant, *place.values()), shown["cycles"])
+    return {"csv": pd.concat(curves), "motion": pd.DataFrame({**place, **motion}), "summary": summary}
 
 
 def _machines(plant, L, hertz):
@@ -117,7 +121,7 @@ def _linear(machine, band):
     linear = compared(machine.dimensionless(), tuple(band / unit))
     for name in LINES:
         swing = MM * machine.L * linear[name].amplitudes(fine / unit).max(axis=1)
-        yield curve("response", name, frequency=fine, swing=swing)
+        yield pd.DataFrame({"series": name, "frequency": fine, "swing": swing})
 
 
 def _at_worst(machine, energy, cycles):
@@ -128,40 +132,39 @@ def _at_worst(machine, energy, cycles):
 
 
 def _motion(machine, cycles):
-    """Curves of box 1 and its ball from rest."""
+    """Columns of the motion of box 1 and its ball from rest."""
     system = machine.dimensionless()
     tau = np.arange(cycles * PER_CYCLE) / PER_CYCLE * system.period
     run = simulate(system, np.zeros(8), cycles, sample_times=tau)
     hits = run.events[run.events["module"] == 1]
-    unit, times = MM * machine.L, np.concatenate([tau, hits["tau"]])
+    times, places = np.concatenate([tau, hits["tau"]]), np.concatenate([run.samples, hits["state"]])
     order = np.argsort(times, kind="stable")
-    ball = np.concatenate([run.samples[:, 1], hits["state"][:, 1]])
-    yield curve("motion", "box", time=tau / machine.omega10, place=unit * run.samples[:, 0])
-    yield curve("motion", "ball", time=times[order] / machine.omega10, place=unit * ball[order])
-    yield curve("motion", WALLS, time=hits["tau"] / machine.omega10, place=unit * hits["state"][:, 1])
+    box, ball = MM * machine.L * places[order, :2].T
+    return {"time": times[order] / machine.omega10, "box": box, "ball": ball, "at_wall": order >= len(tau)}
 
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the table "csv" of `compute`: swings over the frequency, a motion over the time."""
-    table = tables["csv"]
-    figure = new_figure(DOUBLE_COLUMN, 74.0)
+    """Draw the tables of `compute`: swings over the frequency, a motion over the time."""
+    swings, shown = dict(iter(tables["csv"].groupby("series", sort=False))), tables["motion"]
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
     response, motion = figure.subplots(1, 2)
     for name, look in LINES.items():
-        line = select(table, "response", name)
-        response.plot(line["frequency"], line["swing"], label=name, **look)
-    balls = [name for name in table[table["panel"] == "response"]["series"].unique() if name not in LINES]
-    for name, marker in zip(balls, MARKERS, strict=False):
-        line = select(table, "response", name)
+        response.plot(swings[name]["frequency"], swings[name]["swing"], label=name, **look)
+    for name, marker in zip((name for name in swings if name not in LINES), MARKERS, strict=False):
+        line = swings[name]
         look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
         every = max(1, len(line) // 16)
         response.plot(line["frequency"], line["swing"], label=f"balls, ${name[:-3]}$ mm", markevery=every, **look)
     response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm", ylim=(0.0, None))
-    for name, look in MOTION.items():
-        line = select(table, "motion", name)
-        motion.plot(line["time"], line["place"], label=name, **look)
+    motion.plot(shown["time"], shown["box"], label="box 1", **BOX)
+    motion.plot(shown["time"], shown["ball"], label="its ball", **BALL)
+    walls = shown[shown["at_wall"]]
+    motion.plot(walls["time"], walls["ball"], label="ball at a wall", **WALLS)
     motion.set(xlabel="time, s", ylabel="displacement, mm")
-    for axes, letter, columns in ((response, "a", 2), (motion, "b", 3)):
-        letter_panel(axes, letter)
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns, fontsize=7, frameon=False)
+    L, hertz = shown[["L", "frequency"]].iloc[0]
+    heading(response, "a", "largest displacement")
+    heading(motion, "b", f"motion at $L = {MM * L:g}$ mm, {hertz:g} Hz")
+    motion.legend(loc="lower left", fontsize=9)
+    figure.legend(*response.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure

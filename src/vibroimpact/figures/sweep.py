@@ -1,11 +1,13 @@
 """Picture of a sweep: curves over one parameter, maps over two."""
 
+from itertools import cycle
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from vibroimpact.figures.kit.method_looks import looks
+from vibroimpact.figures.kit.regime_colours import COLOURS
 from vibroimpact.figures.kit.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
 from vibroimpact.figures.kit.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
@@ -38,6 +40,8 @@ PANELS = {
     "1:1 orbits": {"orbits": "all", "stable_orbits": "stable"},
 }
 """Panels of curves: what each shows, columns by their names in the legend. In a map each column is a panel."""
+MARKERS, SHADES = "osD^vPX<>d", ("black", "0.45", "0.7")
+"""Of curves, by their order; those of regimes have their colours."""
 HEIGHT = 48.0
 """Height of a panel, in mm."""
 
@@ -83,9 +87,10 @@ def draw(table: pd.DataFrame) -> Figure:
 def _curves(place, names, part, axes):
     x = axes[0]["along"][0]
     lines = part["series"].unique()
-    for series, look in looks(lines).items():
+    for series, marker, colour in zip(lines, cycle(MARKERS), cycle(SHADES)):
         line = part[part["series"] == series].sort_values(x)
-        place.plot(line[x], line["value"], label=series, markersize=3.0, **look)
+        colour = COLOURS.get(series, colour)
+        place.plot(line[x], line["value"], label=series, markersize=3.0, marker=marker, color=colour)
     place.set_ylabel(names[0])
     place.set_ylim(bottom=0)
     place.legend(fontsize=7.5, loc="best")

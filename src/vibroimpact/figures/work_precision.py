@@ -7,17 +7,17 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from vibroimpact.figures.kit.method_looks import looks
-from vibroimpact.figures.kit.style import DOUBLE_COLUMN, GREY, LIGHT_GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, HALO, LIGHT_GREY, heading, new_figure, styled
 
 SPEC = {
     "title": "Error against time, method by method",
     "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
         "forcing cycle, for every method and setting on three test problems: the nearer to the lower left, the better. "
-        "Hollow markers: impacts missed or spurious. In the lane at the right: runs that failed, with their reason.",
+        "Methods of a kind share colour and mark; their names stand where they are most exact. Hollow marks: impacts "
+        "missed or spurious. In the lane at the right: runs that failed, with their reason.",
     "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
-        "logarithmic axes, one marked line per method. Runs that failed stand in a "
-        "lane at the right, numbered.",
+        "logarithmic axes, a line per method with the colour and mark of its kind. Runs that failed stand in a lane "
+        "at the right, numbered. This engine stands alone in the lower left corner.",
     "method": "error against a reference of extended precision, run time as measured",
     "file": "results/accuracy/work_precision.csv",
     "columns": {
@@ -35,6 +35,19 @@ SPEC = {
     },
 }  # fmt: skip
 
+KINDS = {
+    "exact flow": (BLACK, "*", 6.0),
+    "Taylor": ("#0072B2", "s", 3.6),
+    "Runge-Kutta": ("#D55E00", "D", 3.2),
+    "solve_ivp": ("#E69F00", "o", 3.4),
+    "compliant contact": ("#882255", "v", 3.6),
+    "time-stepping": ("#009E73", "^", 3.6),
+    "transformed coordinates": ("#CC79A7", "P", 4.0),
+    "multiple scales": ("0.5", "X", 4.0),
+}
+"""Colour, mark and its size of each kind of method, its `family`; the colours of Okabe and Ito, of safe contrast."""
+CROWDED = "compliant contact", "multiple scales"
+"""Kinds whose methods are not named."""
 SMALLEST, LARGEST = 1e-16, 30.0
 LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4
 """Errors are drawn between SMALLEST and LARGEST; beyond, around LANE, are the runs that failed."""
@@ -48,43 +61,52 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
     right, at their cost: runs that gave no result, each with a number that the list below the panels explains.
 
     Args:
-        table: columns problem, method, setting, error_state, error_time, missed, spurious, seconds_per_cycle, outcome,
-            reason, order.
+        table: columns problem, method, family, setting, error_state, error_time, missed, spurious, seconds_per_cycle,
+            outcome, reason, order.
         footer: versions, printed below.
     """
-    figure = new_figure(DOUBLE_COLUMN, 125.0)
-    problems, look = list(dict.fromkeys(table["problem"])), looks(table["method"])
+    figure = new_figure(DOUBLE_COLUMN, 118.0)
+    problems = list(dict.fromkeys(table["problem"]))
     failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
     numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.62))
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.32))
     panels = upper.subplots(1, len(problems), sharex=True, sharey=True, squeeze=False)[0]
     for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
         here = table[table["problem"] == problem]
-        _panel(axes, here, look)
-        _lane(axes, here, look, numbers)
-        axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state", title=problem)
+        for method, rows in here.groupby("method", sort=False):
+            _method(axes, method, rows)
+        _lane(axes, here, numbers)
+        axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state")
         axes.set_xticks(10.0 ** np.arange(-16, 2, 4))
         axes.minorticks_off()
+        axes.margins(y=0.08)
         _better(axes)
-        letter_panel(axes, letter)
+        heading(axes, letter, problem)
     panels[0].set_ylabel("time per cycle [s]")
-    _legend(lower, table, look)
+    handles = {kind: Line2D([], [], linewidth=0.8, **_look(kind)) for kind in KINDS if (table["family"] == kind).any()}
+    lower.legend(handles.values(), handles, loc="upper center", ncols=4)
     _notes(lower, numbers, table, footer)
     return figure
 
 
-def _panel(axes, here, look):
-    """The curves of one problem."""
-    for method, style in look.items():
-        rows = here[(here["method"] == method) & np.isfinite(here["error_state"]) & (here["outcome"] == "finished")]
-        x, y = rows["error_state"].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
-        axes.plot(x, y, linewidth=0.8, **{**style, "marker": ""})
-        whole = (rows["missed"] + rows["spurious"]) == 0
-        size = 9.0 if style["marker"] == "*" else 4.0
-        for chosen, fill in ((whole, style["color"]), (~whole, "white")):
-            axes.plot(
-                x[chosen], y[chosen], linestyle="", markersize=size, markerfacecolor=fill, markeredgewidth=0.7, **style
-            )
+def _look(kind):
+    colour, marker, size = KINDS[kind]
+    return {"color": colour, "marker": marker, "markersize": size, "markeredgewidth": 0.7}
+
+
+def _method(axes, method, rows):
+    """The line of a method, with its name where it is most exact."""
+    kind = rows["family"].iloc[0]
+    look = _look(kind)
+    rows = rows[np.isfinite(rows["error_state"]) & (rows["outcome"] == "finished")]
+    x, y = rows["error_state"].clip(SMALLEST, LARGEST), rows["seconds_per_cycle"]
+    axes.plot(x, y, linewidth=0.8, **look | {"marker": ""})
+    whole = (rows["missed"] + rows["spurious"]) == 0
+    for chosen, fill in ((whole, look["color"]), (~whole, "white")):
+        axes.plot(x[chosen], y[chosen], linestyle="", markerfacecolor=fill, **look)
+    if len(rows) and kind not in CROWDED:
+        first, offset = x.argmin(), (6, -6) if kind == "exact flow" else (-2, 5)
+        axes.annotate(method, (x.iloc[first], y.iloc[first]), offset, textcoords="offset points", fontsize=7, **HALO)
 
 
 def _better(axes):
@@ -94,7 +116,7 @@ def _better(axes):
     axes.annotate("better", (0.05, 0.38), (0.14, 0.5), arrowprops=arrow, **place)
 
 
-def _lane(axes, here, look, numbers):
+def _lane(axes, here, numbers):
     """The margin for runs without a result."""
     axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
     failed = here[(here["outcome"] != "finished") & here["seconds_per_cycle"].notna()]
@@ -102,23 +124,11 @@ def _lane(axes, here, look, numbers):
     for row in failed.sort_values("seconds_per_cycle", ascending=False).itertuples():  # labels above
         number = numbers[_failure(row)]
         x = LANE * LANE_STEP ** (number % 3 - 1)  # side by side, so that equal costs do not cover each other
-        axes.plot(x, row.seconds_per_cycle, markersize=4.0, **look[row.method])
+        axes.plot(x, row.seconds_per_cycle, **_look(row.family))
         if number not in labelled:
             place = {"xytext": (0, 5), "textcoords": "offset points", "ha": "center"}
-            axes.annotate(number, (x, row.seconds_per_cycle), fontsize=6.5, **place)
+            axes.annotate(number, (x, row.seconds_per_cycle), fontsize=7, **place)
             labelled.add(number)
-
-
-def _legend(figure, table, look):
-    orders = table.groupby("method", sort=False)["order"].median()
-    handles = []
-    for method, style in look.items():
-        order = orders.get(method)
-        label = method if order is None or np.isnan(order) else f"{method} (order {order:.1f})"
-        handles.append(Line2D([], [], linewidth=0.8, label=label, **style))
-    hollow = Line2D([], [], linestyle="", marker="o", markerfacecolor="white", color=GREY)
-    hollow.set_label("hollow: impacts missed or spurious")
-    figure.legend(handles=[*handles, hollow], loc="upper center", ncols=4, fontsize=7.5)
 
 
 def _notes(figure, numbers, table, footer):
@@ -127,8 +137,8 @@ def _notes(figure, numbers, table, footer):
     for row in absent.drop_duplicates("method").itertuples():
         lines.append(f"{row.method}: unavailable ({row.reason})")
     title = ["grey lane: no result"] if lines else []
-    figure.text(0.02, 0.5, "\n".join([*title, *lines]), fontsize=6.5, va="top", linespacing=1.25)
-    figure.text(0.02, 0.02, footer, fontsize=6.5, color=GREY, va="bottom")
+    figure.text(0.02, 0.6, "\n".join([*title, *lines]), fontsize=7, va="top", linespacing=1.25)
+    figure.text(0.02, 0.02, footer, fontsize=7, color=GREY, va="bottom")
 
 
 def _failure(row):

@@ -123,15 +123,6 @@ class Ladder(fields.ForceGrid):
     fold_range: fields.Forces = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
 
 
-class Decay(Section):
-    """Decay after an impulse."""
-
-    case: fields.CaseName
-    impulses: fields.span(Velocity, "First and last velocity that a box is given [L omega_10]")
-    values: fields.count("Values, evenly on a logarithmic scale", 2, fields.MOST)
-    fraction: float = Field(ge=1e-6, lt=1, description="The part of the energy that is left then")
-
-
 class Regimes(Section):
     """Regimes of the exact system other than 1:1 responses."""
 
@@ -142,4 +133,3 @@ class Regimes(Section):
     epsilon: EpsilonLimit
     asymmetric: Asymmetric
     ladder: Ladder
-    decay: Decay

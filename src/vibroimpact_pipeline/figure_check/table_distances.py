@@ -24,8 +24,8 @@ DIGITS = 6
 def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, one line each, and the distance of each column from its reference.
 
-    Rows whose first two words are equal are a series. In a series rows correspond one by one, unless its numbers are
-    samples.
+    Rows whose first two words, of those that are not compared, are equal are a series. In a series rows correspond one
+    by one, unless its numbers are samples.
 
     Args:
         columns: entries of a SPEC. A column of words that is not compared must be the same.
@@ -36,7 +36,7 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
     if list(old) != list(new):
         return [f"columns {', '.join(new)} instead of {', '.join(old)}"], []
     reasons, farthest = _wrong_in_itself(new, columns), {}
-    before, after = _by_series(old), _by_series(new)
+    before, after = _by_series(old, columns), _by_series(new, columns)
     for series in before | after:
         a, b = (parts.get(series, old.iloc[:0]) for parts in (before, after))
         kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and _given(a[name]).any()}
@@ -71,9 +71,10 @@ def _wrong_in_itself(table, columns):
     return lacking + [f"{name} is infinite" for name in finite if np.isinf(table[name]).any()]
 
 
-def _by_series(table):
-    """Return the rows of each series, in order; a table without words is one, ("",)."""
-    words = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])][:2]
+def _by_series(table, columns):
+    """Return the rows of each series, in order; a table without such words is one, ("",)."""
+    texts = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])]
+    words = [name for name in texts if "compared" not in columns.get(name, {})][:2]
     return dict(iter(table.groupby(words, sort=False))) if words else {("",): table}
 
 

@@ -4,32 +4,36 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.figures.kit.tables import curve, join, select
 from vibroimpact.regimes import modulation
 from vibroimpact.regimes.periodicity import samples_per_cycle
 
 PANELS = {"a": "X_2", "b": "W_2"}
+WORDS = {"X_2": "second box", "W_2": "its ball, relative to the box"}
 LONG_WINDOW = 300.0
 """A longer window (about 50 cycles) is drawn in thin lines, because neighbouring cycles nearly touch."""
 
 
-def compute(samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
+def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
     """X_2 and W_2 = X_2 - Y_2 over tau, as simulated.
 
     Args:
         samples: columns tau, X2, Y2 (others are ignored), ascending in tau.
         events: impacts, sticks and releases, columns tau, module, wall, X2 (others are ignored).
 
-    Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, value. The second module's events between the
-    first and the last sample are among the points: there W_2 is exactly at a wall and has its corners.
+    Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The second
+    module's events between the first and the last sample are among the points: there W_2 is exactly at a wall and has
+    its corners.
     """
     inside = (events["module"] == 2) & events["tau"].between(samples["tau"].min(), samples["tau"].max())
     corners = events.loc[inside, ["tau", "X2"]].assign(W2=events.loc[inside, "wall"].astype(float))
     between = samples[["tau", "X2"]].assign(W2=samples["X2"] - samples["Y2"])
     motion = pd.concat([corners, between]).drop_duplicates("tau").sort_values("tau", ignore_index=True)
     return join(
-        curve(panel, series, tau=motion["tau"], value=motion[series.replace("_", "")])
+        curve(
+            panel, series, tau=motion["tau"], cycle=motion["tau"] / system.period, value=motion[series.replace("_", "")]
+        )
         for panel, series in PANELS.items()
     )
 
@@ -59,18 +63,22 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines."""
-    figure = new_figure(SINGLE_COLUMN, 80.0)
+    """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines; cycles on top."""
+    figure = new_figure(SINGLE_COLUMN, 84.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
-    linewidth = 0.35 if table["tau"].max() - table["tau"].min() > LONG_WINDOW else 1.1
+    span, period = np.ptp(table["tau"]), table["tau"].iloc[-1] / table["cycle"].iloc[-1]
+    style = {"color": BLACK, "linewidth": 0.35 if span > LONG_WINDOW else 1.1}
     for axes, (panel, series) in zip(grid, PANELS.items(), strict=True):
         line = select(table, panel, series)
-        axes.plot(line["tau"], line["value"], color=BLACK, linewidth=linewidth)
+        time_plot(axes, [(line["tau"], line["value"], style)], walls=series == "W_2")
         reach = 1.1 * line["value"].abs().max()
-        axes.set(xlim=(line["tau"].min(), line["tau"].max()), ylim=(-reach, reach), ylabel=f"${series}$")
-        letter_panel(axes, panel)
-    for wall in (-1.0, 1.0):
-        grid[-1].axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
+        axes.set(ylim=(-reach, reach), ylabel=f"${series}$")
+        heading(axes, panel, WORDS[series])
+        cycles = axes.secondary_xaxis("top", functions=(lambda tau: tau / period, lambda cycle: cycle * period))
+        cycles.tick_params(labeltop=axes is grid[0])
+        axes.tick_params(top=False)
+    cycles_above = grid[0].child_axes[0]
+    cycles_above.set_xlabel("forcing cycle")
     grid[-1].set_xlabel(r"$\tau$")
     figure.align_ylabels()
     return figure

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import matplotlib.style
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from vibroimpact.figures.kit import tables
 
@@ -19,10 +20,11 @@ STABLE = {"color": BLACK, "linewidth": 1.8, "linestyle": "-"}
 UNSTABLE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4.5, 2.5))}
 LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 """Lines of the chapter: stable branch bold solid, unstable branch dashed, B_min and C_min dotted."""
+HALO = {"path_effects": [withStroke(linewidth=2.5, foreground="white")], "zorder": 4}
+"""Of a name that lines may cross."""
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
-_BACKENDS = {"svg": "module://vibroimpact.figures.kit.searchable_svg"}
 
 
 def styled(function):
@@ -47,9 +49,18 @@ def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
     return columns, -(-panels // columns)
 
 
-def letter_panel(axes, letter: str) -> None:
-    """Letter a panel as the captions do: in bold, above its upper left corner."""
-    axes.set_title(letter, loc="left", weight="bold", pad=3)
+def heading(axes, letter: str = "", words: str = "") -> None:
+    """Head a panel with its letter in bold, as captions have it, and what it shows."""
+    axes.set_title("   ".join(filter(None, [letter and rf"$\mathbf{{{letter}}}$", words])), loc="left", pad=4)
+
+
+def time_plot(axes, lines, walls: bool = True) -> None:
+    """Draw lines over time, each a time (n,), values (n,) and a style; thin lines at the walls W = 1 and W = -1."""
+    for wall in (-1.0, 1.0) if walls else ():
+        axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
+    for time, values, style in lines:
+        axes.plot(time, values, **style)
+        axes.set(xlim=(time.min(), time.max()) if len(time) else None)
 
 
 def hatch_gaps(axes) -> None:
@@ -70,7 +81,7 @@ def save(figure: Figure, outputs: dict) -> None:
     """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file."""
     # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
-        figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind], backend=_BACKENDS.get(kind))
+        figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind])
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
 
 
