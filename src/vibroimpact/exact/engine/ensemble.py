@@ -69,7 +69,7 @@ LATER = INADMISSIBLE + 1
 FAR = np.log(4.0)  # the rates of boxes and forcing are so far apart that flights would be many steps, each rounded
 TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
 NEAR = 1e-6  # from a wall, no ball rests on it
-SPELL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
+INTERRUPT_INTERVAL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
 
 
 def ensemble(
@@ -306,7 +306,7 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
                 m.runs[march.ALIVE, lane] = 0.0
         if alive == 0:
             return True
-        if steps > SPELL:
+        if steps > INTERRUPT_INTERVAL:
             _stop_crowded(stages, status, m)
             return False
         steps += march.march(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
