@@ -21,7 +21,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned
 from vibroimpact.exact.engine.flow_tables import ORDERS
-from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
+from vibroimpact.exact.engine.motion import APPROACH, drift_balls, mode_of
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
 from vibroimpact.system.matrices import rate_matrix
@@ -277,7 +277,7 @@ def account(flow, forms, flights, events, begins, rows):
                     continue
                 t = min(t, begins[row + 1] - passed)
             boxes = _follow(flow, forms, walls, boxes, phase, t, rows[max(row, 0)], row >= 0)
-            balls = carry(balls, walls, boxes, t)
+            balls = drift_balls(balls, walls, boxes, t)
             phase, tail = ahead(phase, tail, q.omega, t)
             left, passed = left - t, passed + t
         if n < len(events):

@@ -34,7 +34,7 @@ from vibroimpact.exact.engine.motion import (
     UNDECIDED,
     Log,
     Motion,
-    carry,
+    drift_balls,
     glide,
     mode_of,
     pack,
@@ -73,7 +73,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
             met, end, boxes = _aim(flow, motion, due, end, end - width, end + width)
         if met:
-            return end, due, boxes, carry(motion.balls, motion.walls, boxes, end)
+            return end, due, boxes, drift_balls(motion.balls, motion.walls, boxes, end)
         if not t + safe > t:
             return t, STUCK_IN_TIME, now.boxes, now.balls
         if counters[EVALUATIONS] > most_proofs:
@@ -126,7 +126,7 @@ def _aim(flow, motion, i, t, low, high):
         j = int(t * flow.density + 0.5)
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         now = jets[0][0], jets[1][0], jets[0][1], jets[1][1]
-        there = carry(motion.balls, motion.walls, now, j * flow.spacing)
+        there = drift_balls(motion.balls, motion.walls, now, j * flow.spacing)
         w = 1.0 if now[i] > there[i] else -1.0
         step = nearby_zero(gap(jets[0] if i == 0 else jets[1], there[i], there[2 + i], w), t - j * flow.spacing)
         t = j * flow.spacing + step

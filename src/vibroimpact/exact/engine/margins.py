@@ -23,7 +23,7 @@ from vibroimpact.exact.engine.exclusion import (
     remainder,
 )
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, value
-from vibroimpact.exact.engine.motion import PHASE, Motion, carry, mode_of, pair
+from vibroimpact.exact.engine.motion import PHASE, Motion, drift_balls, mode_of, pair
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
@@ -76,7 +76,7 @@ def _search(flow, motion, length, least_of):
         sides = (rate1[0] if rate1[0] != 0.0 else sides[0], rate2[0] if rate2[0] != 0.0 else sides[1])
         end = t + step if t + step > t else length
         now, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, end)
-        there = carry(motion.balls, walls, now, end)
+        there = drift_balls(motion.balls, walls, now, end)
         for i in range(2):
             rate = _rate_at(q, walls, now, there, s, c, i)
             if rate * sides[i] < 0.0:
@@ -165,7 +165,7 @@ def _note(flow, motion, i, times, rates, least_of):
         if walls[i] * early < 0.0:
             least_of[FORCE] = min(least_of[FORCE], force)
         return
-    y = carry(balls, walls, x, t)
+    y = drift_balls(balls, walls, x, t)
     relative = x[i] - y[i]
     if relative * early > 0.0:
         gap = 1.0 - abs(relative)

@@ -8,7 +8,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
 from vibroimpact.exact.engine.contact import common_velocity
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.exact.engine.motion import APPROACH, PHASE, carry, mode_of, pair, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, PHASE, drift_balls, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.phase import TWO_PI, ahead
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
@@ -97,7 +97,7 @@ def land(flow, flight):
     while left > 0.0:
         t = min(left, flow.longest)
         later, _, _ = advance(flow, mode_of(walls), boxes, math.sin(phase), math.cos(phase), t)
-        boxes, balls = later, carry(balls, walls, later, t)
+        boxes, balls = later, drift_balls(balls, walls, later, t)
         phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
         left -= t
     for k in range(4):
