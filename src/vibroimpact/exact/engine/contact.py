@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.motion import (
     CHATTERS,
     NEGLECTED,
     RESIDUAL,
-    glide,
+    free_flight,
     mode_of,
     pair,
     record,
@@ -240,6 +240,6 @@ def _complete_both(flow, motion, chatters, elapsed, log):
     sooner = 0 if ends[0] <= ends[1] else 1
     for i in (sooner, 1 - sooner):
         if ends[i] >= 0.0:
-            then = glide(flow, motion, ends[i])
+            then = free_flight(flow, motion, ends[i])
             record(log, elapsed + ends[i], i, motion.walls[i], STICK, then.boxes, then.balls, inward[i])
     return motion

@@ -35,7 +35,7 @@ from vibroimpact.exact.engine.motion import (
     Log,
     Motion,
     drift_balls,
-    glide,
+    free_flight,
     mode_of,
     pack,
 )
@@ -79,7 +79,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         if counters[EVALUATIONS] > most_proofs:
             return t, OUT_OF_PROOFS, now.boxes, now.balls
         t = min(t + safe, reach)
-        now = glide(flow, motion, t)
+        now = free_flight(flow, motion, t)
 
 
 @unfolded
@@ -291,7 +291,7 @@ def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log
                 (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
         before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
         while sampled < len(sample_times) and sample_times[sampled] < start + elapsed:
-            then = glide(flow, motion, max(sample_times[sampled] - start - before, 0.0))
+            then = free_flight(flow, motion, max(sample_times[sampled] - start - before, 0.0))
             pack(then.boxes, then.balls, samples[sampled])
             sampled += 1
         motion = Motion(later, there, motion.walls, (0, 0), sine, cosine)

@@ -77,7 +77,7 @@ def drift_balls(balls, walls, boxes, t):
 
 
 @inlined
-def glide(flow, motion, t):
+def free_flight(flow, motion, t):
     """Return the motion a time t later, without an event in between; only sticking balls touch a wall."""
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)

@@ -7,7 +7,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
 from vibroimpact.exact.engine.energy import add_falls, add_potentials, held, lost
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
-from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, glide, mode_of, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, free_flight, mode_of, with_velocity
 from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
@@ -92,7 +92,7 @@ def _watch(flow, squares, motion, end, length, seen):
             _add_piece(jets[0], low, high, 0, motion.walls[0], squares, seen)
             _add_piece(jets[1], low, high, 1, motion.walls[1], squares, seen)
             start, j = start + piece, j + PIECE
-        motion, length = glide(flow, motion, whole), length - whole
+        motion, length = free_flight(flow, motion, whole), length - whole
 
 
 @inlined
