@@ -64,14 +64,14 @@ def fly(flow, motion, remaining, most_proofs, counters):
         jets = jet_at(flow, mode, now.boxes, now.sine, now.cosine, 0)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
-        due, step, width, safe, doubt = _next(q, now, jets, bound, horizon, short)
+        due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
         step = step if step >= -t else 0.0  # an event that was just passed is not before the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[UNDECIDED] += doubt
             boxes = along(jets, step)
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
-            met, end, boxes = _aim(flow, motion, due, end, end - width, end + width)
+            met, end, boxes = _refine_impact_time(flow, motion, due, end, end - width, end + width)
         if met:
             return end, due, boxes, drift_balls(motion.balls, motion.walls, boxes, end)
         if not t + safe > t:
@@ -83,12 +83,12 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 
 @unfolded
-def _next(q, motion, jets, bound, horizon, short):
+def _first_event(q, motion, jets, bound, horizon, short):
     """Return the first event: (module or -1, its time, width of that, time before which nothing happens, doubt).
 
     Module -1: no event is certain to be the first.
     """
-    one = _sooner(motion.boxes, motion.balls)
+    one = _first_to_check(motion.boxes, motion.balls)
     two = 1 - one
     t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
@@ -110,7 +110,7 @@ def _bounds(t, width, short):
 
 
 @unfolded
-def _sooner(boxes, balls):
+def _first_to_check(boxes, balls):
     """Return the module whose ball reaches the wall ahead first at its present speed."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
@@ -119,7 +119,7 @@ def _sooner(boxes, balls):
 
 
 @inlined
-def _aim(flow, motion, i, t, low, high):
+def _refine_impact_time(flow, motion, i, t, low, high):
     """Find the only impact of module i in [low, high]; return (True if found, its time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
