@@ -199,8 +199,8 @@ lost, held = inlined(energy_lost), inlined(stored)
 
 
 @lru_cache(maxsize=16)
-def powers_of(system) -> np.ndarray:
-    """Return the forms of a system that `account` needs, shape (4, n, 5, 21)."""
+def work_tables(system) -> np.ndarray:
+    """Return the forms of a system that `accumulate_energy` needs, shape (4, n, 5, 21)."""
     return integrals_of(system, KERNELS)
 
 
@@ -227,7 +227,7 @@ class Energy(Representation):
         """Return the energy balance of a finished run."""
         system, (flow, flights, events) = run.system, run.trajectory
         rows = np.zeros((max(run.cycles, 1), ENTRIES))
-        account(flow, powers_of(system), flights, events, system.period * np.arange(len(rows)), rows)
+        accumulate_energy(flow, work_tables(system), flights, events, system.period * np.arange(len(rows)), rows)
         total = energies(system, rows.sum(axis=0))
         per_cycle = energies(system, rows[: run.cycles])
         for array in (total, per_cycle):
@@ -255,7 +255,7 @@ def energies(system, rows) -> np.ndarray:
 
 
 @compiled
-def account(flow, forms, flights, events, begins, rows):
+def accumulate_energy(flow, forms, flights, events, begins, rows):
     """Add the integrals along the flights of a run (`departures` is enough) to rows (k, ENTRIES) of zeros.
 
     begins (k,): ascending times since the start of the run at which the rows begin; the last one goes on to the end.

@@ -12,7 +12,15 @@ from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
-from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, Squares, account, energies, potentials_of, powers_of
+from vibroimpact.exact.engine.energy import (
+    ENERGY,
+    OBSERVED,
+    Squares,
+    accumulate_energy,
+    energies,
+    potentials_of,
+    work_tables,
+)
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, go_on
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
@@ -218,7 +226,7 @@ def _alone(system, state, begin, stages, energy, final, seen):
             _watch(flow, Squares(*(part[0] for part in UNSEEN)), run.start, rows, run.final, end, cycle > 0, seen[k])
             if energy:
                 spent = np.zeros((1, ACCOUNTED))
-                account(flow, powers_of(system), flights, rows, np.zeros(1), spent)
+                accumulate_energy(flow, work_tables(system), flights, rows, np.zeros(1), spent)
                 seen[k, INTEGRALS + 2 :] = spent[0, : SEEN - INTEGRALS - 2]
     return FINISHED
 
