@@ -152,7 +152,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 
 @inlined
-def add_falls(squares, before, after, forcing, sums):
+def add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes.
 
     Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.

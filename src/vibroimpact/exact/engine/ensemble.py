@@ -448,7 +448,7 @@ def _fill_constants(flow, change, step, phase, potentials, drifts, owner, c):
         c[march.DRIFTS + k] = drifts[owner, 0, k]
         for i in range(2):
             for z in range(6):
-                c[march.FALLS + 12 * k + 6 * i + z] = potentials[owner, 0, k, 2 + i, z]
+                c[march.DROPS + 12 * k + 6 * i + z] = potentials[owner, 0, k, 2 + i, z]
 
 
 @unfolded

@@ -46,8 +46,8 @@ may be its largest displacement (`find_turns`): boxes and forcing at a time near
 turn, a bound on its displacement, 1 if there is one."""
 
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
-BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
-CONSTANTS = FALLS + 12 * (SEEN - INTEGRALS)
+BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(42, 51), 58)
+CONSTANTS = DROPS + 12 * (SEEN - INTEGRALS)
 """Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h; h;
 scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
 lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
@@ -383,10 +383,10 @@ def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, 
     z = 2.0 * boxes[0], 2.0 * boxes[1], late[0] + after[0], late[1] + after[1], 2.0 * forcing[0], 2.0 * forcing[1]
     change = where(hits[0], late[0] - after[0], where(hits[1], late[1] - after[1], 0.0))
     for k in range(integrals):
-        place, fall = FALLS + 12 * k, 0.0 * t
+        place, drop = DROPS + 12 * k, 0.0 * t
         for m in range(6):
-            fall = fused(where(hits[0], load(c, place + m), load(c, place + 6 + m)), z[m], fall)
-        _add(runs, watched, INTEGRALS + k, fused(change, fall, load(c, DRIFTS + k) * time))
+            drop = fused(where(hits[0], load(c, place + m), load(c, place + 6 + m)), z[m], drop)
+        _add(runs, watched, INTEGRALS + k, fused(change, drop, load(c, DRIFTS + k) * time))
 
 
 @inlined

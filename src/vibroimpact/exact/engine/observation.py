@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
-from vibroimpact.exact.engine.energy import add_falls, add_potentials, held, lost
+from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, held, lost
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
 from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, free_flight, mode_of, with_velocity
 from vibroimpact.exact.engine.replay import next_departure
@@ -40,7 +40,7 @@ def observe(flow, squares, departure, events, count, arrival, seen):
             _watch(flow, squares, motion, end, left, seen)
         if n < count:
             before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
-            add_falls(squares, before, after, late, seen[INTEGRALS:])
+            add_potential_drops(squares, before, after, late, seen[INTEGRALS:])
         leaving, early = following, late
 
 
