@@ -36,7 +36,7 @@ from vibroimpact.exact.engine.observation import (
     STATISTICS,
     STICKS,
     STORED,
-    observe,
+    accumulate_statistics,
     open_or_close,
 )
 from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
@@ -241,7 +241,7 @@ def _watch(flow, squares, start, rows, final, end, settled, statistics):
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
-    observe(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), statistics)
+    accumulate_statistics(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), statistics)
     open_or_close(flow, squares, last, 1.0, statistics)
     for n in range(len(rows)):
         if settled and rows[n, TIME] == 0.0 and rows[n, KIND] == STICK and rows[n, APPROACH] == 0.0:
@@ -499,7 +499,7 @@ def _by_events(piece, flow, squares, n, lane, m):
         runs[march.EVENTS, lane] += noted
         if runs[march.WATCHED, lane] > 0.0:
             _read(m, lane)
-            observe(
+            accumulate_statistics(
                 flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.statistics
             )
             _write(m, lane)

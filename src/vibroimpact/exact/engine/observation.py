@@ -21,7 +21,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 
 
 @in_place
-def observe(flow, squares, departure, events, count, arrival, statistics):
+def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
     """Add the statistics of a piece of a run to statistics (STATISTICS,), without the potentials at its ends.
 
     departure: its start (`replay.Departure`); events, count: its rows; arrival: boxes, time and phase of its end.
