@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, drift_balls, mode_of
@@ -290,7 +290,7 @@ def accumulate_energy(flow, forms, flights, events, begins, rows):
     rows[row, STORED] += held(q.ground, -q.k12, q.epsilon, boxes, balls)
 
 
-@unfolded
+@inlined_source
 def _follow(flow, forms, walls, boxes, phase, t, row, counted):
     """Return the boxes after a flight no longer than flow.longest; add its integrals to the row if counted."""
     q, mode, j = flow.coefficients, mode_of(walls), int(t * flow.density + 0.5)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.energy import (
     ENERGY,
     OBSERVED,
@@ -394,7 +394,7 @@ def _stop_crowded(piece, m):
             piece.status[m.members[lane]], m.members[lane] = kernel.CROWDED, -1
 
 
-@unfolded
+@inlined_source
 def _begin(piece, n, lane, m):
     """Put a start into a lane."""
     owner, slot, stages = piece.owners[n], -1, piece.stages
@@ -449,7 +449,7 @@ def _write(m, lane):
         m.runs[march.STATISTICS_AT + k, lane] = m.statistics[k]
 
 
-@unfolded
+@inlined_source
 def _fill_constants(piece, owner, flow, change, step, c):
     """Fill in the constants (CONSTANTS,) of a system."""
     q, phase = flow.coefficients, piece.phases[owner]
@@ -475,7 +475,7 @@ def _fill_constants(piece, owner, flow, change, step, c):
                 c[march.DROPS + 12 * k + 6 * i + z] = piece.potentials[owner, 0, k, 2 + i, z]
 
 
-@unfolded
+@inlined_source
 def _by_events(piece, flow, squares, n, lane, m):
     """Carry the run of a lane on by the event loop to where both balls fly; return PAUSED, or the status of a finished
     run.
@@ -521,7 +521,7 @@ def _by_events(piece, flow, squares, n, lane, m):
     return ended
 
 
-@unfolded
+@inlined_source
 def _make_tables(flow, rates, progress, made, change):
     """Make the tables of the contact states that the next events can lead to."""
     motion = progress.motion

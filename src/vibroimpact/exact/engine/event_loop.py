@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, nearby_zero, remainder
 from vibroimpact.exact.engine.flow import along, jet_at, unpacked
@@ -45,7 +45,7 @@ TRIES = 3
 STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 
-@unfolded
+@inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
     """Fly to the next event, the end of the run or of the table; return (time, module due or -1, boxes, balls).
 
@@ -82,7 +82,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         now = free_flight(flow, motion, t)
 
 
-@unfolded
+@inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
     """Return the first event: (module or -1, its time, width of that, time before which nothing happens, doubt).
 
@@ -109,7 +109,7 @@ def _bounds(t, width, short):
     return w, t - w
 
 
-@unfolded
+@inlined_source
 def _first_to_check(boxes, balls):
     """Return the module whose ball reaches the wall ahead first at its present speed."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
@@ -228,7 +228,7 @@ def empty_rows(counters, checkpoint):
     counters[EVENTS] = 0.0
 
 
-@unfolded
+@inlined_source
 def write_checkpoint(progress, checkpoint):
     """Write down the state of a paused run in a checkpoint."""
     motion = progress.motion
@@ -245,7 +245,7 @@ def write_checkpoint(progress, checkpoint):
     checkpoint[16], checkpoint[17], checkpoint[18] = progress.elapsed, progress.sampled, progress.stalled
 
 
-@unfolded
+@inlined_source
 def progress_at(checkpoint):
     """Return the state of a paused run."""
     w = checkpoint
@@ -301,7 +301,7 @@ def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log
     return Progress(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), status
 
 
-@unfolded
+@inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
     """Return the reason for giving up a run after a flight, or FINISHED."""
     for i in range(2):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
+from vibroimpact.exact.engine.compiled import in_place, inlined, inlined_source
 from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, held, lost
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
 from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, free_flight, mode_of, with_velocity
@@ -73,7 +73,7 @@ def _before(q, boxes, event):
     return with_velocity(boxes, i, boxes[2 + i] + (1.0 + q.kappa) * q.epsilon * q.inverse_mass * event[APPROACH])
 
 
-@unfolded
+@inlined_source
 def _watch(flow, squares, motion, end, length, statistics):
     """Add the statistics of a flight, but for potentials at its ends."""
     mode = mode_of(motion.walls)
