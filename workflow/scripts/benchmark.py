@@ -33,7 +33,7 @@ def problem_of(name: str, config: dict, settings: dict):
 def main(config: dict, output) -> None:
     from vibroimpact.accuracy import work_precision
     from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
-    from vibroimpact.accuracy.throughput import throughput
+    from vibroimpact.accuracy.throughput import ranges, throughput
     from vibroimpact.accuracy.timing import versions
     from vibroimpact.integrators import TIMED
 
@@ -43,7 +43,8 @@ def main(config: dict, output) -> None:
     table = pd.DataFrame(rows)
     found = comparison(rows, unavoidable_error(problem))
     weak = System(**case_parameters(config, "weak"))
-    many = pd.DataFrame(throughput(problem.system, weak, problem.state, SECONDS)).set_index("scene").T
+    scenes = throughput(problem.system, weak, problem.state, SECONDS)
+    many = pd.DataFrame(scenes).set_index("scene")
     raced = [method for method in TIMED if method.name in (OURS, TAYLOR)]
     chart = [
         row
@@ -53,9 +54,10 @@ def main(config: dict, output) -> None:
     table_of_panels = pd.DataFrame(panels(chart)).to_string(index=False, float_format="{:.3g}".format)
     compared = [f"{name}: {value:.3g}" for name, value in found.items()]
     compared += ["many runs, ns per impact on one core:"]
-    compared += [f"{letter}: {scene}" for letter, scene in zip(ascii_lowercase, many.columns, strict=False)]
+    compared += [f"{letter}: {column}" for letter, column in zip(ascii_lowercase, many.columns, strict=False)]
     many.columns = list(ascii_lowercase[: len(many.columns)])
-    compared += many.to_string(float_format="{:.3g}".format, na_rep="").splitlines()
+    compared += many.to_string(float_format="{:.3g}".format, na_rep="", index_names=False).splitlines()
+    compared += ranges(scenes)
     compared += ["times faster than heyoka in the panels of the work-precision chart:", *table_of_panels.splitlines()]
     compared += HANDICAPS.splitlines()
     footer = "  ".join(f"{name} {version}" for name, version in versions().items())

@@ -109,6 +109,18 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
         ]
 
 
+def ranges(rows: list[dict]) -> list[str]:
+    """Lines with the range over the scenes of the ratios to a single long run, from the rows of `throughput`."""
+    lines = []
+    for name in ("final", "observed"):
+        now, before = ([row[key] for row in rows] for key in (f"{name} / long run", f"before: {name}"))
+        lines.append(
+            f"{name}: {min(now):.2f} to {max(now):.2f} of a long run's time per impact in all scenes, "
+            f"before {min(before):.2f} to {max(before):.2f}"
+        )
+    return lines
+
+
 def _long_run(system, state):
     return len(simulate(system, state, LONG).rows)
 

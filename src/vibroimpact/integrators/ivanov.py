@@ -21,7 +21,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
@@ -75,7 +75,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
     return state
 
 
-@kept(error_model="numpy")
+@disk_cached(error_model="numpy")
 def _rates(tau, z, q, k, boxes, ways, d):
     """Derivative of unfolded coordinates, into d, with the right-hand side of given boxes and signs of v.
 
@@ -93,7 +93,7 @@ def _rates(tau, z, q, k, boxes, ways, d):
         d[4 * i + 2], d[4 * i + 3] = z[4 * i + 3], a[i] / (1.0 + q[9])
 
 
-@kept()
+@disk_cached()
 def _step(tau, z, h, q, k, boxes, ways, looking):
     """The coordinates a step later; if it is looking, each stage has the right-hand side of the place it is at."""
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
@@ -107,7 +107,7 @@ def _step(tau, z, h, q, k, boxes, ways, looking):
     return ahead
 
 
-@kept()
+@disk_cached()
 def _look(z, boxes, ways):
     """The sign of every v, and which box the ball is in: on a wall the one that it goes on to."""
     for i in range(2):
@@ -116,13 +116,13 @@ def _look(z, boxes, ways):
         boxes[i] = math.floor(there) if ways[i] > 0.0 else math.ceil(there)
 
 
-@kept()
+@disk_cached()
 def _impact(tau, i, box, direction, speed, k):
     """The row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
-@kept()
+@disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Coordinates and boxes at the end, impacts, number of steps, and nan, for it always gets there."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
@@ -140,7 +140,7 @@ def _march_across_jumps(q, k, z, tau0, h, count):
     return z, boxes, rows, count, math.nan
 
 
-@kept()
+@disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
     """The same with steps that end at jumps; instead of nan, the time after which there is no end of impacts."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
@@ -168,7 +168,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
     return z, boxes, rows, steps, math.nan
 
 
-@kept()
+@disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
     """The shortest part of a step found to end beyond a jump, by halving, and the coordinates there."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
@@ -182,7 +182,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
     return part, ahead
 
 
-@kept()
+@disk_cached()
 def _beyond(z, boxes, ways):
     """True if the right-hand side should have jumped, or a step so long that R vanishes has left no numbers."""
     within = True
@@ -192,7 +192,7 @@ def _beyond(z, boxes, ways):
     return not within
 
 
-@kept()
+@disk_cached()
 def _ahead_of(z, i, boxes, ways):
     """Distance of the next wall, and the size of v: negative once the right-hand side should have jumped."""
     return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]

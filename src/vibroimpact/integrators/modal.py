@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients, inlined
 from vibroimpact.integrators.rigid_contact import (
@@ -134,7 +134,7 @@ def _guess(before, there, i, low, high):
     return low + u * h
 
 
-@kept(error_model="numpy", fastmath={"contract"})
+@disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, tables, s, tau, end, step, limit):
     """Run in at most `limit` looks: final state, rows [time, module, wall, speed] of impacts, looks, time reached."""
     counts, all_rates, all_shapes, inverses = tables

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients
 
@@ -26,7 +26,7 @@ class MoreauJean(Method):
         return MethodRun(final, rows, steps)
 
 
-@kept()
+@disk_cached()
 def _march(q, s, tau0, h, steps):
     """The state after a number of steps, and rows [time, module, wall, speed] of the first step of each contact."""
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
@@ -60,14 +60,14 @@ def _march(q, s, tau0, h, steps):
     return np.array([x1, y1, x2, y2, v1, w1, v2, w2]), rows[:count]
 
 
-@kept()
+@disk_cached()
 def _closed(gap, speed, g):
     """The wall that the ball is predicted to have reached half a step ahead, or 0."""
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 
 
-@kept()
+@disk_cached()
 def _impulses(q1, q2, d11, d12, d22):
     """The impulses P >= 0 with q - D P <= 0 and P (q - D P) = 0, D positive definite; q = -inf where no contact is."""
     if q1 <= 0.0 and q2 <= 0.0:
@@ -82,7 +82,7 @@ def _impulses(q1, q2, d11, d12, d22):
     return 0.0, q2 / d22
 
 
-@kept()
+@disk_cached()
 def _note(rows, count, tau, module, wall, speed):
     if count == len(rows):
         rows = np.concatenate((rows, np.empty_like(rows)))

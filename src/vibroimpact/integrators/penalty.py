@@ -9,7 +9,7 @@ import math
 import numpy as np
 from scipy.integrate import RK45
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.contact_laws import (
     HERTZ,
     HUNT_CROSSLEY,
@@ -103,7 +103,7 @@ def variants() -> list[Penalty]:
     ]
 
 
-@kept()
+@disk_cached()
 def force(gap, speed, law, damping):
     """Force on the ball (its opposite on the box) from its walls, for W and W' and the D of this contact."""
     depth = abs(gap) - law[5]
@@ -113,7 +113,7 @@ def force(gap, speed, law, damping):
     return outwards * law[2] * depth ** law[0] + damping * depth ** law[1] * speed
 
 
-@kept()
+@disk_cached()
 def _rates(tau, s, contact, d):
     """Derivative of the state, into d; contact: coefficients, law, and D of both contacts."""
     q, law, dampings = contact
@@ -124,7 +124,7 @@ def _rates(tau, s, contact, d):
         d[2 * i + 4], d[2 * i + 5] = a[i] - push, push / q[9]
 
 
-@kept()
+@disk_cached()
 def _sum(weights, rates, count, c):
     total = 0.0
     for k in range(count):
@@ -132,7 +132,7 @@ def _sum(weights, rates, count, c):
     return total
 
 
-@kept()
+@disk_cached()
 def _step(stages, tau, s, h, contact):
     """The state a step later, and the error as a multiple of the allowed one."""
     A, B, C, E = stages
@@ -150,20 +150,20 @@ def _step(stages, tau, s, h, contact):
     return ahead, math.sqrt(error)
 
 
-@kept()
+@disk_cached()
 def _reach(s, i, law):
     """Depth of ball i beyond the beginning of contact; negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
-@kept()
+@disk_cached()
 def _outwards(s, i):
     """Wall on whose side ball i is, and its speed towards it."""
     wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
     return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
 
 
-@kept()
+@disk_cached()
 def _march(q, law, stages, s, tau, end, limit):
     """The state where it gets in at most `limit` steps, rows [tau, module, wall, speed] of impacts, steps, time."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
@@ -190,7 +190,7 @@ def _march(q, law, stages, s, tau, end, limit):
     return s, rows, steps, tau
 
 
-@kept()
+@disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
     """The step, cut short just after the first contact that begins in it."""
     least = 0.0
@@ -206,6 +206,6 @@ def _until_contact(stages, tau, s, h, ahead, contact, touching):
     return h, ahead
 
 
-@kept()
+@disk_cached()
 def _begins(s, law, touching):
     return (not touching[0] and _reach(s, 0, law) >= 0.0) or (not touching[1] and _reach(s, 1, law) >= 0.0)

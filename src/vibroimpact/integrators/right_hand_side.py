@@ -5,15 +5,15 @@ from functools import partial
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.system.matrices import damping_matrix, masses, rate_matrix, stiffness_matrix
 from vibroimpact.system.state import BALLS, BOXES
 
 NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
-inlined = partial(kept, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
+inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """For what runs at every step: code from a cache is inlined only where it is told to be."""
-inlined_source = partial(kept, inline="always")
+inlined_source = partial(disk_cached, inline="always")
 """For what rounds as its caller does: SciPy's integrators get no contracted products."""
 
 
@@ -45,7 +45,7 @@ def derivative(sine, s, q, walls, d):
     d[6], d[7] = a2, a2 if walls[1] != 0.0 else 0.0
 
 
-@kept()
+@disk_cached()
 def rates(tau, s, q, walls):
     """Derivative of the state, shape (8,), at a time."""
     d = np.empty(8)

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
 
 SLOWEST = 1e-6
@@ -33,7 +33,7 @@ def guard(tau, s, q, walls, i):
     return 1.0 - abs(s[2 * i] - s[2 * i + 1])
 
 
-@kept()
+@disk_cached()
 def resolve(tau, s, q, walls, due, rows, count, slow):
     """Change state s (8,) and walls (2,) at an event of module `due`; the rows of impacts, and how many there are.
 

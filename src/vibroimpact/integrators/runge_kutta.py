@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import kept
+from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
 from vibroimpact.integrators.rigid_contact import (
@@ -70,7 +70,7 @@ def _event(tau, s, q, walls, i, high, slopes, event):
     return before
 
 
-@kept(error_model="numpy", fastmath={"contract"})
+@disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, s, tau, end, step, limit):
     """The state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
     walls, slopes = np.zeros(2), np.empty((4, 8))

@@ -7,7 +7,7 @@ import sys
 from compiled_code import LIBRARY
 
 FUNCTION = """
-from vibroimpact.exact.engine.compiled import code_folder, kept
+from vibroimpact.exact.engine.compiled import code_folder, disk_cached
 from vibroimpact.exact.engine.compiled import PACKAGE
 
 print(code_folder(PACKAGE / "integrators").name, code_folder(PACKAGE / "exact/engine").name)

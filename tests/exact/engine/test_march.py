@@ -23,13 +23,14 @@ GRID = 400
 def begun(numbers, rates, potentials, drifts, starts, memory):
     """Put the first start into the first lane."""
     owners, phases, seen = np.zeros(1, np.int64), np.zeros((1, 2)), np.zeros((1, 1, 1))
-    lanes._begin(numbers, rates, phases, potentials, drifts, owners, starts, (1, 1, 0), 0, 0, seen, seen, memory)
+    status, systems = np.zeros(1, np.int64), (numbers, rates, phases, potentials, drifts)
+    lanes._begin(lanes.Piece(*systems, owners, starts, (1, 1, 0), status, seen, seen), 0, 0, memory)
 
 
 def constants(system):
     """Constants of a system in the lanes."""
     memory = lanes._memory()
-    begun(*numbers_of([system], lanes.TABLE), *lanes.UNSEEN, np.zeros((1, 8)), memory)
+    begun(*numbers_of([system], lanes.TABLE), *lanes.UNOBSERVED, np.zeros((1, 8)), memory)
     return memory.constants[:, 0]
 
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine import motion
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
 from vibroimpact.exact.engine.phase import ahead, phase_at
@@ -192,7 +192,7 @@ def _root(errors):
     return math.sqrt(total)
 
 
-@unfolded
+@inlined_source
 def _add_miss(covariance, flight, event):
     """Add to a covariance before an impact the distance by which the ball was moved onto its wall."""
     if event[3] == IMPACT:

@@ -1,17 +1,17 @@
 """Compilation of the inner loops with Numba, cached on disk, without the interpreter's lock.
 
 What a step of a run is computed by is rounded as it is written, so that the run has the same bits alone and in a lane
-beside others (`lanes`). What is `compiled`, and unfolded into it, may round product and sum as one.
+beside others (`lanes`). What is `compiled`, and what is `inlined_source` there, may round product and sum as one.
 
 What runs at every event becomes part of the loop: handing over a motion and its Taylor polynomials (some 30 numbers)
 would cost more than what is computed from them. What is called from one place is mostly put there before anything is
-compiled (`unfolded`), which spares compiling it twice; the rest is compiled once and then inlined. Each says how it
-rounds, whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is
+compiled (`inlined_source`), which spares compiling it twice; the rest is compiled once and then inlined. Each says how
+it rounds, whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is
 compiled first.
 
-Only what is `compiled` makes arrays or gives them back, and what is `unfolded` into it alone. All else works in memory
-that is given, and counts no references to it: a count is a locked operation and a call, for which all numbers at hand
-are put away.
+Only what is `compiled` makes arrays or gives them back, and what is `inlined_source` there alone. All else works in
+memory that is given, and counts no references to it: a count is a locked operation and a call, for which all numbers at
+hand are put away.
 
 Compiled code is kept by the content of all sources that may be compiled into it: Numba looks at the file of a function,
 not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation.
@@ -70,7 +70,7 @@ PACKAGE = Path(__file__).parents[2]
 SHARED = ("system", "exact/engine")
 
 
-def kept(**options):
+def disk_cached(**options):
     """Return Numba's `njit` for a function whose compiled code is cached on disk."""
 
     def decorate(function):
@@ -139,9 +139,9 @@ def _temporary():
     return folder if private else Path(tempfile.mkdtemp(prefix="vibroimpact-"))
 
 
-_alike = partial(kept, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
+_alike = partial(disk_cached, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
 _given_memory = partial(_alike, _nrt=False, fastmath=False)
 compiled = _alike(fastmath={"contract"}, forceinline=False, _nrt=True)
 in_place = _given_memory(forceinline=False, no_cpython_wrapper=True)
 inlined = _given_memory(forceinline=True)
-unfolded = _given_memory(forceinline=True, inline="always")
+inlined_source = _given_memory(forceinline=True, inline="always")

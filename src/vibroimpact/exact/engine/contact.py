@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from vibroimpact.exact.engine.compiled import inlined, unfolded
+from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.exclusion import (
     LOOKAHEAD,
     RESOLUTION,
@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.motion import (
     CHATTERS,
     NEGLECTED,
     RESIDUAL,
-    glide,
+    free_flight,
     mode_of,
     pair,
     record,
@@ -91,7 +91,7 @@ def _hold(q, jets, boxes, i, wall, sticking):
     return force
 
 
-@unfolded
+@inlined_source
 def _ends_soon(flow, motion, remaining, i, wall):
     """Return True if the chatter of ball i after an impact would end within one proof and within the run."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
@@ -100,7 +100,7 @@ def _ends_soon(flow, motion, remaining, i, wall):
     return 4.0 * u <= a * (1.0 - q.kappa) * min(remaining, LOOKAHEAD * flow.unit)
 
 
-@unfolded
+@inlined_source
 def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time to its end).
 
@@ -137,7 +137,7 @@ def _end_of_chatter(flow, motion, i, counters):
     return True, total * (1.0 - 2.0 * wall * p[3] * total / a)
 
 
-@unfolded
+@inlined_source
 def _complete(flow, motion, i, counters):
     """Complete the chatter of ball i where possible; return (motion, time to its end or -1)."""
     done, end = _end_of_chatter(flow, motion, i, counters)
@@ -177,7 +177,7 @@ def resolve(flow, motion, moment, log):
     return motion
 
 
-@unfolded
+@inlined_source
 def _meet(flow, motion, i, moment, log):
     """Let a flying ball meet the wall ahead if it is there; return (motion, True if a chatter would end soon)."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
@@ -222,7 +222,7 @@ def _rest(q, motion, i, pulled, elapsed, log):
     return motion
 
 
-@unfolded
+@inlined_source
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatters of both balls, where possible.
 
@@ -240,6 +240,6 @@ def _complete_both(flow, motion, chatters, elapsed, log):
     sooner = 0 if ends[0] <= ends[1] else 1
     for i in (sooner, 1 - sooner):
         if ends[i] >= 0.0:
-            then = glide(flow, motion, ends[i])
+            then = free_flight(flow, motion, ends[i])
             record(log, elapsed + ends[i], i, motion.walls[i], STICK, then.boxes, then.balls, inward[i])
     return motion

@@ -18,10 +18,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned
 from vibroimpact.exact.engine.flow_tables import ORDERS
-from vibroimpact.exact.engine.motion import APPROACH, carry, mode_of
+from vibroimpact.exact.engine.motion import APPROACH, drift_balls, mode_of
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
 from vibroimpact.system.matrices import rate_matrix
@@ -152,7 +152,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 
 @inlined
-def add_falls(squares, before, after, forcing, sums):
+def add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes.
 
     Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
@@ -199,8 +199,8 @@ lost, held = inlined(energy_lost), inlined(stored)
 
 
 @lru_cache(maxsize=16)
-def powers_of(system) -> np.ndarray:
-    """Return the forms of a system that `account` needs, shape (4, n, 5, 21)."""
+def work_tables(system) -> np.ndarray:
+    """Return the forms of a system that `accumulate_energy` needs, shape (4, n, 5, 21)."""
     return integrals_of(system, KERNELS)
 
 
@@ -227,7 +227,7 @@ class Energy(Representation):
         """Return the energy balance of a finished run."""
         system, (flow, flights, events) = run.system, run.trajectory
         rows = np.zeros((max(run.cycles, 1), ENTRIES))
-        account(flow, powers_of(system), flights, events, system.period * np.arange(len(rows)), rows)
+        accumulate_energy(flow, work_tables(system), flights, events, system.period * np.arange(len(rows)), rows)
         total = energies(system, rows.sum(axis=0))
         per_cycle = energies(system, rows[: run.cycles])
         for array in (total, per_cycle):
@@ -255,7 +255,7 @@ def energies(system, rows) -> np.ndarray:
 
 
 @compiled
-def account(flow, forms, flights, events, begins, rows):
+def accumulate_energy(flow, forms, flights, events, begins, rows):
     """Add the integrals along the flights of a run (`departures` is enough) to rows (k, ENTRIES) of zeros.
 
     begins (k,): ascending times since the start of the run at which the rows begin; the last one goes on to the end.
@@ -277,7 +277,7 @@ def account(flow, forms, flights, events, begins, rows):
                     continue
                 t = min(t, begins[row + 1] - passed)
             boxes = _follow(flow, forms, walls, boxes, phase, t, rows[max(row, 0)], row >= 0)
-            balls = carry(balls, walls, boxes, t)
+            balls = drift_balls(balls, walls, boxes, t)
             phase, tail = ahead(phase, tail, q.omega, t)
             left, passed = left - t, passed + t
         if n < len(events):
@@ -290,7 +290,7 @@ def account(flow, forms, flights, events, begins, rows):
     rows[row, STORED] += held(q.ground, -q.k12, q.epsilon, boxes, balls)
 
 
-@unfolded
+@inlined_source
 def _follow(flow, forms, walls, boxes, phase, t, row, counted):
     """Return the boxes after a flight no longer than flow.longest; add its integrals to the row if counted."""
     q, mode, j = flow.coefficients, mode_of(walls), int(t * flow.density + 0.5)

@@ -11,8 +11,16 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
-from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, Squares, account, energies, potentials_of, powers_of
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
+from vibroimpact.exact.engine.energy import (
+    ENERGY,
+    OBSERVED,
+    Squares,
+    accumulate_energy,
+    energies,
+    potentials_of,
+    work_tables,
+)
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, go_on
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
@@ -25,10 +33,10 @@ from vibroimpact.exact.engine.observation import (
     LARGEST,
     LOST,
     PATH,
-    SEEN,
+    STATISTICS,
     STICKS,
     STORED,
-    observe,
+    accumulate_statistics,
     open_or_close,
 )
 from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
@@ -60,8 +68,8 @@ WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
 MEANS = slice(PATH, INTEGRALS + 2)
-ENERGIES = [*range(INTEGRALS + 2, SEEN), LOST, LOST + 1, STORED]
-UNSEEN = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
+ENERGIES = [*range(INTEGRALS + 2, STATISTICS), LOST, LOST + 1, STORED]
+UNOBSERVED = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
 """Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""
 MOST_RUNS, SHARES = 1024, 4
 """Runs in a piece of work; pieces per core where there are many runs."""
@@ -69,7 +77,7 @@ LATER = INADMISSIBLE + 1
 FAR = np.log(4.0)  # the rates of boxes and forcing are so far apart that flights would be many steps, each rounded
 TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
 NEAR = 1e-6  # from a wall, no ball rests on it
-SPELL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
+INTERRUPT_INTERVAL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
 
 
 def ensemble(
@@ -171,36 +179,37 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
     alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > FAR
-    seen, final = np.zeros((*shape, SEEN)), np.full((*shape, 8), np.nan)
+    statistics, final = np.zeros((*shape, STATISTICS)), np.full((*shape, 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
-    potentials, drifts = UNSEEN
+    potentials, drifts = UNOBSERVED
     if settle < cycles:
         potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED if energy else OBSERVED[:2])
         alone |= ~sound
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
     single = np.flatnonzero(alone[owners] & (status == FINISHED))
     status[single] = LATER
-    given = scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen, _memory()
-    while not _loop(*given):
+    piece = Piece(scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, statistics)
+    memory = _memory()
+    while not _loop(piece, memory):
         stop_if_given_up()
     for n in single:
-        status[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, final[n], seen[n])
+        status[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, final[n], statistics[n])
     failed = status != FINISHED
-    final[failed], seen[failed, :, :LARGEST], seen[failed, :, LARGEST:] = np.nan, 0.0, np.nan
+    final[failed], statistics[failed, :, :LARGEST], statistics[failed, :, LARGEST:] = np.nan, 0.0, np.nan
     if settle == cycles:
-        seen[..., LARGEST:] = np.nan
+        statistics[..., LARGEST:] = np.nan
     else:
-        seen[..., MEANS] /= length * np.array([system.period for system in systems])[owners, None, None]
+        statistics[..., MEANS] /= length * np.array([system.period for system in systems])[owners, None, None]
     outcomes["status"][places], outcomes["final"][places] = status[:, None], final
     for name, place in FIELDS.items():
-        outcomes[name][places] = seen[..., place : place + 2]
+        outcomes[name][places] = statistics[..., place : place + 2]
     if energy:
         for owner, system in enumerate(systems):
-            outcomes["energy"][places[owners == owner]] = energies(system, seen[owners == owner][..., ENERGIES])
+            outcomes["energy"][places[owners == owner]] = energies(system, statistics[owners == owner][..., ENERGIES])
 
 
-def _alone(system, state, begin, stages, energy, final, seen):
-    """Return the status of a run by `simulate`; fill in its final states (k, 8) and statistics (k, SEEN).
+def _alone(system, state, begin, stages, energy, final, statistics):
+    """Return the status of a run by `simulate`; fill in its final states (k, 8) and statistics (k, STATISTICS).
 
     For systems with fast and slow rates, whose flights would be many steps, and where potentials lose their digits.
     """
@@ -215,27 +224,49 @@ def _alone(system, state, begin, stages, energy, final, seen):
         if settle < stop:
             _, flights, rows = run.trajectory
             end = run.cycles * system.period, flights[0, FORCING]
-            _watch(flow, Squares(*(part[0] for part in UNSEEN)), run.start, rows, run.final, end, cycle > 0, seen[k])
+            observed, squares = statistics[k], Squares(*(part[0] for part in UNOBSERVED))
+            _watch(flow, squares, run.start, rows, run.final, end, cycle > 0, observed)
             if energy:
-                spent = np.zeros((1, ACCOUNTED))
-                account(flow, powers_of(system), flights, rows, np.zeros(1), spent)
-                seen[k, INTEGRALS + 2 :] = spent[0, : SEEN - INTEGRALS - 2]
+                energy_rows = np.zeros((1, ACCOUNTED))
+                accumulate_energy(flow, work_tables(system), flights, rows, np.zeros(1), energy_rows)
+                observed[INTEGRALS + 2 :] = energy_rows[0, : STATISTICS - INTEGRALS - 2]
     return FINISHED
 
 
 @compiled
-def _watch(flow, squares, start, rows, final, end, settled, seen):
+def _watch(flow, squares, start, rows, final, end, settled, statistics):
     """Add the statistics of a finished run; end: its duration and phase; settled: it continues another run, so that a
     ball at rest on its wall stuck there before.
     """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
-    open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, seen)
-    observe(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), seen)
-    open_or_close(flow, squares, last, 1.0, seen)
+    open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
+    accumulate_statistics(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), statistics)
+    open_or_close(flow, squares, last, 1.0, statistics)
     for n in range(len(rows)):
         if settled and rows[n, TIME] == 0.0 and rows[n, KIND] == STICK and rows[n, APPROACH] == 0.0:
-            seen[STICKS + int(rows[n, MODULE]) - 1] -= 1.0
+            statistics[STICKS + int(rows[n, MODULE]) - 1] -= 1.0
+
+
+class Piece(NamedTuple):
+    """Runs to be done, and what comes out.
+
+    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; starts (n, 8);
+    stages: cycles before the observation, all, and in each of its k windows; status (n,); final (n, k, 8); statistics
+    (n, k, STATISTICS).
+    """
+
+    numbers: np.ndarray
+    rates: np.ndarray
+    phases: np.ndarray
+    potentials: np.ndarray
+    drifts: np.ndarray
+    owners: np.ndarray
+    starts: np.ndarray
+    stages: tuple[int, int, int]
+    status: np.ndarray
+    final: np.ndarray
+    statistics: np.ndarray
 
 
 class Memory(NamedTuple):
@@ -243,7 +274,7 @@ class Memory(NamedTuple):
 
     runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts
     were looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact
-    states; series, rotations: `flow_tables.tables`; kept: constants; rows, counters, seen, change: room to work in.
+    states; series, rotations: `flow_tables.tables`; known: constants; rows, counters, statistics, change: room.
     """
 
     runs: np.ndarray
@@ -256,10 +287,10 @@ class Memory(NamedTuple):
     made: np.ndarray
     series: np.ndarray
     rotations: np.ndarray
-    kept: np.ndarray
+    known: np.ndarray
     rows: np.ndarray
     counters: np.ndarray
-    seen: np.ndarray
+    statistics: np.ndarray
     change: np.ndarray
 
 
@@ -278,36 +309,34 @@ def _memory():
         np.zeros((WIDTH, march.CONSTANTS)),
         np.empty((2 * kernel.MOST_AT_ONCE, ROW)),
         np.zeros((WIDTH, ENTRIES)),
-        np.zeros(SEEN),
+        np.zeros(STATISTICS),
         np.zeros((6, 6)),
     )
 
 
 @compiled
-def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, status, final, seen, memory):
-    """Run the initial states (n, 8) of a piece whose status is FINISHED, as many at once as there are lanes; fill in
-    their status, final states and statistics. Returns False after a while: then call again.
-
-    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; stages: cycles
-    before the observation, all, and in each of its k windows; final (n, k, 8); seen (n, k, SEEN).
+def _loop(piece, memory):
+    """Run the starts of a piece whose status is FINISHED, as many at once as there are lanes; fill in their status,
+    final states and statistics. Returns False after a while: then call again.
     """
-    m, integrals, steps = memory, drifts.shape[2] if stages[0] < stages[1] else 0, 0
-    squares = Squares(potentials[0], drifts[0])  # a type for the compiler
+    m, stages, steps = memory, piece.stages, 0
+    integrals = piece.drifts.shape[2] if stages[0] < stages[1] else 0
+    squares = Squares(piece.potentials[0], piece.drifts[0])  # a type for the compiler
     while True:
         alive = 0
         for lane in range(WIDTH):
-            while m.members[lane] < 0 and m.begun[0] < len(starts):
+            while m.members[lane] < 0 and m.begun[0] < len(piece.starts):
                 n = m.begun[0]
                 m.begun[0] += 1
-                if status[n] == FINISHED:
-                    _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, final, seen, m)
+                if piece.status[n] == FINISHED:
+                    _begin(piece, n, lane, m)
             alive += m.members[lane] >= 0
             if m.members[lane] < 0:
                 m.runs[march.ALIVE, lane] = 0.0
         if alive == 0:
             return True
-        if steps > SPELL:
-            _stop_crowded(stages, status, m)
+        if steps > INTERRUPT_INTERVAL:
+            _stop_crowded(piece, m)
             return False
         steps += march.march(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
         if march.meet(m.runs, m.constants, m.work, integrals) == 0:
@@ -317,58 +346,58 @@ def _loop(numbers, rates, phases, potentials, drifts, owners, starts, stages, st
             if n < 0 or outcome == march.NOTHING:
                 continue
             steps += 64
-            owner, slot = owners[n], m.slots[lane]
-            flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
+            owner, slot = piece.owners[n], m.slots[lane]
+            flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
             if integrals > 0:
-                squares = Squares(potentials[owner], drifts[owner])
+                squares = Squares(piece.potentials[owner], piece.drifts[owner])
             if outcome == march.DOUBTFUL:
-                ended = _by_events(flow, rates[owner], squares, stages, n, lane, final, seen, m)
+                ended = _by_events(piece, flow, squares, n, lane, m)
             else:
                 stop, motion = m.runs[march.STOP, lane], _motion_of(m.runs, lane)
-                ended = FINISHED if _is_last(flow, squares, motion, stages, n, lane, final, seen, m) else PAUSED
-                m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
+                ended = FINISHED if _is_last(piece, flow, squares, motion, n, lane, m) else PAUSED
+                m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = piece.phases[owner]
                 m.runs[march.TURNS, lane], m.runs[march.TRIAL, lane], m.runs[march.REACH, lane] = stop, 0.0, 0.0
             if ended != PAUSED:
-                status[n], m.members[lane] = ended, -1
+                piece.status[n], m.members[lane] = ended, -1
 
 
 @in_place
-def _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
+def _is_last(piece, flow, squares, motion, n, lane, m):
     """Return True if a run is at its end. Close the window of its observation that ends there, else open the next."""
-    settle, cycles, length = stages
+    settle, cycles, length = piece.stages
     stop, watched = int(m.runs[march.STOP, lane]), m.runs[march.WATCHED, lane] > 0.0
     if watched or stop == cycles:
         k = (stop - settle) // length - 1 if watched else 0
         for i in range(4):
-            final[n, k, 2 * i], final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
+            piece.final[n, k, 2 * i], piece.final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
         if watched:
             march.find_turns(m.runs, m.constants, m.work)
             _read(m, lane)
-            open_or_close(flow, squares, motion, 1.0, m.seen)
-            for place in range(SEEN):
-                seen[n, k, place] = m.seen[place]
+            open_or_close(flow, squares, motion, 1.0, m.statistics)
+            for place in range(STATISTICS):
+                piece.statistics[n, k, place] = m.statistics[place]
     if stop == cycles:
         return True
     m.runs[march.STOP, lane], m.runs[march.WATCHED, lane] = stop + length, 1.0
-    m.seen[:] = 0.0
-    open_or_close(flow, squares, motion, -1.0, m.seen)
+    m.statistics[:] = 0.0
+    open_or_close(flow, squares, motion, -1.0, m.statistics)
     _write(m, lane)
     return False
 
 
 @in_place
-def _stop_crowded(stages, status, m):
+def _stop_crowded(piece, m):
     """Give up runs with too many events."""
-    most = kernel.MOST_EVENTS + kernel.MOST_EVENTS_PER_CYCLE * float(stages[1])
+    most = kernel.MOST_EVENTS + kernel.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
     for lane in range(WIDTH):
         if m.members[lane] >= 0 and m.runs[march.EVENTS, lane] > most:
-            status[m.members[lane]], m.members[lane] = kernel.CROWDED, -1
+            piece.status[m.members[lane]], m.members[lane] = kernel.CROWDED, -1
 
 
-@unfolded
-def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n, lane, final, seen, m):
+@inlined_source
+def _begin(piece, n, lane, m):
     """Put a start into a lane."""
-    owner, slot = owners[n], -1
+    owner, slot, stages = piece.owners[n], -1, piece.stages
     for k in range(WIDTH):
         if m.owners[k] == owner:
             slot = k
@@ -381,21 +410,24 @@ def _begin(numbers, rates, phases, potentials, drifts, owners, starts, stages, n
                 slot = k
         m.owners[slot], m.made[slot, 0] = owner, True
         m.made[slot, 1:] = False
-        flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
+        flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
         j = int(march.LONGEST_STEP / max(flow.rate, flow.coefficients.omega) * flow.density)
-        fill_table(rates[owner], np.intp(0), flow.spacing, flow.series, flow.rotations, j, m.change)
-        _fill_constants(flow, m.change, j * flow.spacing, phases[owner], potentials, drifts, owner, m.kept[slot])
+        fill_table(piece.rates[owner], np.intp(0), flow.spacing, flow.series, flow.rotations, j, m.change)
+        _fill_constants(piece, owner, flow, m.change, j * flow.spacing, m.known[slot])
     m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
-    m.constants[:, lane], m.runs[:, lane] = m.kept[slot], 0.0
+    m.constants[:, lane], m.runs[:, lane] = m.known[slot], 0.0
     for i in range(4):
-        m.runs[march.X1 + i, lane], m.runs[march.Y1 + i, lane] = starts[n, 2 * i], starts[n, 2 * i + 1]
-    m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = phases[owner]
+        m.runs[march.X1 + i, lane], m.runs[march.Y1 + i, lane] = piece.starts[n, 2 * i], piece.starts[n, 2 * i + 1]
+    m.runs[march.PHASE, lane], m.runs[march.TAIL, lane] = piece.phases[owner]
     m.runs[march.ALIVE, lane], m.runs[march.DUE, lane], m.runs[march.STOP, lane] = 1.0, -1.0, stages[0]
-    m.runs[march.SINE, lane], m.runs[march.COSINE, lane] = np.sin(phases[owner, 0]), np.cos(phases[owner, 0])
+    m.runs[march.SINE, lane], m.runs[march.COSINE, lane] = (
+        np.sin(piece.phases[owner, 0]),
+        np.cos(piece.phases[owner, 0]),
+    )
     if stages[0] == 0 < stages[1]:
-        flow = unpacked(numbers[owner], m.series[slot], m.rotations[slot])
-        squares = Squares(potentials[owner], drifts[owner])
-        _is_last(flow, squares, _motion_of(m.runs, lane), stages, n, lane, final, seen, m)
+        flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
+        squares = Squares(piece.potentials[owner], piece.drifts[owner])
+        _is_last(piece, flow, squares, _motion_of(m.runs, lane), n, lane, m)
 
 
 @inlined
@@ -407,20 +439,20 @@ def _motion_of(runs, lane):
 
 @inlined
 def _read(m, lane):
-    for k in range(SEEN):
-        m.seen[k] = m.runs[march.SEEN_AT + k, lane]
+    for k in range(STATISTICS):
+        m.statistics[k] = m.runs[march.STATISTICS_AT + k, lane]
 
 
 @inlined
 def _write(m, lane):
-    for k in range(SEEN):
-        m.runs[march.SEEN_AT + k, lane] = m.seen[k]
+    for k in range(STATISTICS):
+        m.runs[march.STATISTICS_AT + k, lane] = m.statistics[k]
 
 
-@unfolded
-def _fill_constants(flow, change, step, phase, potentials, drifts, owner, c):
+@inlined_source
+def _fill_constants(piece, owner, flow, change, step, c):
     """Fill in the constants (CONSTANTS,) of a system."""
-    q = flow.coefficients
+    q, phase = flow.coefficients, piece.phases[owner]
     for row in range(4):
         for k in range(6):
             c[6 * row + k] = change[row, k]
@@ -436,15 +468,15 @@ def _fill_constants(flow, change, step, phase, potentials, drifts, owner, c):
     c[march.ROUNDING], c[march.LEAST_ROUNDING] = march.ROUNDED * 6.0 * far, march.ROUNDED * (2.0 + q.shift)
     c[march.UNIT], c[march.FIRST], c[march.FIRST_TAIL] = flow.unit, phase[0], phase[1]
     c[march.LOSS] = 0.5 * q.epsilon * q.inverse_mass * (1.0 - q.kappa) * (1.0 + q.kappa)
-    for k in range(drifts.shape[2]):
-        c[march.DRIFTS + k] = drifts[owner, 0, k]
+    for k in range(piece.drifts.shape[2]):
+        c[march.DRIFTS + k] = piece.drifts[owner, 0, k]
         for i in range(2):
             for z in range(6):
-                c[march.FALLS + 12 * k + 6 * i + z] = potentials[owner, 0, k, 2 + i, z]
+                c[march.DROPS + 12 * k + 6 * i + z] = piece.potentials[owner, 0, k, 2 + i, z]
 
 
-@unfolded
-def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
+@inlined_source
+def _by_events(piece, flow, squares, n, lane, m):
     """Carry the run of a lane on by the event loop to where both balls fly; return PAUSED, or the status of a finished
     run.
     """
@@ -455,7 +487,7 @@ def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
     stalled, due = int(runs[march.STALLED, lane]), int(runs[march.DUE, lane])
     progress = Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
     while True:
-        _make_tables(flow, rates, progress, m.made[m.slots[lane]], m.change)
+        _make_tables(flow, piece.rates[piece.owners[n]], progress, m.made[m.slots[lane]], m.change)
         stop = int(runs[march.STOP, lane])
         counters[EVENTS] = 0.0
         motion, log, earlier = progress.motion, Log(m.rows, counters), runs[march.EVENTS, lane]
@@ -467,11 +499,13 @@ def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
         runs[march.EVENTS, lane] += noted
         if runs[march.WATCHED, lane] > 0.0:
             _read(m, lane)
-            observe(flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.seen)
+            accumulate_statistics(
+                flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.statistics
+            )
             _write(m, lane)
         sine, cosine = np.sin(progress.phase), np.cos(progress.phase)
         motion = Motion(motion.boxes, motion.balls, motion.walls, (0, 0), sine, cosine)
-        if ended == FINISHED and not _is_last(flow, squares, motion, stages, n, lane, final, seen, m):
+        if ended == FINISHED and not _is_last(piece, flow, squares, motion, n, lane, m):
             continue
         if ended != PAUSED or mode_of(motion.walls) == 0:
             break
@@ -487,7 +521,7 @@ def _by_events(flow, rates, squares, stages, n, lane, final, seen, m):
     return ended
 
 
-@unfolded
+@inlined_source
 def _make_tables(flow, rates, progress, made, change):
     """Make the tables of the contact states that the next events can lead to."""
     motion = progress.motion

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, nearby_zero, remainder
 from vibroimpact.exact.engine.flow import along, jet_at, unpacked
@@ -34,18 +34,18 @@ from vibroimpact.exact.engine.motion import (
     UNDECIDED,
     Log,
     Motion,
-    carry,
-    glide,
+    drift_balls,
+    free_flight,
     mode_of,
     pack,
 )
 from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
 
 TRIES = 3
-STUCK_IN_TIME, TIRED = -2, -3
+STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 
-@unfolded
+@inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
     """Fly to the next event, the end of the run or of the table; return (time, module due or -1, boxes, balls).
 
@@ -64,31 +64,31 @@ def fly(flow, motion, remaining, most_proofs, counters):
         jets = jet_at(flow, mode, now.boxes, now.sine, now.cosine, 0)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
-        due, step, width, safe, doubt = _next(q, now, jets, bound, horizon, short)
+        due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
         step = step if step >= -t else 0.0  # an event that was just passed is not before the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[UNDECIDED] += doubt
             boxes = along(jets, step)
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
-            met, end, boxes = _aim(flow, motion, due, end, end - width, end + width)
+            met, end, boxes = _refine_impact_time(flow, motion, due, end, end - width, end + width)
         if met:
-            return end, due, boxes, carry(motion.balls, motion.walls, boxes, end)
+            return end, due, boxes, drift_balls(motion.balls, motion.walls, boxes, end)
         if not t + safe > t:
             return t, STUCK_IN_TIME, now.boxes, now.balls
         if counters[EVALUATIONS] > most_proofs:
-            return t, TIRED, now.boxes, now.balls
+            return t, OUT_OF_PROOFS, now.boxes, now.balls
         t = min(t + safe, reach)
-        now = glide(flow, motion, t)
+        now = free_flight(flow, motion, t)
 
 
-@unfolded
-def _next(q, motion, jets, bound, horizon, short):
+@inlined_source
+def _first_event(q, motion, jets, bound, horizon, short):
     """Return the first event: (module or -1, its time, width of that, time before which nothing happens, doubt).
 
     Module -1: no event is certain to be the first.
     """
-    one = _sooner(motion.boxes, motion.balls)
+    one = _first_to_check(motion.boxes, motion.balls)
     two = 1 - one
     t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
@@ -109,8 +109,8 @@ def _bounds(t, width, short):
     return w, t - w
 
 
-@unfolded
-def _sooner(boxes, balls):
+@inlined_source
+def _first_to_check(boxes, balls):
     """Return the module whose ball reaches the wall ahead first at its present speed."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
@@ -119,14 +119,14 @@ def _sooner(boxes, balls):
 
 
 @inlined
-def _aim(flow, motion, i, t, low, high):
+def _refine_impact_time(flow, motion, i, t, low, high):
     """Find the only impact of module i in [low, high]; return (True if found, its time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         now = jets[0][0], jets[1][0], jets[0][1], jets[1][1]
-        there = carry(motion.balls, motion.walls, now, j * flow.spacing)
+        there = drift_balls(motion.balls, motion.walls, now, j * flow.spacing)
         w = 1.0 if now[i] > there[i] else -1.0
         step = nearby_zero(gap(jets[0] if i == 0 else jets[1], there[i], there[2 + i], w), t - j * flow.spacing)
         t = j * flow.spacing + step
@@ -149,7 +149,7 @@ ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # for events, to begin with: few 
 MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run with more events is given up: only kappa next to 1 can chatter so long."""
-SPELL = 200_000  # exclusions, some 20 ms, between two looks for an interrupt
+INTERRUPT_INTERVAL = 200_000  # exclusions, some 20 ms, between two looks for an interrupt
 PATIENCE = 100_000  # events without any progress of time after which a run is given up
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
@@ -175,34 +175,44 @@ class Progress(NamedTuple):
 
 @compiled
 def integrate(
-    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, counters, where
+    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, counters, checkpoint
 ):
     """Integrate from a state (8,), in public order, over a number of forcing cycles, or continue such a run.
 
     numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
     times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
-    state after it), and final (8,) if the run is finished. rows, counters, where: `memory`, filled. Returns the status:
-    PAUSED if rows are full (`is_full`: make room), or after SPELL exclusions, for the interpreter to see to an
-    interrupt; then call again. A number, as the interpreter makes an array of a result with an interrupt half-way.
+    state after it), and final (8,) if the run is finished. rows, counters, checkpoint: `memory`, filled. Returns the
+    status: PAUSED if rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL exclusions, for the interpreter
+    to see to an interrupt; then call again. A number, as the interpreter makes an array of a result with an interrupt
+    half-way.
     """
     flow = unpacked(numbers, series, rotations)
     if counters[FLIGHTS] == 0.0:
         boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
         progress = Progress(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
     else:
-        progress = kept_progress(where)
+        progress = progress_at(checkpoint)
     log = Log(rows, counters)
     progress, status = go_on(
-        flow, progress, (phase, tail), cycles, start, times, samples, log, where[EARLIER], np.int64(SPELL)
+        flow,
+        progress,
+        (phase, tail),
+        cycles,
+        start,
+        times,
+        samples,
+        log,
+        checkpoint[EARLIER],
+        np.int64(INTERRUPT_INTERVAL),
     )
     if status == FINISHED:
         pack(progress.motion.boxes, progress.motion.balls, final)
-    keep_progress(progress, where)
+    write_checkpoint(progress, checkpoint)
     return status
 
 
 def memory(cycles):
-    """Return memory for a run: rows of events, a counters, and the place where it pauses."""
+    """Return memory for a run: rows of events, counters, and a checkpoint."""
     room = min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     return np.empty((room, ROW)), np.zeros(ENTRIES), np.zeros(PLACES)
 
@@ -212,46 +222,46 @@ def is_full(rows, counters):
     return counters[EVENTS] + MOST_AT_ONCE > len(rows)
 
 
-def empty_rows(counters, where):
+def empty_rows(counters, checkpoint):
     """Count the events of full rows as earlier ones, so that the run continues in new rows."""
-    where[EARLIER] += counters[EVENTS]
+    checkpoint[EARLIER] += counters[EVENTS]
     counters[EVENTS] = 0.0
 
 
-@unfolded
-def keep_progress(progress, where):
-    """Write down the state of a paused run."""
+@inlined_source
+def write_checkpoint(progress, checkpoint):
+    """Write down the state of a paused run in a checkpoint."""
     motion = progress.motion
     for k in range(4):
-        where[k], where[4 + k] = motion.boxes[k], motion.balls[k]
+        checkpoint[k], checkpoint[4 + k] = motion.boxes[k], motion.balls[k]
     for i in range(2):
-        where[8 + i], where[10 + i] = motion.walls[i], motion.touching[i]
-    where[12], where[13], where[14], where[15] = (
+        checkpoint[8 + i], checkpoint[10 + i] = motion.walls[i], motion.touching[i]
+    checkpoint[12], checkpoint[13], checkpoint[14], checkpoint[15] = (
         progress.due,
         progress.phase,
         progress.tail,
         progress.revolutions,
     )
-    where[16], where[17], where[18] = progress.elapsed, progress.sampled, progress.stalled
+    checkpoint[16], checkpoint[17], checkpoint[18] = progress.elapsed, progress.sampled, progress.stalled
 
 
-@unfolded
-def kept_progress(where):
+@inlined_source
+def progress_at(checkpoint):
     """Return the state of a paused run."""
-    w = where
+    w = checkpoint
     boxes, balls = (w[0], w[1], w[2], w[3]), (w[4], w[5], w[6], w[7])
     motion = Motion(boxes, balls, (int(w[8]), int(w[9])), (int(w[10]), int(w[11])), 0.0, 1.0)
     return Progress(motion, int(w[12]), w[13], w[14], int(w[15]), w[16], int(w[17]), int(w[18]))
 
 
 @in_place
-def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log, earlier, spell):
-    """Continue to the end or to a pause (rows full, or more than spell exclusions); return (progress, status)."""
+def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log, earlier, interval):
+    """Continue to the end or to a pause (rows full, or more than interval exclusions); return (progress, status)."""
     q = flow.coefficients
     (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, progress
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
-    status, pause = FINISHED, log.counters[EVALUATIONS] + spell
+    status, pause = FINISHED, log.counters[EVALUATIONS] + interval
     while True:
         sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.counters[EVENTS])
@@ -281,7 +291,7 @@ def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log
                 (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
         before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
         while sampled < len(sample_times) and sample_times[sampled] < start + elapsed:
-            then = glide(flow, motion, max(sample_times[sampled] - start - before, 0.0))
+            then = free_flight(flow, motion, max(sample_times[sampled] - start - before, 0.0))
             pack(then.boxes, then.balls, samples[sampled])
             sampled += 1
         motion = Motion(later, there, motion.walls, (0, 0), sine, cosine)
@@ -291,7 +301,7 @@ def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log
     return Progress(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), status
 
 
-@unfolded
+@inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
     """Return the reason for giving up a run after a flight, or FINISHED."""
     for i in range(2):
@@ -300,6 +310,6 @@ def _failure(q, boxes, balls, due, stalled, count, most_events):
             return PENETRATED
     if stalled > PATIENCE or due == STUCK_IN_TIME:
         return STALLED
-    if due == TIRED:
+    if due == OUT_OF_PROOFS:
         return EXHAUSTED
     return CROWDED if count > most_events else FINISHED

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import inlined, unfolded
+from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, slope, value
 from vibroimpact.exact.engine.motion import mode_of
 
@@ -262,7 +262,7 @@ def _leaving_time(c, bound, margin, horizon, rises):
     return max(time, safe_time((margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon))
 
 
-@unfolded
+@inlined_source
 def _hop_time(c, bound, margin, horizon, short):
     """Return (time, True if the hop ends then) for the wall that the ball touches; c[1] >= 0 is its velocity away.
 
@@ -298,7 +298,7 @@ def module_time(q, motion, i, jets, bound, horizon, short):
     return _turning_time(q, motion, i, jets, bound, horizon, short)
 
 
-@unfolded
+@inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
     """Return module_time of a sticking ball: its constraint is that the wall pushes it."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
@@ -312,7 +312,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
     return t, (0.0 if met else math.inf), met
 
 
-@unfolded
+@inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
     """Return module_time of a flying ball whose relative velocity may change sign: its constraints are both gaps."""
     boxes, balls = motion.boxes, motion.balls

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
-from vibroimpact.exact.engine.compiled import inlined, unfolded
+from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow_tables import exact_rates, tables
 from vibroimpact.exact.engine.lanes import weighted_sum
 
@@ -120,7 +120,7 @@ def tables_of(system) -> tuple[np.ndarray, ...]:
     return np.array([*coefficients, *rest]), series, rotations
 
 
-@unfolded
+@inlined_source
 def unpacked(numbers, series, rotations):
     """Return the Flow of these tables."""
     n = to_fixed_tuple(numbers, NUMBERS)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.phase import fused
 
 SIZE, BOXES = 6, 4  # of z = [X1, X2, X1', X2', sin, cos] and of what there is of the boxes
@@ -58,7 +58,7 @@ def exact_rates(parameters):
     return rates, impulses, fastest
 
 
-@unfolded
+@inlined_source
 def _put(rows, i, j, base, e, first, second):
     """Set an entry to base + e (first + second), in pairs."""
     high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
@@ -110,7 +110,7 @@ def fill_table(rates, mode, spacing, series, rotations, step, change):
             change[i, j] = (power[0, i, j, step] - (1.0 if i == j else 0.0)) + power[1, i, j, step]
 
 
-@unfolded
+@inlined_source
 def _fill_unit(matrices, place):
     """Set the matrix at a place to the unit matrix, in pairs."""
     for i in range(SIZE):
@@ -118,7 +118,7 @@ def _fill_unit(matrices, place):
             matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
 
 
-@unfolded
+@inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
     """Fill in the first power, exp(A_k spacing), at place 1. term, after: (2, 6, 6, 1), room to work in."""
     _fill_unit(powers, 1)
@@ -140,7 +140,7 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
                 powers[0, i, j, 1], powers[1, i, j, 1] = _sum(powers[0, i, j, 1], powers[1, i, j, 1], high, low)
 
 
-@unfolded
+@inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
     """Fill in the Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, z' = A_k z.
 
@@ -161,7 +161,7 @@ def _fill_coefficients(rates, k, rows, power, after):
                 power[0, i, j, 0] = after[0, i, j, 0]
 
 
-@unfolded
+@inlined_source
 def _expand(coefficients, powers, series, mode):
     """Fill in series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
     for j in range(powers.shape[3]):
@@ -174,7 +174,7 @@ def _expand(coefficients, powers, series, mode):
                 series[mode, j, m, k] = positions + velocities + (e * coefficients[4, k] + f * coefficients[5, k])
 
 
-@unfolded
+@inlined_source
 def _multiply(powers, last, many):
     """Append powers behind the last one, each the last times one from the first on.
 

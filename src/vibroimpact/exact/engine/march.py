@@ -19,7 +19,7 @@ from vibroimpact.exact.engine.compiled import in_place, inlined
 from vibroimpact.exact.engine.contact import LOW
 from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD
 from vibroimpact.exact.engine.lanes import count, load, store, where
-from vibroimpact.exact.engine.observation import IMPACTS, INTEGRALS, LARGEST, LOST, PATH, SEEN
+from vibroimpact.exact.engine.observation import IMPACTS, INTEGRALS, LARGEST, LOST, PATH, STATISTICS
 from vibroimpact.exact.engine.phase import (
     QUARTER,
     QUARTER_TAIL,
@@ -33,8 +33,8 @@ from vibroimpact.exact.engine.phase import (
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
-PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, SEEN_AT = range(18, 28)
-TURNS_AT = SEEN_AT + SEEN
+PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(18, 28)
+TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
 """Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; the
@@ -46,8 +46,8 @@ may be its largest displacement (`find_turns`): boxes and forcing at a time near
 turn, a bound on its displacement, 1 if there is one."""
 
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
-BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, FALLS = (*range(42, 51), 58)
-CONSTANTS = FALLS + 12 * (SEEN - INTEGRALS)
+BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(42, 51), 58)
+CONSTANTS = DROPS + 12 * (STATISTICS - INTEGRALS)
 """Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h; h;
 scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
 lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
@@ -104,8 +104,8 @@ def march(runs, c, work, enough):
     step, third, reach = load(c, STEP), load(c, STEP) * (1 / 3), load(runs, REACH)
     alive, watched = load(runs, ALIVE) > 0.0, load(runs, WATCHED) > 0.0
     ready = (load(runs, TRIAL) == step) & (load(runs, DUE) < 0.0)
-    most1 = where(watched, load(runs, SEEN_AT + LARGEST), math.inf)
-    most2 = where(watched, load(runs, SEEN_AT + LARGEST + 1), math.inf)
+    most1 = where(watched, load(runs, STATISTICS_AT + LARGEST), math.inf)
+    most2 = where(watched, load(runs, STATISTICS_AT + LARGEST + 1), math.inf)
     square = step * step
     less = fused(load(c, BEND), square * square, load(c, ROUNDING)) * (load(c, DRIVE) * step)
     ca, sa = load(c, CA), load(c, SA)
@@ -127,8 +127,8 @@ def march(runs, c, work, enough):
         if count(turns1 | turns2) > 0:
             early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
             _keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
-            most1 = where(watched, load(runs, SEEN_AT + LARGEST), math.inf)
-            most2 = where(watched, load(runs, SEEN_AT + LARGEST + 1), math.inf)
+            most1 = where(watched, load(runs, STATISTICS_AT + LARGEST), math.inf)
+            most2 = where(watched, load(runs, STATISTICS_AT + LARGEST + 1), math.inf)
         s, k = where(ok, s_later, s), where(ok, k_later, k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
@@ -370,12 +370,12 @@ def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, 
     there, t, time, wrong = flight
     watched, third = (load(runs, WATCHED) > 0.0) & there, t * (1 / 3)
     for i in range(2):
-        hit, row, approach = watched & hits[i], SEEN_AT + LARGEST + i, late[i] - balls[i]
+        hit, row, approach = watched & hits[i], STATISTICS_AT + LARGEST + i, late[i] - balls[i]
         _add(runs, hit, IMPACTS + i, 1.0)
         _add(runs, hit, LOST + i, load(c, LOSS) * (approach * approach))
         _add(runs, watched, PATH + i, abs(balls[i]) * time)
         _replace(runs, watched, row, _most(abs(boxes[i]), load(runs, row)))
-    most = load(runs, SEEN_AT + LARGEST), load(runs, SEEN_AT + LARGEST + 1)
+    most = load(runs, STATISTICS_AT + LARGEST), load(runs, STATISTICS_AT + LARGEST + 1)
     turns1 = watched & _may_turn_beyond(most[0] - wrong, early[0], early[2], boxes[0], late[0], third)
     turns2 = watched & _may_turn_beyond(most[1] - wrong, early[1], early[3], boxes[1], late[1], third)
     if count(turns1 | turns2) > 0:
@@ -383,15 +383,15 @@ def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, 
     z = 2.0 * boxes[0], 2.0 * boxes[1], late[0] + after[0], late[1] + after[1], 2.0 * forcing[0], 2.0 * forcing[1]
     change = where(hits[0], late[0] - after[0], where(hits[1], late[1] - after[1], 0.0))
     for k in range(integrals):
-        place, fall = FALLS + 12 * k, 0.0 * t
+        place, drop = DROPS + 12 * k, 0.0 * t
         for m in range(6):
-            fall = fused(where(hits[0], load(c, place + m), load(c, place + 6 + m)), z[m], fall)
-        _add(runs, watched, INTEGRALS + k, fused(change, fall, load(c, DRIFTS + k) * time))
+            drop = fused(where(hits[0], load(c, place + m), load(c, place + 6 + m)), z[m], drop)
+        _add(runs, watched, INTEGRALS + k, fused(change, drop, load(c, DRIFTS + k) * time))
 
 
 @inlined
 def _add(runs, mask, place, value):
-    row = SEEN_AT + place
+    row = STATISTICS_AT + place
     store(runs, row, load(runs, row) + where(mask, value, 0.0))
 
 
@@ -411,19 +411,19 @@ def _keep_turns(runs, c, work, turns, wrong, early, late, step):
         before, after = fused(part, middle - first, first), fused(part, last - middle, middle)
         ends, corners = _most(abs(x), abs(y)), _most(abs(first), abs(last))
         highest = _most(_most(ends, corners), _most(abs(before), abs(after))) + wrong
-        turned = turns[i] & (highest > load(runs, SEEN_AT + LARGEST + i))
+        turned = turns[i] & (highest > load(runs, STATISTICS_AT + LARGEST + i))
         if count(turned) == 0:
             continue
         lowest = abs(fused(part, after - before, before)) - wrong
         if count(turned & (load(runs, row + KEPT) > 0.0) & (load(runs, row + HIGHEST) > lowest)) > 0:
             find_turns(runs, c, work)
-        is_late, record = part > 0.5, load(runs, SEEN_AT + LARGEST + i)
+        is_late, record = part > 0.5, load(runs, STATISTICS_AT + LARGEST + i)
         for k in range(6):
             _replace(runs, turned, row + k, where(is_late, late[k], early[k]))
         _replace(runs, turned, row + SINCE, step * where(is_late, part - 1.0, part))
         _replace(runs, turned, row + HIGHEST, highest)
         _replace(runs, turned, row + KEPT, 1.0)
-        _replace(runs, turned, SEEN_AT + LARGEST + i, _most(record, lowest))
+        _replace(runs, turned, STATISTICS_AT + LARGEST + i, _most(record, lowest))
 
 
 @in_place
@@ -444,8 +444,8 @@ def find_turns(runs, c, work):
                 t = where(abs(later) <= load(c, STEP), later, t)
             value, slope = _at(work, first, t)
             turned = abs(value - 0.5 * slope * slope / _bend(work, first, t))
-            record = load(runs, SEEN_AT + LARGEST + i)
-            _replace(runs, kept & (turned > record), SEEN_AT + LARGEST + i, turned)
+            record = load(runs, STATISTICS_AT + LARGEST + i)
+            _replace(runs, kept & (turned > record), STATISTICS_AT + LARGEST + i, turned)
             store(runs, row + KEPT, 0.0)
 
 

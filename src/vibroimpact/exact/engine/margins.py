@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.contact import box_accelerations
 from vibroimpact.exact.engine.exclusion import (
     LOOKAHEAD,
@@ -23,7 +23,7 @@ from vibroimpact.exact.engine.exclusion import (
     remainder,
 )
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, value
-from vibroimpact.exact.engine.motion import PHASE, Motion, carry, mode_of, pair
+from vibroimpact.exact.engine.motion import PHASE, Motion, drift_balls, mode_of, pair
 from vibroimpact.exact.engine.phase import ahead
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
@@ -54,7 +54,7 @@ def turning_points(flow, flights):
     return turns
 
 
-@unfolded
+@inlined_source
 def _search(flow, motion, length, least_of):
     """Record the turns of a flight no longer than flow.longest; return boxes and balls at its end."""
     q, walls = flow.coefficients, motion.walls
@@ -76,7 +76,7 @@ def _search(flow, motion, length, least_of):
         sides = (rate1[0] if rate1[0] != 0.0 else sides[0], rate2[0] if rate2[0] != 0.0 else sides[1])
         end = t + step if t + step > t else length
         now, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, end)
-        there = carry(motion.balls, walls, now, end)
+        there = drift_balls(motion.balls, walls, now, end)
         for i in range(2):
             rate = _rate_at(q, walls, now, there, s, c, i)
             if rate * sides[i] < 0.0:
@@ -140,7 +140,7 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
     return 6.0 * (jets[0] if i == 0 else jets[1])[3]
 
 
-@unfolded
+@inlined_source
 def _note(flow, motion, i, times, rates, least_of):
     """Find the turn of module i between two times of a flight, given the rates there; record it if it is a minimum."""
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
@@ -165,7 +165,7 @@ def _note(flow, motion, i, times, rates, least_of):
         if walls[i] * early < 0.0:
             least_of[FORCE] = min(least_of[FORCE], force)
         return
-    y = carry(balls, walls, x, t)
+    y = drift_balls(balls, walls, x, t)
     relative = x[i] - y[i]
     if relative * early > 0.0:
         gap = 1.0 - abs(relative)
@@ -233,7 +233,7 @@ def _lower(margins, margin):
         margins[k] = np.minimum(margins[k], margin)
 
 
-@unfolded
+@inlined_source
 def _of_event(q, walls, boxes, balls, events, n, left):
     """Return the distance of an event from the end of the run, a given time later; for a release, at most its depth."""
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
@@ -249,7 +249,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
     return math.inf
 
 
-@unfolded
+@inlined_source
 def _at_start(q, boxes, balls, phase):
     """Return the distance of the start from another contact state of its balls."""
     margin = math.inf
@@ -262,7 +262,7 @@ def _at_start(q, boxes, balls, phase):
     return margin
 
 
-@unfolded
+@inlined_source
 def _at_end(q, walls, boxes, balls, phase):
     """Return the distance of the end from the next event: of a ball approaching a wall, or of one that is held less and
     less.

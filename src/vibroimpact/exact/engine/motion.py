@@ -66,7 +66,7 @@ def with_contacts(motion, i, wall, touching):
 
 
 @inlined
-def carry(balls, walls, boxes, t):
+def drift_balls(balls, walls, boxes, t):
     """Return the balls a time t after the start of a flight; the boxes are there already."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
@@ -77,10 +77,10 @@ def carry(balls, walls, boxes, t):
 
 
 @inlined
-def glide(flow, motion, t):
+def free_flight(flow, motion, t):
     """Return the motion a time t later, without an event in between; only sticking balls touch a wall."""
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
-    return Motion(boxes, carry(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
+    return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
 EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)

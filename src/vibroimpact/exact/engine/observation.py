@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import in_place, inlined, unfolded
-from vibroimpact.exact.engine.energy import add_falls, add_potentials, held, lost
+from vibroimpact.exact.engine.compiled import in_place, inlined, inlined_source
+from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, held, lost
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
-from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, glide, mode_of, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, free_flight, mode_of, with_velocity
 from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
-IMPACTS, STICKS, LARGEST, LOST, STORED, PATH, INTEGRALS, SEEN = 0, 2, 4, 6, 8, 9, 11, 18
+IMPACTS, STICKS, LARGEST, LOST, STORED, PATH, INTEGRALS, STATISTICS = 0, 2, 4, 6, 8, 9, 11, 18
 """Places of the statistics of a run: for each module impacts and sticks, the largest |X_i| and the energy lost
 in impacts; the change of the stored energy; the length of each ball's path; integrals (`energy.OBSERVED`); number."""
 
@@ -21,8 +21,8 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 
 
 @in_place
-def observe(flow, squares, departure, events, count, arrival, seen):
-    """Add the statistics of a piece of a run to seen (SEEN,), without the potentials at its ends.
+def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
+    """Add the statistics of a piece of a run to statistics (STATISTICS,), without the potentials at its ends.
 
     departure: its start (`replay.Departure`); events, count: its rows; arrival: boxes, time and phase of its end.
     """
@@ -32,36 +32,36 @@ def observe(flow, squares, departure, events, count, arrival, seen):
         following = next_departure(flow.coefficients, events[:count], n, leaving, (time, phase))
         left, end, late = following.time - leaving.time, final, last
         if n < count:
-            _count(flow.coefficients, events[n], seen)
+            _count(flow.coefficients, events[n], statistics)
             end = _before(flow.coefficients, following.boxes, events[n]) if left > 0.0 else leaving.boxes
             late = events[n, SINE], events[n, COSINE]
         if left > 0.0:
             motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
-            _watch(flow, squares, motion, end, left, seen)
+            _watch(flow, squares, motion, end, left, statistics)
         if n < count:
             before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
-            add_falls(squares, before, after, late, seen[INTEGRALS:])
+            add_potential_drops(squares, before, after, late, statistics[INTEGRALS:])
         leaving, early = following, late
 
 
 @inlined
-def open_or_close(flow, squares, motion, sign, seen):
+def open_or_close(flow, squares, motion, sign, statistics):
     """Begin (sign -1) or end (+1) an observation: add what depends on its ends alone."""
     boxes, q = motion.boxes, flow.coefficients
-    add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, seen[INTEGRALS:])
-    seen[STORED] += sign * held(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
+    add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, statistics[INTEGRALS:])
+    statistics[STORED] += sign * held(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
     for i in range(2):
-        seen[LARGEST + i] = max(seen[LARGEST + i], abs(boxes[i]))
+        statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(boxes[i]))
 
 
 @inlined
-def _count(q, event, seen):
+def _count(q, event, statistics):
     module = int(event[1]) - 1
     if event[3] == IMPACT:
-        seen[IMPACTS + module] += 1
+        statistics[IMPACTS + module] += 1
     elif event[3] == STICK:
-        seen[STICKS + module] += 1
-    seen[LOST + module] += lost(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[APPROACH])
+        statistics[STICKS + module] += 1
+    statistics[LOST + module] += lost(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[APPROACH])
 
 
 @inlined
@@ -73,15 +73,15 @@ def _before(q, boxes, event):
     return with_velocity(boxes, i, boxes[2 + i] + (1.0 + q.kappa) * q.epsilon * q.inverse_mass * event[APPROACH])
 
 
-@unfolded
-def _watch(flow, squares, motion, end, length, seen):
+@inlined_source
+def _watch(flow, squares, motion, end, length, statistics):
     """Add the statistics of a flight, but for potentials at its ends."""
     mode = mode_of(motion.walls)
     for i in range(2):
-        seen[LARGEST + i] = max(seen[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
-        seen[PATH + i] += abs(motion.balls[2 + i]) * length if motion.walls[i] == 0 else 0.0
+        statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
+        statistics[PATH + i] += abs(motion.balls[2 + i]) * length if motion.walls[i] == 0 else 0.0
     for k in range(squares.drifts.shape[1]):
-        seen[INTEGRALS + k] += squares.drifts[mode, k] * length
+        statistics[INTEGRALS + k] += squares.drifts[mode, k] * length
     last, piece = len(flow.rotations) - 1, PIECE * flow.spacing
     while length > 0.0:
         whole, start, j = min(length, flow.longest), 0.0, PIECE // 2
@@ -89,14 +89,14 @@ def _watch(flow, squares, motion, end, length, seen):
             node = min(j, last)
             jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, node)
             low, high = start - node * flow.spacing, min(start + piece, whole) - node * flow.spacing
-            _add_piece(jets[0], low, high, 0, motion.walls[0], squares, seen)
-            _add_piece(jets[1], low, high, 1, motion.walls[1], squares, seen)
+            _add_piece(jets[0], low, high, 0, motion.walls[0], squares, statistics)
+            _add_piece(jets[1], low, high, 1, motion.walls[1], squares, statistics)
             start, j = start + piece, j + PIECE
-        motion, length = glide(flow, motion, whole), length - whole
+        motion, length = free_flight(flow, motion, whole), length - whole
 
 
 @inlined
-def _add_piece(p, low, high, i, wall, squares, seen):
+def _add_piece(p, low, high, i, wall, squares, statistics):
     """Add the turn of box i between two times of its Taylor polynomial p (8,), the path of a ball that sticks to it,
     and the integral of X_i^2 where no potential gives it.
     """
@@ -108,9 +108,9 @@ def _add_piece(p, low, high, i, wall, squares, seen):
             t = min(max(t - slope(p, t) / (2.0 * half_curvature(p, t)), low), high)
         turned = value(p, t)
         path = abs(turned - x) + abs(last - turned)
-        seen[LARGEST + i] = max(seen[LARGEST + i], abs(turned))
-    seen[PATH + i] += path if wall != 0 else 0.0
+        statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(turned))
+    statistics[PATH + i] += path if wall != 0 else 0.0
     if squares.drifts.shape[1] == 0:
         half = 0.5 * (high - low)
         for k in range(len(NODES)):
-            seen[INTEGRALS + i] += half * WEIGHTS[k] * value(p, low + half * (1.0 + NODES[k])) ** 2
+            statistics[INTEGRALS + i] += half * WEIGHTS[k] * value(p, low + half * (1.0 + NODES[k])) ** 2

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.compiled import compiled, inlined, unfolded
+from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.contact import common_velocity
 from vibroimpact.exact.engine.flow import advance
-from vibroimpact.exact.engine.motion import APPROACH, PHASE, carry, mode_of, pair, with_velocity
+from vibroimpact.exact.engine.motion import APPROACH, PHASE, drift_balls, mode_of, pair, with_velocity
 from vibroimpact.exact.engine.phase import TWO_PI, ahead
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
@@ -40,7 +40,7 @@ class Departure(NamedTuple):
     phase: float
 
 
-@unfolded
+@inlined_source
 def departures(q, start, events, start_phase, duration):
     """Return the flights of a run (see `replayed`) without the states at their ends."""
     flights = np.zeros((len(events) + 1, COLUMNS))
@@ -82,14 +82,14 @@ def next_departure(q, events, n, leaving, end):
     return Departure(boxes, balls, walls, event[0], event[PHASE])
 
 
-@unfolded
+@inlined_source
 def _length(q, lapse, turned):
     """Return the time between two events, with the digits of the difference of their phases."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
 
-@unfolded
+@inlined_source
 def land(flow, flight):
     """Fill in the state at the end of a flight."""
     boxes, balls, walls = start_of(flight)
@@ -97,7 +97,7 @@ def land(flow, flight):
     while left > 0.0:
         t = min(left, flow.longest)
         later, _, _ = advance(flow, mode_of(walls), boxes, math.sin(phase), math.cos(phase), t)
-        boxes, balls = later, carry(balls, walls, later, t)
+        boxes, balls = later, drift_balls(balls, walls, later, t)
         phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
         left -= t
     for k in range(4):

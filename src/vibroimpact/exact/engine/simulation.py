@@ -326,12 +326,12 @@ def _run(system, state, cycles, begin, times):
 def attempt(system, state, cycles, begin, times):
     """Return (status, the run as far as it came) from checked arguments."""
     samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
-    (rows, counters, where), pieces = kernel.memory(cycles), []
+    (rows, counters, checkpoint), pieces = kernel.memory(cycles), []
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
-    while (status := kernel.integrate(*given, rows, counters, where)) == kernel.PAUSED:
+    while (status := kernel.integrate(*given, rows, counters, checkpoint)) == kernel.PAUSED:
         if kernel.is_full(rows, counters):
             pieces.append(rows[: int(counters[motion.EVENTS])])
-            kernel.empty_rows(counters, where)
+            kernel.empty_rows(counters, checkpoint)
             rows = np.empty((kernel.PIECE, motion.ROW))
         stop_if_given_up()
     pieces.append(rows[: int(counters[motion.EVENTS])])
