@@ -154,6 +154,7 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
     options += [f"--metadata={name}={value}" for name, value in told.items()]
     text = re.sub(r"\]\((\w+)\.md", r"](\1.html", text)
     source = pypandoc.convert_text(text, "typst", "markdown+gfm_auto_identifiers-fancy_lists", options)
+    source = "#set figure(numbering: none)\n" + source  # the captions of the chapter's have their own numbers
     typst.compile(source.encode(), output=folder / f"{ARTICLE}.pdf", root=folder, ignore_system_fonts=True)
 
 
