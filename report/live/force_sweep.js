@@ -3,18 +3,17 @@
 "use strict";
 
 const WIDTH = 360, HEIGHT = 290, LEFT = 44, BOTTOM = 38, TOP = 30, RIGHT = 10;
-const COLOURS = ["#0b4f8a", "#a33c00", "#1a6b2f", "#6b2f8a"];
-const ASYMMETRIC = "#1a1a1a", FAR = 1.35;
+const INK = "var(--play-ink)", SOFT = "var(--play-soft)", BACK = "var(--play-back)", FAR = 1.35; // the colours of play.css
 const RINGS = { stable: "none", unstable: "3 3", undecided: "1 4" };
 
-const colour = (track) => (track ? COLOURS[(track - 1) % COLOURS.length] : ASYMMETRIC);
+const colour = (track) => (track ? `var(--track-${(track - 1) % 4 + 1})` : INK);
 
 function frame(svg, title) {
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
   svg.setAttribute("font-size", 13);
   svg.setAttribute("font-family", "system-ui, sans-serif");
   mark(svg, "text", "", { x: LEFT, y: TOP - 11, "font-weight": 600 }, title);
-  mark(svg, "rect", "", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: "#4a4a4a" });
+  mark(svg, "rect", "", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - BOTTOM - TOP, fill: "none", stroke: SOFT });
 }
 
 class Plane {
@@ -32,7 +31,7 @@ class Plane {
     for (const [series, line] of Object.entries(manifold)) {
       const stable = series === "SIM stable";
       mark(svg, "polyline", "", {
-        points: line.map(([C, B]) => `${this.x(C)},${this.y(B)}`).join(" "), fill: "none", stroke: "#1a1a1a",
+        points: line.map(([C, B]) => `${this.x(C)},${this.y(B)}`).join(" "), fill: "none", stroke: INK,
         "stroke-width": stable ? 2.4 : 1.3, "stroke-dasharray": stable ? "none" : "6 4",
       });
     }
@@ -45,7 +44,7 @@ class Plane {
     let last = -Infinity;
     for (const { name, track, C, B, verdicts } of [...points].sort((a, b) => a.C[module] - b.C[module])) {
       const hue = colour(track), [x, y] = [this.x(C[module]), this.y(B[module])];
-      const fill = verdicts.theory === "stable" ? hue : "#fff", side = C[module] < 1 ? -1 : 1;
+      const fill = verdicts.theory === "stable" ? hue : BACK, side = C[module] < 1 ? -1 : 1;
       mark(this.layer, "circle", "", { cx: x, cy: y, r: 5, fill, stroke: hue, "stroke-width": 2, "data-label": name });
       if (verdicts.exact in RINGS) {
         mark(this.layer, "circle", "", { cx: x, cy: y, r: 9, fill: "none", stroke: hue, "stroke-width": 1.5, "stroke-dasharray": RINGS[verdicts.exact], "data-exact": verdicts.exact });
@@ -74,7 +73,7 @@ class Branches {
       const stable = exact === "stable";
       mark(svg, "circle", "", { cx: this.x(value), cy: y(C[1]), r: stable ? 3 : 1.4, fill: stable ? colour(track) : "none", stroke: colour(track), "stroke-width": 1, "data-orbit": exact });
     }
-    this.cursor = mark(svg, "line", "", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: "#4a4a4a", "stroke-width": 1.2 });
+    this.cursor = mark(svg, "line", "", { y1: TOP, y2: HEIGHT - BOTTOM, stroke: SOFT, "stroke-width": 1.2 });
   }
 
   show(index) {
@@ -91,7 +90,7 @@ class Circle {
     this.centre = [LEFT + 8 + FAR * this.unit, (TOP + HEIGHT - BOTTOM) / 2];
     const [cx, cy] = this.centre;
     for (const x of [-1, 0, 1]) mark(svg, "text", "", { x: cx + x * this.unit, y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, x);
-    mark(svg, "circle", "", { cx, cy, r: this.unit, fill: "none", stroke: "#1a1a1a", "stroke-width": 1.3 });
+    mark(svg, "circle", "", { cx, cy, r: this.unit, fill: "none", stroke: INK, "stroke-width": 1.3 });
     this.layer = mark(svg, "g", "", {});
   }
 
@@ -102,7 +101,7 @@ class Circle {
       for (const [real, imaginary] of multipliers) {
         const modulus = Math.hypot(real, imaginary), inside = Math.min(1, (FAR - 0.1) / modulus);
         const [x, y] = [this.centre[0] + real * inside * this.unit, this.centre[1] - imaginary * inside * this.unit];
-        const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : "#fff", "data-multiplier": exact };
+        const style = { stroke: colour(track), "stroke-width": 1.6, fill: modulus < 1 ? colour(track) : BACK, "data-multiplier": exact };
         if (track) mark(this.layer, "circle", "", { cx: x, cy: y, r: 3.6, ...style });
         else mark(this.layer, "rect", "", { x: x - 3.4, y: y - 3.4, width: 6.8, height: 6.8, ...style });
         if (inside < 1) far.push([`${names[track] ?? "pair"}: ${modulus.toPrecision(3)}`, colour(track)]);

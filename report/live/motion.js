@@ -30,17 +30,9 @@ class Motion extends Chart {
     this.cursor = mark(this.front, "line", "cross", { y1: this.top, y2: this.top + this.inner[1] });
   }
 
-  // Between two rows every ball flies straight, and the rows of a box are close.
-  at(t) {
-    const { motion } = this.data, n = Math.max(0, Math.min(motion.t.findLastIndex((time) => time <= t), motion.t.length - 2));
-    const span = motion.t[n + 1] - motion.t[n], part = span > 0 ? Math.min(1, (t - motion.t[n]) / span) : 0;
-    return ["X1", "X2", "Y1", "Y2"].map((name) => motion[name][n] + part * (motion[name][n + 1] - motion[name][n]));
-  }
-
   show(t) {
-    const [X1, X2, Y1, Y2] = this.at(t), { impacts, cycles } = this.data;
-    const since = (module, wall) => Math.min(...impacts.filter((hit) => hit[1] === module && hit[2] === wall && hit[0] <= t).map((hit) => t - hit[0]));
-    this.machine.show([X1, X2], [Y1, Y2], [1, 2].map((module) => [1, -1].map((wall) => since(module, wall))));
+    const { cycles } = this.data;
+    this.machine.showFrame(this.data, t);
     set(this.cursor, { x1: this.x(t), x2: this.x(t) });
     const said = `cycle ${t.toFixed(2)} of ${cycles}`;
     Object.assign(this, { t });

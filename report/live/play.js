@@ -3,6 +3,7 @@
 
 const STEPS = 160; // of a cycle: what is simulated between two pictures, or several of it
 const SETTLED = 400, SKIPPED = 200, KEPT = 5; // cycles before the page opens; of the button; of what is drawn
+const SPEED = 0.5; // of both balls at the start of a case
 const REPEATS = 2e-3; // nearness of states, a cycle apart
 const niceAbove = (x) => [0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32].find((end) => end >= x) ?? 2 * x;
 
@@ -61,7 +62,6 @@ class Play {
     const { parts, data } = this;
     this.machine = new Machine(parts.machine);
     this.strips = [new Strip(parts.box, 170, false), new Strip(parts.ball, 230, true)];
-    this.speed = 0.5;
     this.take(Object.values(data.cases)[0].forces, SETTLED);
     new ResizeObserver(() => { for (const strip of this.strips) strip.layout(); this.show(); }).observe(root);
     this.clock = new Clock(parts.run, (seconds) => this.simulate(seconds * Number(parts.pace.value)));
@@ -93,6 +93,7 @@ class Play {
 
   take([f10_hat, f20_hat], cycles) {
     this.parameters = { ...this.data.system, f10_hat, f20_hat };
+    this.speed = SPEED;
     this.begin(cycles);
     this.changed();
   }
@@ -155,11 +156,14 @@ class Play {
     strips[0].show(now, samples.map(([t, X]) => [t, X]), point?.X);
     strips[1].show(now, samples.map(([t, , W]) => [t, W]), point?.W, impacts);
     parts.clock.textContent = `cycle ${now.toFixed(1)}`;
-    parts.repeats.textContent = repeats === 1 ? "every cycle" : repeats ? `every ${repeats} cycles` : this.sections.length < 20 ? "wait for some cycles" : "not so far";
+    const { f10_hat, f20_hat } = this.parameters, rests = !f10_hat && !f20_hat && [0, 2, 4, 5, 6, 7].every((n) => Math.abs(state[n]) < 1e-6);
+    parts.repeats.textContent = rests ? "at rest" : repeats === 1 ? "every cycle" : repeats ? `every ${repeats} cycles` : this.sections.length < 20 ? "wait for some cycles" : "not so far";
     const shares = impacts.slice(1).map((time, n) => (time - impacts[n]).toFixed(2)).slice(-2);
     parts.flights.textContent = shares.length === 2 ? `${shares.join(" and ")} of the period` : "none lately";
     parts.largest.textContent = Math.max(0, ...samples.filter(([t]) => t > now - 1).map(([, X]) => Math.abs(X))).toFixed(3);
     parts.predicted.textContent = point ? Math.max(...point.X.map(Math.abs)).toFixed(3) : "";
+    parts.printed.textContent = point ? point.printed : "no prediction here";
+    parts.stable.textContent = !point ? "" : point.multiplier ? `${point.exact}: each cycle a small error becomes ${point.multiplier} times as large` : point.exact;
   }
 }
 

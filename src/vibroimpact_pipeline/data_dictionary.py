@@ -11,6 +11,9 @@ from vibroimpact_pipeline.code import FIGURES
 from vibroimpact_pipeline.specs import columns, each, specs
 
 DATA = "report/data.yaml"
+DRAWN = "results/figures/"
+LABEL = "data-"
+"""Begins the name of a table's place on the pages of data."""
 
 
 @dataclass(frozen=True)
@@ -58,16 +61,16 @@ def files(known: dict, data: dict) -> list[File]:
     return found
 
 
-def page(known: dict, data: dict) -> str:
-    """Return the data dictionary as Markdown, without its heading."""
+def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
+    """Return the data dictionary as Markdown, without its heading; by `of_figures` one part of its files only."""
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),
         "## Names that mean the same in every file",
         _columns(each(data["shared"])),
-        "## Files",
-        *(part for file in files(known, data) for part in _section(file)),
     ]
+    listed = [file for file in files(known, data) if of_figures in (None, file.paths[0].startswith(DRAWN))]
+    parts = [*([] if of_figures else parts), "## Files", *(part for file in listed for part in _section(file))]
     return "\n\n".join(parts) + "\n"
 
 
@@ -77,8 +80,8 @@ def _section(file):
     places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.own]
     path = file.paths[0]
-    place = f" {{#{Path(path).stem}}}" if path.endswith(".csv") and "{" not in path else ""
-    yield f"### {path.removeprefix('results/')}{place}"
+    place = f"({LABEL}{Path(path).stem.replace('_', '-')})=\n" if path.endswith(".csv") and "{" not in path else ""
+    yield f"{place}### {path.removeprefix('results/')}"
     yield f"{', '.join(places)}: {file.about}"
     if common:
         yield f"Shared names: {', '.join(common)}."

@@ -23,7 +23,7 @@ def page(results: Path, titles: dict[str, str]) -> str:
         results: the directory.
         titles: of the figures, by name, in the order in which they are listed.
     """
-    listed = {"explained": [], "others": []}
+    listed = {"chapter": [], "others": []}
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]
         written = f"notebooks/{name}.html"
@@ -31,8 +31,9 @@ def page(results: Path, titles: dict[str, str]) -> str:
         explained = ("page", written) in links
         exact = EXACT.search((results / written).read_text(encoding="utf-8")) if explained else None
         if links:
-            figure = {"title": title, "links": links, "exact": exact and exact[1]}
-            listed["explained" if explained else "others"].append(figure)
+            picture = next((path for kind, path in links if kind == "SVG"), None)
+            figure = {"title": title, "links": links, "exact": exact and exact[1], "picture": picture}
+            listed["chapter" if name.startswith("fig10_") else "others"].append(figure)
     claims = results / "claims.json"
     verdicts = [claim["verdict"] for claim in json.loads(claims.read_text("utf-8"))] if claims.is_file() else []
     counts = sorted(Counter(verdicts).most_common(), key=lambda one: one[0] == "misprint")  # these come last

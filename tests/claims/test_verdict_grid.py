@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.claims.verdict_grid import compute
+from vibroimpact.claims.verdict_grid import by_epsilon, compute
 from vibroimpact.claims.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
@@ -48,6 +48,18 @@ def test_every_fixed_point_is_judged_at_every_epsilon(grid):
         system = SYSTEM.with_(f10_hat=rows["f10_hat"].iloc[0], f20_hat=rows["f20_hat"].iloc[0])
         for _, at_epsilon in rows.groupby("epsilon"):
             np.testing.assert_allclose(at_epsilon[["C1", "C2"]], [p.C for p in vi.fixed_points(system)], rtol=1e-12)
+
+
+def test_by_epsilon_the_multiplier_is_that_of_the_nearest_orbit():
+    """Of vi.orbits, which searches anew; point c passes 1 at an epsilon below 0.0022."""
+    table = by_epsilon(SYSTEM, [0.1, 0.01, 0.002])
+    for epsilon, rows in table.groupby("epsilon"):
+        exact = [orbit for orbit in vi.orbits(SYSTEM.with_(epsilon=epsilon)) if orbit.symmetric]
+        for row in rows.itertuples():
+            nearest = min(exact, key=lambda orbit, row=row: np.hypot(*(orbit.C - (row.C1, row.C2))))
+            assert row.multiplier == pytest.approx(abs(nearest.multipliers).max(), rel=1e-9)
+            assert row.exact == ("stable" if row.multiplier < 1 else "unstable")
+    assert table[table["label"] == "c"]["exact"].tolist() == ["unstable", "unstable", "stable"]
 
 
 def test_three_fixed_points_and_one_orbit(grid):

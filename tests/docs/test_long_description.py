@@ -54,7 +54,7 @@ def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_t
         found = [target for _, target in targets(text)]
         assert [target for target in found if not target.startswith(("https://", "#"))] == []
         relative = [target for _, target in targets(README) if "://" not in target]
-        assert len(relative) > 20
+        assert len(relative) > 15
         addresses = described.get_all("Project-URL") or []
         if repository:
             assert sum(target.startswith(repository) for target in found) == len(relative)

@@ -1,4 +1,4 @@
-"""The recipes of docs/howto_*.md, followed step by step in a copy of the project."""
+"""The recipes of docs/howto.md, followed step by step in a copy of the project."""
 
 import json
 import os
@@ -17,7 +17,9 @@ from pipeline_trees import ROOT, copied, whole_copy
 from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.data_dictionary import page, read
 
-RECIPES = sorted(path.stem for path in (ROOT / "docs").glob("howto_*.md"))
+RECIPES = dict(
+    section.split("\n", 1) for section in (ROOT / "docs/howto.md").read_text(encoding="utf-8").split("\n## ")[1:]
+)
 
 BLOCK = r"\s+```\w*\n(.*?)```"
 STEPS = re.compile(
@@ -41,7 +43,7 @@ def project(built, tmp_path):
 def follow(recipe: str, project) -> list[str]:
     """Do every step of a recipe; returns what its commands print."""
     printed = []
-    for step in STEPS.finditer((ROOT / f"docs/{recipe}.md").read_text(encoding="utf-8")):
+    for step in STEPS.finditer(RECIPES[recipe]):
         texts = [
             text
             for name, text in zip(range(1, STEPS.groups + 1), step.groups(), strict=True)
@@ -79,25 +81,15 @@ def run(command: str, project) -> str:
     return done.stdout
 
 
-def test_every_recipe_is_followed():
-    assert RECIPES == [
-        "howto_claim",
-        "howto_design",
-        "howto_figure",
-        "howto_integrator",
-        "howto_stress_test",
-        "howto_sweep",
-    ]
-
-
 @pytest.mark.parametrize("recipe", RECIPES)
-def test_every_block_of_a_recipe_is_a_step(recipe):
-    text = (ROOT / f"docs/{recipe}.md").read_text(encoding="utf-8")
-    assert sum(step.group().count("```") for step in STEPS.finditer(text)) == text.count("```")
+def test_every_block_of_a_recipe_is_a_step_that_a_test_follows(recipe):
+    text = RECIPES[recipe]
+    assert sum(step.group().count("```") for step in STEPS.finditer(text)) == text.count("```") > 0
+    assert f'follow("{recipe}"' in Path(__file__).read_text(encoding="utf-8")
 
 
 def test_a_figure_can_be_added(project):
-    follow("howto_figure", project)
+    follow("Add a figure", project)
     table = pd.read_csv(project / "results/figures/companion_mine.csv")
     # Half a period of free flight at W' - U' = -2 C / pi takes the ball from wall to wall: (10.14) at kappa = 1.
     assert table["speed"].iloc[-1] == pytest.approx(4 * table["C"].iloc[-1] / (3.141592653589793 * 1.65))
@@ -113,7 +105,7 @@ def test_a_figure_can_be_added(project):
 
 @pytest.mark.thorough
 def test_an_integrator_can_be_added(project):
-    (printed,) = follow("howto_integrator", project)
+    (printed,) = follow("Add an integrator", project)
     assert "." in printed.splitlines()[0]
     listed = run("python -c 'from vibroimpact.integrators import METHODS; print([m.name for m in METHODS])'", project)
     assert "symplectic Euler" in listed
@@ -121,19 +113,19 @@ def test_an_integrator_can_be_added(project):
 
 @pytest.mark.thorough
 def test_a_stress_test_can_be_added(project):
-    (printed,) = follow("howto_stress_test", project)
+    (printed,) = follow("Add a stress test", project)
     assert "'this engine': 'right'" in printed
 
 
 @pytest.mark.thorough
 def test_a_claim_can_be_added(project):
-    (printed,) = follow("howto_claim", project)
+    (printed,) = follow("Add a claim", project)
     assert "1 failed" not in printed
 
 
 @pytest.mark.thorough
 def test_parameters_can_be_swept(project):
-    _, head = follow("howto_sweep", project)
+    _, head = follow("Sweep parameters", project)
     columns, first, second = (line.split(",") for line in head.splitlines())
     assert columns[:4] == ["point", "alpha12_hat", "f10_hat", "f20_hat"]
     assert [first[:4], second[:4]] == [["0", "0.5", "0.5", "0.5"], ["1", "0.5", "0.8", "0.8"]]
@@ -149,10 +141,10 @@ def test_machines_can_be_designed(tmp_path):
     Chaotic motions differ from one kind of processor to another, and with them which of several clearances is best.
     """
     project = copied(ROOT, tmp_path / "project")
-    page = (ROOT / "docs/howto_design.md").read_text(encoding="utf-8")
+    page = RECIPES["Design a machine"]
     pages = re.findall(r"prints:\n\n((?: {4}.*\n)+)", page)
     number = r"\d+(?:\.\d+)?"
-    for printed, said in zip(follow("howto_design", project), pages, strict=True):
+    for printed, said in zip(follow("Design a machine", project), pages, strict=True):
         lines, told = (
             [
                 line.removeprefix("    ")
@@ -175,7 +167,7 @@ def test_machines_can_be_designed(tmp_path):
 
 
 def test_the_machine_of_the_config_is_accepted():
-    page = (ROOT / "docs/howto_design.md").read_text(encoding="utf-8")
+    page = RECIPES["Design a machine"]
     (entry,) = re.findall(r"(?:^ {4}.*\n)*^ {4}my_machine:\n(?:^ {4}.*\n)+", page, re.MULTILINE)
     figures = GOOD["figures"] | yaml.safe_load(entry)
     assert checked(GOOD | {"figures": figures})["figures"]["my_machine"]["plant"]["k12"] == 0

@@ -1,4 +1,4 @@
-"""docs/reliability.md: its numbers are those of the engine's page and tests, or measured anew.
+"""What docs/engine.md promises: its numbers are those of the tests, or measured anew.
 
 What it says of proofs is tested with the results of a build, in tests/workflow/test_claims_of_a_build.py.
 """
@@ -12,17 +12,14 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
 
-PAGE, ENGINE = ((ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in ("reliability", "engine"))
+PAGE = (ROOT / "docs/engine.md").read_text(encoding="utf-8")
 ATTACK = (ROOT / "tests/shared/attacks.py").read_text(encoding="utf-8")
 
 
 def test_the_promised_error_is_that_which_is_attacked():
     promised = re.search(r"at most ([\d.]+) times this estimate", PAGE)[1]
     assert promised == re.search(r"^PROMISED = ([\d.]+)", ATTACK, re.MULTILINE)[1]
-    assert f"at most {promised} times the estimate" in ENGINE
-    worst, runs = re.search(r"at worst ([\d.]+) times in ([\d ]+) runs", PAGE).groups()
-    assert runs in ENGINE
-    assert f"{worst})" in ENGINE
+    worst = re.search(r"at worst ([\d.]+) times in ([\d ]+) runs", PAGE)[1]
     assert float(worst) < float(promised)
 
 

@@ -7,6 +7,7 @@ from vibroimpact_pipeline.results_page import page
 PAGE = "<p><strong>The exact system:</strong> <strong>a</strong>: <strong>unstable</strong>.</p>"
 FILES = {
     "figures/fig10_06.png": "",
+    "figures/fig10_06.svg": "",
     "figures/fig10_06.csv": "",
     "figures/companion.png": "",
     "notebooks/fig10_06.html": PAGE,
@@ -33,6 +34,9 @@ def test_the_page_of_results_links_what_is_there_with_its_exact_line(results):
     assert "Points &amp; &lt;planes&gt;" in html
     assert PAGE.removeprefix("<p>").removesuffix("</p>") in html
     assert 'href="figures/companion.png"' in html
+    assert '<img src="figures/fig10_06.svg"' in html
+    assert html.index("Figures of the chapter") < html.index("Points &amp;") < html.index("Beside it")
+    assert 'href="report/index.html"' in html
     assert "Not made" not in html
     assert "2 claims of the chapter" in html
     assert "&lt;refuted&gt; 1" in html

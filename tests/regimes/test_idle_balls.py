@@ -1,4 +1,4 @@
-"""How long starts take at equal forces, and balls that stand idle: numbers of docs/howto_sweep.md and findings.md."""
+"""How long starts take at equal forces, and balls that stand idle: numbers of docs/howto.md and findings.md."""
 
 import re
 
@@ -9,7 +9,7 @@ from pipeline_trees import ROOT
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.regimes.basins import plane
 
-PAGE = " ".join((ROOT / "docs/howto_sweep.md").read_text(encoding="utf-8").split())
+PAGE = " ".join((ROOT / "docs/howto.md").read_text(encoding="utf-8").split())
 SPEED, CHANGE = 1e-3, 1e-6
 
 

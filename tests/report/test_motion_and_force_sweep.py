@@ -7,7 +7,7 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.figures import animation, force_sweep
+from vibroimpact.figures import animation, force_sweep, nudge
 from vibroimpact.system.state import KINDS
 from vibroimpact.theory.manifold import B_of_C, rho
 
@@ -62,6 +62,29 @@ def test_the_still_shows_instants_of_one_cycle(window):
     figure = animation.draw(animation.compute(*window, 1))
     texts = [text.get_text() for axes in figure.axes for text in axes.texts]
     assert texts == [f"t = {n / animation.INSTANTS:.2f} T" for n in range(animation.INSTANTS)]
+
+
+def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
+    system = vi.System(**SYSTEM, f20_hat=1.0)
+    tables = nudge.compute(system)
+    orbit = min(
+        (one for one in vi.orbits(system) if one.symmetric), key=lambda one: np.abs(one.C - [1.0957, 1.8108]).max()
+    )
+    assert tables["orbit"].to_numpy().tolist() == [["c", pytest.approx(abs(orbit.multipliers[0]))]]
+    growth = np.diff(np.log(tables["distance"]["distance"]))
+    assert tables["distance"]["distance"][0] == pytest.approx(nudge.PUSH, rel=1e-6)
+    np.testing.assert_allclose(growth[3:11], np.log(2.43617), atol=0.01)
+    lengths = tables["flights"]["length"].to_numpy()
+    np.testing.assert_allclose(lengths[:12], 0.5, atol=1e-3)
+    assert (np.abs(lengths[-40:] - 0.5) > 0.05).all()
+    texts = [text.get_text() for text in nudge.draw(tables).axes[0].texts]
+    assert texts == ["times 2.44\nper period"]
+
+
+def test_where_no_motion_that_is_called_stable_is_unstable_there_is_nothing_to_nudge():
+    tables = nudge.compute(vi.System(**SYSTEM | {"f10_hat": 0.5}, f20_hat=0.5))
+    assert all(len(table) == 0 for table in tables.values())
+    assert len(nudge.draw(tables).axes) == 2
 
 
 @pytest.fixture(scope="module")

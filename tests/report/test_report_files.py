@@ -17,6 +17,7 @@ from fontTools.ttLib import TTFont
 import vibroimpact as vi
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
+from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.mathematics import FONT
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
@@ -86,9 +87,11 @@ def test_the_pages_on_the_library_have_its_public_names(pages):
 
 def test_data_of_the_report_are_in_the_dictionary(reported):
     listed = files(*read(ROOT))
-    made = [path for name in ("animations", "force_sweep") for path in (reported / f"results/{name}").glob("*.*")]
+    made = [
+        path for name in ("animations", "force_sweep", "nudge") for path in (reported / f"results/{name}").glob("*.*")
+    ]
     data = [path for path in made if path.suffix in (".csv", ".json")]
-    assert len(data) == len(CONFIG["report"]["animations"]) + 2
+    assert len(data) == len(CONFIG["report"]["animations"]) + 3
     for path in data:
         (file,) = (file for file in listed if file.has(str(path.relative_to(reported.path))))
         found = pd.read_csv(path).columns if path.suffix == ".csv" else json.loads(path.read_text(encoding="utf-8"))
@@ -113,7 +116,10 @@ def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(
     for value in pd.read_csv(site.parent / "fixed_points.csv")["C1"]:
         assert f">{float(f'{value:.5g}'):.15g}<" in html
     claims = json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))
-    assert (site / "claims.html").read_text(encoding="utf-8").count("<tr") == len(claims) + 1
+    page = (site / "claims.html").read_text(encoding="utf-8")
+    assert page.count("<tr") == len(claims) + 1
+    assert re.findall(r'href="#claim-([\w-]+)"', page) == re.findall(r'<tr[^>]* id="claim-([\w-]+)"', page)
+    assert len(re.findall(r'href="#claim-', page)) == len(claims)
     (distance,) = (claim["numbers"]["largest distance in C"] for claim in claims if claim["id"] == "periodic-solutions")
     source = f"{distance:.6g}: results/claims.json, periodic-solutions, numbers, largest distance in C"
     assert f'title="{source}">{distance:.3f}</abbr>' in (site / "findings.html").read_text(encoding="utf-8")
@@ -154,7 +160,10 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     assert [heading for heading in headings if heading not in words] == []
     assert re.search(r"Built from (commit .* of \d{4}-\d\d-\d\d|a copy without its history)\.", words)
     assert "numbers.yaml" not in words
-    assert len(document) < 10
+    assert len(document) < 20
+    titles = [figure_texts(ROOT, CONFIG)[f"fig10_{number:02d}"]["title"] for number in range(2, 12)]
+    assert [title for title in titles if title.split(". ")[0] + "." not in words] == []
+    assert "press" not in words
     drawn = [kind.type for page in document for kind in page.get_objects()]
     assert len(drawn) > 1000  # pictures are vectors
 

@@ -68,6 +68,7 @@ def test_numbers_and_figures_of_documents_are_those_of_the_build():
     values = {"x | a": 0.70984, "x | b": -3.17987, "percent | x | c": 69.16}
     pages = Pages(ROOT, SimpleNamespace(value=lambda place: values[place]), CONFIG, {"chapter": ["one"]})
     pages.places = {"a": "x | a", "b-1.0": "x | b", "c": "percent | x | c", "d": "x | d"}
+    pages.about["one"] = {"alt": "What it shows."}
     text = (
         "[0.69](numbers.yaml#a), [−3.2](numbers.yaml#b-1.0); [70](numbers.yaml#c) %, [5](numbers.yaml#d).\n"
         "![One](../results/figures/one.png) ![Two](../results/figures/two.png)\n"
@@ -79,8 +80,20 @@ def test_numbers_and_figures_of_documents_are_those_of_the_build():
         ("−3.2", "x, b"),
         ("69", "x, c"),
     ]
-    assert shown.endswith("%, 5.\n![One](figures/one.svg) \n([see](#one), two)")
-    assert pages.with_numbers(text, paper=True).splitlines()[0] == "0.71, −3.2; 69 %, 5."
+    picture = "```{figure} figures/one.svg\n:alt: What it shows.\n:target: figures/one.svg\n\nOne\n```"
+    assert shown.endswith(f"%, 5.\n{picture} \n([see](#one), two)")
+    assert pages.with_numbers(text, paper=True).splitlines()[:2] == ["0.71, −3.2; 69 %, 5.", "![One](figures/one.svg) "]
+
+
+def test_a_live_part_stands_in_place_of_its_still_where_its_data_are(tmp_path):
+    pages = Pages(ROOT, Results(tmp_path), CONFIG, {"nudge": ["nudge"]})
+    text = "A\n\n<!-- live: nudge -->\n![Moved](../results/nudge/nudge.png)\n\nB"
+    assert "{figure} figures/nudge.svg" in pages.with_numbers(text)
+    (tmp_path / "nudge").mkdir()
+    (tmp_path / "nudge/nudge.json").write_text('{"cycles": 1}')
+    assert '{"cycles":1}' in pages.with_numbers(text)
+    assert "nudge.svg" not in pages.with_numbers(text)
+    assert "![Moved](figures/nudge.svg)" in pages.with_numbers(text, paper=True)
 
 
 def test_every_number_of_a_document_has_a_place_and_every_place_is_used():
@@ -135,7 +148,15 @@ def test_the_slider_of_epsilon_knows_points_without_an_orbit():
 def test_predictions_of_the_page_play_are_saw_tooths_on_the_manifold():
     """Of module 2: W reaches its walls once a cycle; the box, W - Z, has the amplitude B of C on the manifold."""
     cases = {name: {"f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in FORCES.items()}
-    shown = json.loads(live_data({"system": PARAMETERS, "cases": cases}))["cases"]
+    systems = {name: vi.System(**PARAMETERS, **forces) for name, forces in cases.items()}
+    points = [{"case": name, "label": point.label, "orbit": "S1", "exact": "unstable"}
+              for name, system in systems.items() for point in vi.fixed_points(system)]  # fmt: skip
+    orbits = pd.DataFrame([{"case": "equal", "label": "S1", "modulus_1": 2.43617}])
+    tables = {"fixed_points.csv": pd.DataFrame(points), "orbits.csv": orbits}
+    results = SimpleNamespace(table=tables.get)
+    shown = json.loads(live_data(results, {"system": PARAMETERS, "cases": cases}))["cases"]
+    assert [point["multiplier"] for point in shown["equal"]["points"]] == ["2.44"] * 3
+    assert [point["multiplier"] for point in shown["weak"]["points"]] == [""]
     for name, case in shown.items():
         assert case["forces"] == list(FORCES[name])
         system = vi.System(**PARAMETERS, **cases[name])

@@ -94,12 +94,15 @@ def results(folder: Path) -> Path:
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
     places |= dict.fromkeys(("work_precision", "hazards", "scene_models"), "accuracy")
-    places |= {"waves": "animations", "force_sweep": "force_sweep"}
+    places |= {"waves": "animations", "force_sweep": "force_sweep", "nudge": "nudge"}
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
     texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
     texts |= {
         "animations/waves.json": json.dumps(moving),
+        "nudge/nudge.json": json.dumps(
+            moving | {"flights": [], "distance": [1.0], "multiplier": [2.0], "label": [HOSTILE]}
+        ),
         "force_sweep/force_sweep.json": json.dumps(sweep),
         "claims.json": json.dumps(
             [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
@@ -107,11 +110,16 @@ def results(folder: Path) -> Path:
     }
     texts["claims.md"] = to_markdown([claim | {"id": "some", "parts": {}, "numbers": {}, "verdict": "holds"}])
     tables = {
-        "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE} | numbers],
+        "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE, "orbit": HOSTILE, "exact": HOSTILE} | numbers],
         "verdict_grid.csv": [
             {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "exact": HOSTILE, "admissible": True}
             | {"printed_10_26": HOSTILE, "fast": HOSTILE, "slow": HOSTILE, "theory": HOSTILE}
             for f10 in (0.5, 1.5)
+        ],
+        "orbits.csv": [{"case": HOSTILE, "label": HOSTILE, "modulus_1": 2.0}],
+        "verdicts_by_epsilon.csv": [
+            {"epsilon": 0.1, "case": HOSTILE, "label": HOSTILE, "exact": HOSTILE, "multiplier": 2.0}
+            | {"printed_10_26": HOSTILE, "fast": HOSTILE, "theory": HOSTILE}
         ],
         "accuracy/work_precision.csv": [
             run | {"outcome": "finished", "reason": ""},

@@ -85,8 +85,27 @@ rule scene_models:
         "../scripts/scene_models.py"
 
 
+rule method_comparison:
+    input:
+        work_precision="results/accuracy/work_precision.csv",
+        hazards="results/accuracy/hazards.csv",
+    output:
+        **in_report({"csv": "results/accuracy/method_comparison.csv"}, "Accuracy and speed"),
+    params:
+        code=LIBRARY,
+    log:
+        "results/logs/accuracy/method_comparison.log",
+    benchmark:
+        "results/benchmarks/accuracy/method_comparison.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/method_comparison.py"
+
+
 rule accuracy:
     input:
         rules.work_precision.output,
         rules.hazards.output,
         rules.scene_models.output,
+        rules.method_comparison.output,

@@ -45,6 +45,22 @@ rule force_sweep:
         "../scripts/force_sweep.py"
 
 
+rule nudge:
+    output:
+        **{kind: f"results/nudge/nudge.{kind}" for kind in (*PICTURES, "json")},
+    params:
+        system=system_of(MOVING["force_sweep"]["case"]),
+        code=FIGURES,
+    log:
+        "results/logs/report/nudge.log",
+    benchmark:
+        "results/benchmarks/report/nudge.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/nudge.py"
+
+
 rule report:
     input:
         rules.figures.input,
@@ -53,6 +69,7 @@ rule report:
         rules.accuracy.input,
         rules.claims.output,
         rules.force_sweep.output,
+        rules.nudge.output,
         [f"results/animations/{name}.{kind}" for name in MOVING["animations"] for kind in (*PICTURES, "json")],
     output:
         site=directory("results/report"),

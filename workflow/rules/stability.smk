@@ -114,9 +114,28 @@ rule modulation:
         "../scripts/modulation.py"
 
 
+# The verdicts on the fixed points of the cases as the balls get lighter.
+rule verdicts_by_epsilon:
+    output:
+        csv="results/verdicts_by_epsilon.csv",
+    params:
+        systems=all_systems(),
+        epsilon=config["stability"]["verdict_grid"]["epsilon"],
+        code=LIBRARY,
+    log:
+        "results/logs/verdicts_by_epsilon.log",
+    benchmark:
+        "results/benchmarks/verdicts_by_epsilon.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/verdicts_by_epsilon.py"
+
+
 rule stability:
     input:
         rules.modulation.output,
         rules.gather.output,
         rules.proofs.output,
         rules.verdict_grid.output,
+        rules.verdicts_by_epsilon.output,

@@ -49,6 +49,7 @@ def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
         "models": ["scene_models"],
         "animations": list(config["report"]["animations"]),
         "force_sweep": ["force_sweep"],
+        "nudge": ["nudge"],
     }
 
 

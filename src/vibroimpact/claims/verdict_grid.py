@@ -5,7 +5,7 @@ import pandas as pd
 from vibroimpact.claims.verdict_table import FORMER, NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
-from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under
 from vibroimpact.frames import with_former_names
 from vibroimpact.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.theory import criteria
@@ -37,6 +37,25 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
     return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True), FORMER)
+
+
+def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
+    """A row per fixed point of a system and epsilon: label, verdicts as in `compute`, and the largest multiplier.
+
+    Columns epsilon, label, C1, C2 (of the fixed point), one per criterion of the theory, exact, multiplier (largest
+    modulus of the exact orbit; blank where there is none).
+    """
+    points, rows = fixed_points(system), []
+    for value in epsilon:
+        here = system.with_(epsilon=value)
+        orbits = exact_orbits(here, [point.C for point in points], symmetric_solutions(here))
+        for point, orbit in zip(points, orbits, strict=True):
+            place = {"epsilon": value, "label": point.label, "C1": point.C[0], "C2": point.C[1]}
+            exact = {EXACT: NO_ORBIT} if orbit is None else {EXACT: floquet(orbit)}
+            largest = None if orbit is None else abs(orbit.multipliers[0])
+            rows.append(place | criteria.of_fixed_point(system, point) | exact | {"multiplier": largest})
+    columns = ["epsilon", "label", "C1", "C2", *criteria.CRITERIA, EXACT, "multiplier"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def exact_orbits(system, points, roots):

@@ -56,7 +56,7 @@ SPEC = {
         },
         "limits": {
             "file": "results/regimes/ladder_limits.csv",
-            "about": "Limits of the symmetric motions to leading and next order, and exact (docs/hierarchy.md).",
+            "about": "Limits of the symmetric motions to leading and next order, and exact (docs/derivation.md).",
             "columns": {
                 "limit": {"meaning": "C at symmetry breaking; f20_hat at the fold", "unit": "text"},
                 "leading": {"meaning": "its value at leading order", "unit": "dimensionless", "compared": "roots"},

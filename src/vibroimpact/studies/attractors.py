@@ -55,7 +55,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
         states: (n, 8) starts at tau = 0.
         observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
             until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
-            never meet a wall (docs/howto_sweep.md).
+            never meet a wall (docs/howto.md).
         progress: count the starts on standard error, if that is a terminal.
 
     Raises:

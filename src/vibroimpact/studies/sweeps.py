@@ -43,10 +43,10 @@ def sweep(
         system: gives the other parameters.
         axes: the values of one or two parameters, by name.
         observe: any of "amplitudes", "envelopes", "energy", "peaks", "regimes" (these simulate, from every start),
-            "fixed_points" and "orbits"; docs/howto_sweep.md has their columns.
+            "fixed_points" and "orbits"; docs/howto.md has their columns.
         starts, seed: number of starts, spread evenly, the first at rest; what scrambles them.
         cycles, settle: forcing periods of each run, and those of them that are left out; not of "regimes", which have
-            those of `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto_sweep.md).
+            those of `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto.md).
         band: of "peaks": the values of the parameter along which the highest peak is sought, by name.
         observation: of "regimes": how long a start is looked at.
         progress: count the points on standard error, if that is a terminal.

@@ -29,9 +29,7 @@ class Exponent(Section):
 class Observation(Exponent):
     """Length of the observation of one start."""
 
-    cycles: fields.count(
-        "A start is simulated for so long before it is looked at; see docs/howto_sweep.md [forcing periods]"
-    )
+    cycles: fields.count("A start is simulated for so long before it is looked at; see docs/howto.md [forcing periods]")
     rounds: fields.count("At most so many times, until it repeats", 1, 1000)
     window: fields.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
     nearness: fields.real(NEAR, 1e-6, 0.5)

@@ -74,7 +74,7 @@ class Sweep(Section):
     starts: fields.Starts | None = None
     seed: fields.Seed | None = None
     cycles: fields.count("Length of a run that is observed [forcing periods]") | None = None
-    settle: fields.count("Cycles of it that are left out; see docs/howto_sweep.md [forcing periods]", 0) | None = None
+    settle: fields.count("Cycles of it that are left out; see docs/howto.md [forcing periods]", 0) | None = None
     band: Axis | None = Field(None, description="What moves at every point while the worst peak is sought")
 
     def moving(self) -> list[Axis]:

@@ -11,6 +11,7 @@ from traitlets.config import Config
 from vibroimpact_pipeline.report.mathematics import STYLE, kept, mathml
 from vibroimpact_pipeline.report.policy import guarded
 
+OF_THE_RUN = "vibroimpact: compiling"
 PAGE = Path(__file__).with_name("notebook.html.j2")
 
 
@@ -58,7 +59,13 @@ def linked(page: str, address: str) -> str:
 
 
 def page(notebook, title: str) -> str:
-    """Return the HTML page of an executed notebook; the title is that of its figure."""
+    """Return the HTML page of an executed notebook; the title is that of its figure.
+
+    What the library says about itself while it runs, such as that it compiles, is left out.
+    """
+    for cell in notebook.cells:
+        if "outputs" in cell:
+            cell.outputs = [output for output in cell.outputs if not output.get("text", "").startswith(OF_THE_RUN)]
     html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}, "mathematics": STYLE})
     beside_results = html.replace('href="../docs/', 'href="../../docs/').replace('href="../results/', 'href="../')
     return guarded(beside_results)

@@ -12,13 +12,22 @@ import yaml
 from vibroimpact.figures.kit.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
-from vibroimpact_pipeline.report.live import live_data, verdict_data
+from vibroimpact_pipeline.report.live import live_data, verdict_data, verdict_dots
 
 TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\(numbers\.yaml#(?P<key>[\w.-]+)\)")
 """A number of a document, with the key to its place among the results."""
 PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\(\.\./results/\w+/(?P<name>\w+)\.png\)")
-"""A figure that a document shows or links to."""
+"""A figure that a document shows, with its caption, or links to."""
+LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
+"""What stands in a document for a part of report/parts, on paper and where a build has no data for it."""
+SHOWN = """\
+```{{figure}} figures/{name}.svg
+:alt: {alt}
+:target: figures/{name}.svg
+
+{caption}
+```"""
 FIGURE = """\
 .. figure:: figures/{name}.svg
    :alt: {alt}
@@ -42,6 +51,7 @@ class Pages:
     def __init__(self, root, results, config: dict, shown: dict, tables=()):
         self.root, self.results = Path(root), results
         self.names = sorted(path.stem for path in (self.root / TEMPLATES).glob("*.md"))
+        self.chapter = shown.get("chapter", [])
         self.pictures = {figure for group in shown.values() for figure in group}
         self.about = figure_texts(self.root, config)
         self.places = yaml.safe_load((self.root / "docs/numbers.yaml").read_text(encoding="utf-8"))
@@ -61,9 +71,10 @@ class Pages:
             "figure": self.figure,
             "table": table,
             "data": data,
-            "dictionary": lambda: data_dictionary.page(*data_dictionary.read(self.root)),
-            "live_data": lambda: live_data(config),
+            "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),
+            "live_data": lambda: live_data(results, config),
             "verdict_data": lambda: verdict_data(results, config),
+            "verdict_dots": lambda: verdict_dots(results),
         }
 
     def filled(self, name: str) -> str:
@@ -76,6 +87,8 @@ class Pages:
         A number has as many decimals as the document gives, and but on paper says where it is from. In a build with
         other settings there may be no such value: then it stays as it is written.
         """
+        if not paper:
+            text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
         text = NUMBER.sub(lambda found: self._number(paper, **found.groupdict()), text)
         return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
 
@@ -91,8 +104,24 @@ class Pages:
 
     def _picture(self, paper, text, name):
         if text.startswith("!"):
-            return f"{text}(figures/{name}.svg)" if name in self.pictures else ""
+            if name not in self.pictures:
+                return ""
+            if paper:
+                return f"{text}(figures/{name}.svg)"
+            return SHOWN.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=text[2:-1])
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
+
+    def plates(self) -> str:
+        """Return the pictures of the chapter for the end of the article on paper, those left out that it shows."""
+        shown = (name for name in self.chapter if name != "fig10_01")
+        plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
+        return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
+
+    def _live(self, part, still):
+        try:
+            return f"```{{raw}} html\n{self.environment.get_template(f'parts/{part}.html').render()}\n```"
+        except OSError:
+            return still
 
     def figure(self, name: str, level: int = 2) -> str:
         """Return the section of a figure: equations, picture, files, origin."""
@@ -105,7 +134,8 @@ class Pages:
         if self.results.notebook(name):
             links.append(f"[the notebook that draws it](beside:notebooks/{quote(name)}.html)")
         if "csv" in files:
-            links.append("[what the columns mean](data.md)")
+            page = "data_figures" if files["csv"].parent.name == "figures" else "data"
+            links.append(f"[what the columns mean]({page}.md)")
         origin = [plain(about["method"])] if "method" in about else []
         origin += (
             [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 KINDS = ("csv", "svg", "pdf", "png")
-FOLDERS = ("figures", "accuracy", "force_sweep", "animations")
+FOLDERS = ("figures", "accuracy", "force_sweep", "animations", "nudge")
 
 
 class Results:
@@ -50,11 +50,14 @@ class Results:
         paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
         return next((json.loads(path.read_text(encoding="utf-8")) for path in paths if path.is_file()), {})
 
+    def claims(self) -> list[dict]:
+        """Return the judged claims, in the order of the chapter."""
+        return json.loads(self.text("claims.json")) if self.judged else []
+
     def claims_about(self, figure: str) -> list[dict]:
         """Return the judged claims whose place names a figure of the chapter."""
-        claims = json.loads(self.text("claims.json")) if self.judged else []
         named = re.compile(rf"[Ff]ig[a-z]*\.?[^()]*\b10\.{figure.removeprefix('fig10_').lstrip('0')}(?!\d)")
-        return [claim for claim in claims if named.search(claim["place"])]
+        return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
         """Return for each problem and method the finished run with the smallest error, with its time as a multiple of

@@ -11,11 +11,13 @@ import pypandoc
 import typst
 import yaml
 from docutils import nodes
+from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import docutils_namespace
 
 import vibroimpact
 from vibroimpact_pipeline.report.mathematics import STYLE, mathml
+from vibroimpact_pipeline.report.pages import anchor
 from vibroimpact_pipeline.report.policy import policy
 
 ARTICLE = "findings"
@@ -94,7 +96,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
                 scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=told, parallel=2
             )
             app.connect("source-read", lambda app, name, source: fill(pages, name, source))
-            app.connect("doctree-read", lambda app, tree: explain(tree, settings["equations"]))
+            app.connect("doctree-read", lambda app, tree: explain(app.env.docname, tree, settings["equations"]))
             app.build()
     if of_pages := [line for line in told.getvalue().splitlines() if OF_PAGE.search(line)]:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
@@ -124,28 +126,35 @@ def fill(pages, name: str, source: list[str]) -> None:
         source[0] = pages.with_numbers(source[0])
 
 
-def explain(tree, equations: dict) -> None:
-    """Let the number of an equation of the chapter say what that is."""
+def explain(page: str, tree, equations: dict) -> None:
+    """Explain numbers of equations of the chapter and let the search find them; name the rows of claims."""
+    named = set()
     for text in list(tree.findall(nodes.Text)):
         if not isinstance(text.parent, NAMES) and EQUATION.search(text):
-            parts = enumerate(EQUATION.split(text))
+            parts = EQUATION.split(text)
+            named |= set(parts[1::2])
             text.parent.replace(
                 text,
                 [
                     nodes.abbreviation("", f"({part})", explanation=equations[part]) if n % 2 else nodes.Text(part)
-                    for n, part in parts
+                    for n, part in enumerate(parts)
                 ],
             )
+    tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
+    if page == "claims":
+        for row in tree.findall(nodes.row):
+            row["ids"].append(f"claim-{anchor(row[0].astext())}")
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
     """Write the findings as PDF; links lead to the pages beside it."""
-    text = pages.with_numbers((root / f"docs/{ARTICLE}.md").read_text(encoding="utf-8"), paper=True)
+    text = pages.with_numbers((root / f"docs/{ARTICLE}.md").read_text(encoding="utf-8") + pages.plates(), paper=True)
     told = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
     options = ["--standalone", "--shift-heading-level-by=-1", "--variable=papersize=a4", "--variable=fontsize=10pt"]
     options += [f"--metadata={name}={value}" for name, value in told.items()]
     text = re.sub(r"\]\((\w+)\.md", r"](\1.html", text)
     source = pypandoc.convert_text(text, "typst", "markdown+gfm_auto_identifiers-fancy_lists", options)
+    source = "#set figure(numbering: none)\n" + source  # the captions of the chapter's have their own numbers
     typst.compile(source.encode(), output=folder / f"{ARTICLE}.pdf", root=folder, ignore_system_fonts=True)
 
 

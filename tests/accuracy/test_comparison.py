@@ -1,0 +1,48 @@
+"""One row per method: cost of an error of 1e-6, and stress tests."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.accuracy.comparison import compare
+
+RUN = {"missed": 0, "spurious": 0, "outcome": "finished", "family": "f"}
+
+
+def run(problem, method, error, seconds, **other):
+    return RUN | {"problem": problem, "method": method, "error_state": error, "seconds_per_cycle": seconds} | other
+
+
+def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem():
+    runs = [
+        run("p", "a", 1e-9, 1.0),
+        run("q", "a", 1e-9, 2.0),
+        run("p", "b", 1e-5, 1.0),  # not good enough
+        run("p", "b", 1e-7, 3.0),
+        run("p", "b", 1e-9, 9.0),
+        run("q", "b", 1e-7, 8.0),
+        run("p", "c", 1e-7, 1.0),
+        run("q", "c", 1e-7, 1.0, missed=1),  # an impact was missed
+        run("p", "d", 1e-7, 1.0, outcome="unfinished"),
+    ]
+    verdicts = {"a": ["right", "right"], "b": ["silently wrong", "did not finish"], "c": ["refused with an error"]}
+    hazards = pd.DataFrame([(method, one) for method, all_ in verdicts.items() for one in all_]).set_axis(
+        ["method", "verdict"], axis=1
+    )
+    found = compare(pd.DataFrame(runs), hazards).set_index("method")
+    assert found.index.tolist() == ["a", "b", "c", "d"]
+    assert found["problems"].tolist() == [2, 2, 1, 0]
+    np.testing.assert_array_equal(found["times"], [1.0, 4.0, np.nan, np.nan])
+    assert found.loc["b", ["right", "wrong", "stopped", "tests"]].tolist() == [0, 1, 1, 2]
+    assert found.loc["a", "right"] == 2
+
+
+def test_what_the_article_says_of_a_build(built):
+    """All four solvers of SciPy handle chatter, and are silently wrong in grazing only, where impacts are missed."""
+    hazards = pd.read_csv(built / "results/accuracy/hazards.csv")
+    scipy = hazards[hazards["method"].isin(["RK45", "DOP853", "Radau", "LSODA"])]
+    bad = scipy[scipy["verdict"] == "silently wrong"]
+    assert set(bad["test"]) == {"hits by 1e-6", "hits by 1e-10", "hits by 1e-14"}
+    assert (bad["missed"] > 0).all()
+    chatter = hazards[hazards["group"] == "chatter"].groupby("method")["verdict"].unique()
+    assert chatter["power law"].tolist() == ["silently wrong"]
+    assert chatter["Ivanov, events"].tolist() == ["did not finish"]

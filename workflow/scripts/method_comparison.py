@@ -1,0 +1,8 @@
+"""Work-precision chart and stress tests -> CSV, a row per method."""
+
+from vibroimpact.accuracy.comparison import compare
+from vibroimpact.figures.kit import tables
+from vibroimpact_pipeline.jobs import running
+
+with running(snakemake) as out:
+    tables.write(compare(tables.read(snakemake.input.work_precision), tables.read(snakemake.input.hazards)), out.csv)

@@ -1,0 +1,15 @@
+"""All cases -> CSV: the verdicts on their fixed points at several epsilon."""
+
+import pandas as pd
+
+from vibroimpact.claims.verdict_grid import by_epsilon
+from vibroimpact.figures.kit import tables
+from vibroimpact.system import System
+from vibroimpact_pipeline.jobs import running
+
+with running(snakemake) as out:
+    judged = [
+        by_epsilon(System(**parameters), snakemake.params.epsilon).assign(case=case)
+        for case, parameters in snakemake.params.systems.items()
+    ]
+    tables.write(pd.concat(judged), out.csv)
