@@ -104,11 +104,6 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
     return found
 
 
-def burst_lengths(system, state, cycles: int, module: int) -> np.ndarray:
-    """Lengths in cycles, shape (b,), of the bursts of a module's ball over so many from a state at a cycle's start."""
-    return np.diff(bursts_in(simulate(system, state, cycles), module), axis=1)[:, 0] / system.period
-
-
 def mean_and_error(values) -> tuple[float, float, int]:
     """Mean over starts, its standard error (nan for one start), and the number of starts that have the quantity."""
     values = np.asarray(values, dtype=float)
