@@ -42,14 +42,15 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
-        "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside it. "
-        "b: difference of the flight times of ball 1 over the period where both balls lean, the same way or opposite "
-        "ways, while that is stable; it ends at a fold (F), period doubling (P), Neimark-Sacker bifurcation (N), or as "
-        "a ball no longer leans (L). Modules tuned alike, forces 1.52 and 1.54. c: mean power of all impacts, over "
-        "the square of both forces: exact symmetric orbits, the stable leaning one, mean and standard deviation over "
-        "starts; dotted: dampers of linear absorbers of the same mass.",
-    "alt": "Three panels. First: errors near six per cent at all couplings, and crosses near 2 and 40 where the damper "
-        "is held. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
+        "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside "
+        "it (upright: in proportion). b: difference of the flight times of ball 1 over the period where both balls "
+        "lean, the same way or opposite ways, while that is stable; it ends at a fold (F), period doubling (P), "
+        "Neimark-Sacker bifurcation (N), or as a ball no longer leans (L). Modules tuned alike, forces 1.52 and "
+        "1.54. c: mean power of all impacts, over the square of both forces: exact symmetric orbits, the stable "
+        "leaning one, mean and standard deviation over starts; dotted: dampers of linear absorbers of the same "
+        "mass.",
+    "alt": "Three panels. First: errors near six per cent but for couplings from 1.4 to 2, and crosses there and near"
+        " 40. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
         "and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of leaning.",
     "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
     "columns": {
@@ -89,7 +90,8 @@ SPEC = {
 
 STRONG = ("equal", "unequal")
 """Cases that have points called stable."""
-COUPLINGS = (0.3, 1.0, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
+WEAK = "weak"
+COUPLINGS = (0.0, 0.3, 1.0, 1.4, 1.5, 1.6, 1.7, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
 PROPORTION, HELD = "damper in proportion", "damper held"
 ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
 """Where both balls lean: modules tuned alike, their impacts not in the same instant."""
@@ -135,6 +137,8 @@ def compute(systems: dict) -> dict:
         "searches at the forces of the cases": len(tried),
         "patterns at the forces of the cases": sum(len(patterns(system)) for system in tried),
     }
+    if WEAK in systems:
+        summary |= _of_weak(_errors({WEAK: systems[WEAK]}, held=False))
     if "unequal" in systems:
         summary |= _coexisting(systems["unequal"])
     known = [value if isinstance(value, tuple) else (value, 0.0) for value in summary.values()]
@@ -272,6 +276,15 @@ def _of_errors(tables):
     return summary
 
 
+def _of_weak(table):
+    missing = table[table["error"].isna()]["coupling"]
+    return {
+        "points, case weak": len(table),
+        "without a motion, case weak": len(missing),
+        "without a motion, case weak, from coupling": missing.min(),
+    }
+
+
 def _of_patterns(curves):
     summary = {}
     for part in curves:
@@ -314,22 +327,18 @@ def draw(tables: dict) -> Figure:
 
 def _draw_errors(axes, table):
     looks = {PROPORTION: ("o", BLACK, 3.2), HELD: ("s", "white", 3.8)}
+    look = {"color": BLACK, "markeredgewidth": 0.7, "linestyle": "none"}
     for name, (marker, face, size) in looks.items():
         rows = select(table, "error", name)
-        missing = rows[rows["error"].isna()]
-        look = {"color": BLACK, "markeredgewidth": 0.7, "linestyle": "none"}
         axes.plot(
             rows["coupling"], 100 * rows["error"], marker, markerfacecolor=face, markersize=size, label=name, **look
         )
-        if name == HELD and len(missing):
-            axes.plot(missing["coupling"], [100 * MISSING] * len(missing), "x", markersize=5, label="no motion", **look)
-    axes.set(
-        xscale="log",
-        xlabel=r"$\hat\alpha_{12}$",
-        ylabel="error of $C$ in %",
-        ylim=(0, 100 * MISSING + 1),
-        xlim=(0.2, 150),
-    )
+        missing = rows[rows["error"].isna()]["coupling"]
+        cross, label = ("+", None) if name == PROPORTION else ("x", "no motion")
+        axes.plot(missing, np.full(len(missing), 100 * MISSING), cross, markersize=5, label=label, **look)
+    axes.set(xlabel=r"$\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 100 * MISSING + 1))
+    axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
+    axes.set_xlim(-0.15, 150)
     axes.legend(loc="lower left", fontsize=8)
 
 

@@ -8,7 +8,7 @@ from vibroimpact.claims.verdict_table import partners
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, letter_panel, new_figure, styled
+from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.system.state import IMPACT, NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import PRINTED, of_fixed_point
@@ -99,5 +99,5 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     right.set(ylim=(0.2, 0.8), xlabel="forcing periods", ylabel="flights of ball 2, in periods")
     for axes, letter in ((left, "a"), (right, "b")):
         axes.set_xlim(0, CYCLES)
-        letter_panel(axes, letter)
+        heading(axes, letter)
     return figure
