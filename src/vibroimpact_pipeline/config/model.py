@@ -19,8 +19,8 @@ PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 RULES = {
     *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check"),
-    *("figure_check_strict", "figures", "fixed_points", "force_sweep", "gather", "hazards", "index", "orbits"),
-    *("proofs", "report", "scene_models", "simulation", "stability", "sweeps", "verdict_grid", "verdicts"),
+    *("figure_check_strict", "figures", "fixed_points", "force_sweep", "gather", "hazards", "index", "modulation"),
+    *("orbits", "proofs", "report", "scene_models", "simulation", "stability", "sweeps", "verdict_grid", "verdicts"),
     "work_precision",
 }
 """Rules whose names figures and animations, which become rules as well, cannot have."""
