@@ -124,9 +124,11 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
-    assert {"vibroimpact/figures/kit/vibroimpact.mplstyle", "vibroimpact/py.typed", "vibroimpact/__init__.pyi"} <= {
-        *names
-    }
+    assert {
+        "vibroimpact/figures/plotting/vibroimpact.mplstyle",
+        "vibroimpact/py.typed",
+        "vibroimpact/__init__.pyi",
+    } <= {*names}
     assert not [name for name in names if "__pycache__" in name]
 
 

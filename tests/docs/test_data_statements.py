@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures.kit.tables import read
+from vibroimpact.figures.plotting.tables import read
 from vibroimpact.regimes.classification import REGIMES
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]

@@ -16,7 +16,7 @@ import hostile
 from headless_browser import Browser, executable
 from hostile import HOSTILE, RUN, STATEMENT, Markup
 from pipeline_trees import ROOT
-from vibroimpact.figures.kit.markdown import code, one_line, plain
+from vibroimpact.figures.plotting.markdown import code, one_line, plain
 from vibroimpact_pipeline.figure_check.page import page as check_page
 from vibroimpact_pipeline.report import offline
 from vibroimpact_pipeline.report.pages import Pages, anchor, attribute, data

@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from scripts import run
-from vibroimpact.figures.kit import case_motion, case_points
+from vibroimpact.figures.plotting import case_motion, case_points
 from vibroimpact.system import System
 
 EQUAL = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}

@@ -21,8 +21,8 @@ from vibroimpact.figures import companion_basins as basins
 from vibroimpact.figures import companion_branches as branches
 from vibroimpact.figures import companion_epsilon as epsilon_limit
 from vibroimpact.figures import companion_regime_map as regime_map
-from vibroimpact.figures.kit import style
-from vibroimpact.figures.kit.regime_colours import COLOURS, MARKS
+from vibroimpact.figures.plotting import style
+from vibroimpact.figures.plotting.regime_colours import COLOURS, MARKS
 from vibroimpact.regimes.classification import REGIMES, starts
 from vibroimpact.sweeps.grid import Grid, axis
 from vibroimpact.sweeps.rows import rows as rows_of

@@ -11,7 +11,7 @@ from matplotlib.text import Text
 
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_04
-from vibroimpact.figures.kit import style, tables
+from vibroimpact.figures.plotting import style, tables
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
@@ -22,7 +22,7 @@ FIGURES = {path.stem: spec_of(path.stem, {}, specs()) for path in sorted((ROOT /
 def figure(request):
     name, spec = request.param, FIGURES[request.param]
     read = {key: tables.read(ROOT / "figures" / file) for key, (file, _) in compared_files(name, spec).items()}
-    drawn = style.drawn(import_module(f"vibroimpact.figures.{spec['module']}"), read)
+    drawn = style.draw_tables(import_module(f"vibroimpact.figures.{spec['module']}"), read)
     drawn.draw_without_rendering()
     return drawn
 

@@ -101,7 +101,7 @@ CHECKOUT = {
     "docs/claims.yaml": "claims",
     "notebooks/drawings.ipynb": "fig10_01",
     "environment.lock": DRAWING,
-    "src/vibroimpact/figures/kit/vibroimpact.mplstyle": DRAWING,
+    "src/vibroimpact/figures/plotting/vibroimpact.mplstyle": DRAWING,
 }
 
 

@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 
 from vibroimpact.figures.animation import PLACES, compute, draw
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.style import save
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.field import responses
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

@@ -2,8 +2,8 @@
 
 from importlib import import_module
 
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.style import write_and_draw
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.style import write_and_draw
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running

@@ -1,7 +1,7 @@
 """All fixed points of one case -> CSV, a row per point, by label."""
 
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.fixed_point_table import fixed_point_table
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.fixed_point_table import fixed_point_table
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from vibroimpact.claims.verdict_table import FORMER
 from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.style import save
 from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
 from vibroimpact.theory.criteria import THEORY

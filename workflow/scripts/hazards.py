@@ -4,7 +4,7 @@ import pandas as pd
 
 from vibroimpact.accuracy.stress_tests import FORMER, judge, stress_tests
 from vibroimpact.figures import hazards as figure
-from vibroimpact.figures.kit.style import write_and_draw
+from vibroimpact.figures.plotting.style import write_and_draw
 from vibroimpact.frames import with_former_names
 from vibroimpact.integrators import METHODS
 from vibroimpact_pipeline import provenance

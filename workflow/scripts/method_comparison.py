@@ -1,7 +1,7 @@
 """Work-precision chart and stress tests -> CSV, a row per method."""
 
 from vibroimpact.accuracy.comparison import compare
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from vibroimpact.figures.animation import PLACES
-from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.plotting.style import save
 from vibroimpact.figures.nudge import compute, draw
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running

@@ -8,7 +8,7 @@ import pandas as pd
 from vibroimpact.claims.orbit_proofs import proof_rows
 from vibroimpact.claims.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.accuracy import scene_models
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.fixed_point_table import labelled_points
-from vibroimpact.figures.kit.legibility import smallest_visible_error
-from vibroimpact.figures.kit.style import drawn
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.fixed_point_table import labelled_points
+from vibroimpact.figures.plotting.legibility import smallest_visible_error
+from vibroimpact.figures.plotting.style import draw_tables
 from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
@@ -44,7 +44,10 @@ with running(snakemake) as out:
         simulation = snakemake.params.simulations.get(scene.get("case"))
         levels = levels_of(figure, scene, params, simulation, module, table, results)
         print(f"{figure}: {len(levels)} levels")
-        visible, used = smallest_visible_error(drawn(module, {"csv": table})), scene_models.in_use(scene, simulation)
+        visible, used = (
+            smallest_visible_error(draw_tables(module, {"csv": table})),
+            scene_models.in_use(scene, simulation),
+        )
         rows += scene_models.rows(figure, visible, levels, used, snakemake.params.seconds)
     table = pd.DataFrame(rows, columns=scene_models.COLUMNS)
     tables.write(with_former_names(table, {"rung": "level"}), out.csv)

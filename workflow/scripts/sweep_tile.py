@@ -3,7 +3,7 @@
 import pandas as pd
 
 from vibroimpact.exact.engine.all_cores import at_most
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 from vibroimpact.sweeps.request import parsed
 from vibroimpact.sweeps.rows import columns, rows
 from vibroimpact_pipeline.jobs import running

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from vibroimpact.claims.verdict_grid import by_epsilon
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

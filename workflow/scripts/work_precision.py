@@ -5,8 +5,8 @@ import pandas as pd
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import Problem, measure
 from vibroimpact.figures import work_precision as figure
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.style import save
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.style import save
 from vibroimpact.integrators import TIMED
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance

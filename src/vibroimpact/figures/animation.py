@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
 
 SPEC = {
     "title": "The motion of case {case}",

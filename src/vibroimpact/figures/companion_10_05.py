@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, UNSTABLE, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, UNSTABLE, new_figure, styled
 from vibroimpact.theory.manifold import largest_C, rho
 from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 

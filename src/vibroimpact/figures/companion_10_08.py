@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.fixed_point_table import labelled_points
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.fixed_point_table import labelled_points
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes.slow_variables import amplitude_and_lag
 from vibroimpact.theory.response import impact_times, leading_order
 

@@ -21,7 +21,7 @@ from vibroimpact.figures.companion_response import (
     per_force,
     ratios,
 )
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.regimes.classification import starts as spread_starts
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.regimes.settling import settle as settled

@@ -8,8 +8,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from vibroimpact.figures.kit.regime_colours import COLOURS
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.regime_colours import COLOURS
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
 from vibroimpact.regimes import asymmetric_limit
 from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.epsilon_limit import order

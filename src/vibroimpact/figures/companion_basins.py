@@ -5,8 +5,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.figures.kit.regime_colours import key, paint
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.figures.plotting.regime_colours import key, paint
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.regimes.basins import ends, plane, stable_response
 from vibroimpact.regimes.settling import Observation
 from vibroimpact.system.state import NAMES

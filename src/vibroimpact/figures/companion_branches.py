@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.regime_colours import COLOURS
-from vibroimpact.figures.kit.style import (
+from vibroimpact.figures.plotting.regime_colours import COLOURS
+from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
     GREY,

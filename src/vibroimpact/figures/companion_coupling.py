@@ -10,7 +10,7 @@ from vibroimpact.claims.coupling_checks import errors
 from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.kit.style import (
+from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
     GREY,
@@ -20,7 +20,7 @@ from vibroimpact.figures.kit.style import (
     new_figure,
     styled,
 )
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes.basins import plane
 from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.coupling import (

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.field import OF_THE_PROGRAM, two_sectors
-from vibroimpact.figures.kit.regime_colours import COLOURS
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.regime_colours import COLOURS
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
 from vibroimpact.regimes.classification import ASYMMETRIC
 
 SPEC = {

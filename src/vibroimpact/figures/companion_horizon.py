@@ -5,8 +5,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.accuracy.horizon import departure
-from vibroimpact.figures.kit.style import BLACK, GREY, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.style import BLACK, GREY, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.claims.verdict_table import NO_ORBIT, partners
-from vibroimpact.figures.kit.style import BLACK, GREY, HALO, LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.hierarchy import EXACT, LEADING, TWO_TERMS, error, harmonics_name, levels, of_harmonics
 from vibroimpact.regimes.midpoint_grid import plane_of_forces

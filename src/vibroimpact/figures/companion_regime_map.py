@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from scipy import ndimage
 
-from vibroimpact.figures.kit.regime_colours import COLOURS, key, paint
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.regime_colours import COLOURS, key, paint
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, new_figure, styled
 from vibroimpact.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 

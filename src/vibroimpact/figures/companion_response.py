@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from vibroimpact.absorbers.tuning import compared
-from vibroimpact.figures.kit.style import (
+from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
     GREY,

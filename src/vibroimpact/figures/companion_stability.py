@@ -3,7 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 SPEC = {

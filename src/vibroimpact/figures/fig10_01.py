@@ -2,8 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit import drawing
-from vibroimpact.figures.kit.style import SINGLE_COLUMN, styled
+from vibroimpact.figures.plotting import drawing
+from vibroimpact.figures.plotting.style import SINGLE_COLUMN, styled
 
 SPEC = {
     "title": "The mechanical system",

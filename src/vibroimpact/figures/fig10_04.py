@@ -3,10 +3,10 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.manifold import branches, draw_branches
-from vibroimpact.figures.kit.markdown import EXACTLY
-from vibroimpact.figures.kit.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.manifold import branches, draw_branches
+from vibroimpact.figures.plotting.markdown import EXACTLY
+from vibroimpact.figures.plotting.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
 

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.markdown import EXACTLY
-from vibroimpact.figures.kit.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.markdown import EXACTLY
+from vibroimpact.figures.plotting.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers, printed_limit
 

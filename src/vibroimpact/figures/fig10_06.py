@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.fixed_point_table import labelled_points
-from vibroimpact.figures.kit.manifold import branches, draw_branches
-from vibroimpact.figures.kit.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.fixed_point_table import labelled_points
+from vibroimpact.figures.plotting.manifold import branches, draw_branches
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
 
 SPEC = {

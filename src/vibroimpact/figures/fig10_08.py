@@ -1,6 +1,6 @@
 """Figure 10.8: the simulated motion of the second module."""
 
-from vibroimpact.figures.kit.simulated import compute, draw
+from vibroimpact.figures.plotting.simulated import compute, draw
 
 SPEC = {
     "title": "Simulated steady state for equal forces",

@@ -3,7 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit import simulated
+from vibroimpact.figures.plotting import simulated
 
 SPEC = {
     "title": "Strongly modulated response for weak forces",

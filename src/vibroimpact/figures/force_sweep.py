@@ -9,10 +9,10 @@ from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.claims.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.kit.manifold import branches
-from vibroimpact.figures.kit.regime_colours import COLOURS
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
-from vibroimpact.figures.kit.tables import join
+from vibroimpact.figures.plotting.manifold import branches
+from vibroimpact.figures.plotting.regime_colours import COLOURS
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.figures.plotting.tables import join
 from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE

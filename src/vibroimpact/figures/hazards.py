@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from vibroimpact.figures.kit.style import DOUBLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import DOUBLE_COLUMN, new_figure, styled
 
 SPEC = {
     "title": "Every method in every stress test",

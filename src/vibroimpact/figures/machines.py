@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from vibroimpact.absorbers.tuning import compared
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.system import PhysicalSystem
 
 SPEC = {

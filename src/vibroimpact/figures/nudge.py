@@ -8,7 +8,7 @@ from vibroimpact.claims.verdict_table import partners
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.system.state import IMPACT, NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import PRINTED, of_fixed_point

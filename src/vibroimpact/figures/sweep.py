@@ -7,9 +7,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from vibroimpact.figures.kit.regime_colours import COLOURS
-from vibroimpact.figures.kit.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
-from vibroimpact.figures.kit.tables import curve, join
+from vibroimpact.figures.plotting.regime_colours import COLOURS
+from vibroimpact.figures.plotting.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
+from vibroimpact.figures.plotting.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.grid import LINEAR, LOGARITHMIC
 

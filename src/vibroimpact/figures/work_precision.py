@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from vibroimpact.figures.kit.style import BLACK, DOUBLE_COLUMN, GREY, HALO, LIGHT_GREY, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, HALO, LIGHT_GREY, heading, new_figure, styled
 
 SPEC = {
     "title": "Error against time, method by method",

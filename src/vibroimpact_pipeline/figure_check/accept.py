@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from vibroimpact.figures.kit.tables import read
-from vibroimpact.figures.kit.versions import drawn_with
+from vibroimpact.figures.plotting.tables import read
+from vibroimpact.figures.plotting.versions import drawing_versions
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 
@@ -49,7 +49,7 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
             tables = {name: read(reference / file) for name, (file, _) in files.items()}
             drawn = pictures.draw(verdict["module"], tables, figure, folder)
             (reference / f"{figure}.png").write_bytes(pictures.small(drawn.pop("png").read_bytes()))
-            sums[figure] = {**pictures.sums(drawn), "drawn with": drawn_with()}
+            sums[figure] = {**pictures.sums(drawn), "drawn with": drawing_versions()}
     (reference / SUMS).write_text(json.dumps(dict(sorted(sums.items())), indent=1) + "\n", encoding="utf-8")
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""

@@ -12,8 +12,8 @@ from itertools import repeat
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from vibroimpact.figures.kit.tables import read
-from vibroimpact.figures.kit.versions import drawn_with
+from vibroimpact.figures.plotting.tables import read
+from vibroimpact.figures.plotting.versions import drawing_versions
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.table_distances import compare
 from vibroimpact_pipeline.specs import each
@@ -94,7 +94,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         others = [kind for kind in pictures.KINDS if today[kind] != before.get(kind)]
         if pictures.is_blank(built["png"]):
             reasons.append("picture: blank")
-        if others and known.get("drawn with") == drawn_with():
+        if others and known.get("drawn with") == drawing_versions():
             reasons.append(f"picture: `draw` makes another {', '.join(others)} of the reference's tables")
     far = max((one["distance"] for one in verdict["tables"]), default=0.0)
     return verdict | {"status": FAILED if reasons else NOT_COMPARABLE if others else PASSED, "distance": far}

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from vibroimpact.figures.kit import style
+from vibroimpact.figures.plotting import style
 
 KINDS = "png", "pdf", "svg"
 DECIMALS = 3
@@ -21,7 +21,7 @@ processor may round otherwise; a thousandth of a point is a hundredth of a pixel
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
     """Draw a figure from its tables with its module; return the files by kind."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
-    style.save(style.drawn(import_module(f"vibroimpact.figures.{module}"), tables), files)
+    style.save(style.draw_tables(import_module(f"vibroimpact.figures.{module}"), tables), files)
     return files
 
 

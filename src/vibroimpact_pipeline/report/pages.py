@@ -9,7 +9,7 @@ from urllib.parse import quote
 import jinja2
 import yaml
 
-from vibroimpact.figures.kit.markdown import code, one_line, plain
+from vibroimpact.figures.plotting.markdown import code, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.report.live import live_data, verdict_data, verdict_dots

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from vibroimpact.figures.kit import style, tables
+from vibroimpact.figures.plotting import style, tables
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import HEADING, main
 from vibroimpact_pipeline.figure_check.check import SUMS

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from vibroimpact.figures import fig10_02, fig10_04, fig10_06
-from vibroimpact.figures.kit import drawing, style, tables
+from vibroimpact.figures.plotting import drawing, style, tables
 from vibroimpact_pipeline.figure_check import check as checks
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import SUMS, check, check_all, has_failed, lines
@@ -126,7 +126,7 @@ def test_other_versions_that_draw_otherwise_are_not_comparable_and_the_numbers_d
 
 
 def elsewhere(monkeypatch):
-    monkeypatch.setattr(checks, "drawn_with", lambda: {"matplotlib": "3.11.2", "freetype": "9.9"})
+    monkeypatch.setattr(checks, "drawing_versions", lambda: {"matplotlib": "3.11.2", "freetype": "9.9"})
 
 
 # Files of a build

@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.figures.kit.style import STABLE, UNSTABLE
-from vibroimpact.figures.kit.tables import curve, select
+from vibroimpact.figures.plotting.style import STABLE, UNSTABLE
+from vibroimpact.figures.plotting.tables import curve, select
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.masri import printed_limit
 

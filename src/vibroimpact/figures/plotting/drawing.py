@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
-from vibroimpact.figures.kit.style import BLACK, LIGHT_GREY, new_figure
+from vibroimpact.figures.plotting.style import BLACK, LIGHT_GREY, new_figure
 
 OUTLINE, LINE, THIN = 1.1, 0.9, 0.5
 """Line widths in points: bodies, springs and dampers, auxiliary lines."""

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.kit.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.figures.kit.tables import curve, join, select
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
+from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes import modulation
 from vibroimpact.regimes.periodicity import samples_per_cycle
 

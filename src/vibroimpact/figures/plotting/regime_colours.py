@@ -6,7 +6,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.figures.kit.style import BLACK, hatch_gaps
+from vibroimpact.figures.plotting.style import BLACK, hatch_gaps
 from vibroimpact.regimes.basins import MIRRORED
 from vibroimpact.regimes.classification import (
     ASYMMETRIC,

@@ -8,7 +8,7 @@ import matplotlib.style
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from vibroimpact.figures.kit import tables
+from vibroimpact.figures.plotting import tables
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
@@ -85,8 +85,8 @@ def save(figure: Figure, outputs: dict) -> None:
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
 
 
-def drawn(figure, read: dict) -> Figure:
-    """The picture of a figure's module from its tables by name: one that has a single table is given that alone."""
+def draw_tables(figure, read: dict) -> Figure:
+    """Return the picture of a figure's module from its tables by name; `draw` of one with a single table takes that."""
     spec = getattr(figure, "SPEC", {"columns": {}})  # that of a sweep has none
     if spec.get("tables"):
         return figure.draw(read)
@@ -102,7 +102,7 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
     """
     for name, table in _by_name(computed).items():
         tables.write(table, outputs[name])
-    save(drawn(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs)
+    save(draw_tables(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs)
 
 
 def picture(figure, computed, outputs: dict) -> str | bytes:
@@ -111,7 +111,7 @@ def picture(figure, computed, outputs: dict) -> str | bytes:
     Args: as `write_and_draw`; outputs may be empty.
     """
     if not outputs:
-        return png(drawn(figure, _by_name(computed)))
+        return png(draw_tables(figure, _by_name(computed)))
     write_and_draw(figure, computed, outputs)
     return outputs["png"]
 

@@ -4,5 +4,5 @@ import matplotlib
 from matplotlib import ft2font
 
 
-def drawn_with() -> dict[str, str]:
+def drawing_versions() -> dict[str, str]:
     return {"matplotlib": matplotlib.__version__, "freetype": ft2font.__freetype_version__}

@@ -8,9 +8,9 @@ import pandas as pd
 
 from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.figures.kit import tables
-from vibroimpact.figures.kit.fixed_point_table import fixed_point_table, labelled_points
-from vibroimpact.figures.kit.markdown import EXACTLY, plain
+from vibroimpact.figures.plotting import tables
+from vibroimpact.figures.plotting.fixed_point_table import fixed_point_table, labelled_points
+from vibroimpact.figures.plotting.markdown import EXACTLY, plain
 
 AGREES = 1e-8
 """Difference of coordinates below which two tables hold the same fixed points: they were made by the same code."""
