@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 
 from vibroimpact.figures.animation import PLACES
-from vibroimpact.figures.plotting.style import save
 from vibroimpact.figures.nudge import compute, draw
+from vibroimpact.figures.plotting.style import save
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 
