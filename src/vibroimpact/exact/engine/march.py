@@ -8,9 +8,12 @@ part s of the step; lowering the two coefficients in the middle by B h^4 / 72 ta
 of the boxes, which grows no faster than the force raises it.
 
 Lanes whose step is not proved wait until there are enough of them for a pass (`meet`): the Taylor polynomials of both
-boxes give the time of an impact, and the same hull proves the flight until then; or they give where a box turns. A
-proof that fails is tried again over half the time. What is not plain (chatter to be completed, balls at rest,
-two events at once, any doubt) is left to the event loop.
+boxes give the time of an impact, and the same hull proves the flight until then. A proof that fails is tried again over
+half the time. What is not plain (chatter to be completed, balls at rest, two events at once, any doubt) is left to the
+event loop.
+
+A turn of a box whose hull exceeds its largest displacement so far is kept in its lane and found later, with those of
+the other lanes: no lane waits for it, and a higher one may come first.
 """
 
 import math
