@@ -29,6 +29,7 @@ SHOWN = {
     "models": ["scene_models"],
     "animations": ["waves"],
     "force_sweep": ["force_sweep"],
+    "nudge": ["nudge"],
 }
 PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="9" height="9"/></svg>'
 
@@ -110,7 +111,11 @@ def results(folder: Path) -> Path:
     }
     texts["claims.md"] = to_markdown([claim | {"id": "some", "parts": {}, "numbers": {}, "verdict": "holds"}])
     tables = {
-        "fixed_points.csv": [{"case": HOSTILE, "label": HOSTILE, "orbit": HOSTILE, "exact": HOSTILE} | numbers],
+        "fixed_points.csv": [
+            {"case": case, "label": label, "orbit": HOSTILE, "exact": HOSTILE} | numbers
+            for case in (HOSTILE, "equal")
+            for label in (HOSTILE, "a", "b", "c")
+        ],
         "verdict_grid.csv": [
             {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "exact": HOSTILE, "admissible": True}
             | {"printed_10_26": HOSTILE, "fast": HOSTILE, "slow": HOSTILE, "theory": HOSTILE}
@@ -137,7 +142,7 @@ def results(folder: Path) -> Path:
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],
         "accuracy/scene_models.csv": [
-            {"figure": "mine", "rung": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
+            {"figure": "mine", "level": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
             | {"meets": True, "cost_s": 0.1, "in_use": True}
         ],
     }

@@ -142,7 +142,7 @@ def explain(page: str, tree, equations: dict) -> None:
             )
     tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
     if page == "claims":
-        for row in tree.findall(nodes.row):
+        for row in (row for body in tree.findall(nodes.tbody) for row in body.findall(nodes.row)):
             row["ids"].append(f"claim-{anchor(row[0].astext())}")
 
 
