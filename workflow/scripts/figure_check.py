@@ -29,8 +29,8 @@ with running(snakemake):
             partial.write_text(text, encoding="utf-8")
     report = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
     if others := " ".join(verdict["figure"] for verdict in found if verdict["status"] != PASSED):
-        lines += [f'To accept a change on purpose: make accept REASON="why" FIGURES="{others}"']
-        lines += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
+        report += [f'To accept a change on purpose: make accept REASON="why" FIGURES="{others}"']
+        report += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
     for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
         print(*report, sep="\n", file=stream, flush=True)
 sys.exit(int(has_failed(found, snakemake.params.strict)))
