@@ -157,7 +157,7 @@ def test_machines_can_be_designed(tmp_path):
         for one, other in zip(lines, told, strict=True):
             if any(words in one for words in ("ball fixed", "absorber", "natural", "balls fixed", "without balls")):
                 assert one == other
-            elif "largest displacement" in one:
+            elif "restitution" not in said or "largest displacement" in one:
                 assert [float(n) for n in re.findall(number, one)] == pytest.approx(
                     [float(n) for n in re.findall(number, other)], rel=0.1
                 )

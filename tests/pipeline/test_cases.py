@@ -1,6 +1,7 @@
 """A case may say any parameter of the system: whatever is computed, written or recorded of it has its own."""
 
 import json
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from chapter import FORCES, PARAMETERS
 from configs import GOOD, edited
 from pipeline_trees import ROOT
-from vibroimpact import System
+from vibroimpact import System, fixed_points
 from vibroimpact.figures import companion_regime_map
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import departures
@@ -60,7 +61,11 @@ def test_a_record_tells_of_the_parameter(tmp_path):
 
 
 def test_the_live_page_has_the_cases_that_differ_in_forces():
-    data = json.loads(live_data(CONFIG))
+    """Not `soft`, of which the tables of a build have points as well."""
+    points = [(case, point.label, "", "no orbit") for case, one in SYSTEMS.items() for point in fixed_points(one)]
+    tables = {"fixed_points.csv": pd.DataFrame(points, columns=["case", "label", "orbit", "exact"])}
+    tables |= {"orbits.csv": pd.DataFrame(columns=["case", "label", "modulus_1"])}
+    data = json.loads(live_data(SimpleNamespace(table=tables.get), CONFIG))
     assert data["system"] == PARAMETERS
     assert {name: tuple(case["forces"]) for name, case in data["cases"].items()} == FORCES
 

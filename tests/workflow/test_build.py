@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from vibroimpact.figures.plotting import tables
 from vibroimpact_pipeline.result_records import RECORDS
 
 FIGURES = [f"fig10_{number:02}" for number in range(1, 12)]
@@ -107,6 +108,15 @@ def test_the_figures_are_those_of_the_reference_set(rebuilt):
     assert rebuilt.returncode == 0, said
     verdicts = json.loads((rebuilt / "results/figure_check/figure_check.json").read_text())
     assert {verdict["figure"] for verdict in verdicts} >= set(FIGURES)
+
+
+def test_a_figure_unlike_its_reference_fails_the_check_which_says_how_to_accept_it(rebuilt):
+    reference = rebuilt / "figures/fig10_04.csv"
+    table = tables.read(reference)
+    tables.write(table.assign(B=1.01 * table["B"]), reference)
+    said = rebuilt.snakemake("figure_check", check=False)
+    assert rebuilt.returncode != 0
+    assert 'To accept a change on purpose: make accept REASON="why" FIGURES="fig10_04"\n' in said
 
 
 @pytest.mark.thorough

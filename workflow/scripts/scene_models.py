@@ -44,10 +44,8 @@ with running(snakemake) as out:
         simulation = snakemake.params.simulations.get(scene.get("case"))
         levels = levels_of(figure, scene, params, simulation, module, table, results)
         print(f"{figure}: {len(levels)} levels")
-        visible, used = (
-            smallest_visible_error(draw_tables(module, {"csv": table})),
-            scene_models.in_use(scene, simulation),
-        )
+        visible = smallest_visible_error(draw_tables(module, {"csv": table}))
+        used = scene_models.in_use(scene, simulation)
         rows += scene_models.rows(figure, visible, levels, used, snakemake.params.seconds)
     table = pd.DataFrame(rows, columns=scene_models.COLUMNS)
     tables.write(with_former_names(table, {"rung": "level"}), out.csv)

@@ -8,8 +8,8 @@ from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
-    judged = [
-        by_epsilon(System(**parameters), snakemake.params.epsilon).assign(case=case)
+    judged = {
+        case: by_epsilon(System(**parameters), snakemake.params.epsilon)
         for case, parameters in snakemake.params.systems.items()
-    ]
-    tables.write(pd.concat(judged), out.csv)
+    }
+    tables.write(pd.concat(judged, names=["case"]).reset_index("case"), out.csv)

@@ -14,7 +14,7 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 CHECKS = ("strong_coupling", "one_sided_impacts", "harvesting")
 SETTLED, OBSERVED = 1500, 500
-ALIKE = 1e-3
+SAME_POWER = 1e-3
 """Relative difference of powers of one and the same motion."""
 
 
@@ -77,7 +77,7 @@ def harvesting(evidence, cases, number, seed):
         known = {"symmetric": min(symmetric, key=lambda one: np.abs(one.C - C).max())}
         known |= {"stable leaning": leaning[0]} if leaning else {}
         powers = {name: float(impact_power(system, [one.state], 1)[0]) for name, one in known.items()}
-        others = taken[~np.isclose(taken[:, None], list(powers.values()), rtol=ALIKE).any(axis=1)]
+        others = taken[~np.isclose(taken[:, None], list(powers.values()), rtol=SAME_POWER).any(axis=1)]
         numbers[f"starts that end on no 1:1 response, case {case}"] = len(others)
         for name, power in powers.items() if len(others) else ():
             parts[f"more than the {name} response, case {case}"] = others.mean() > power

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.absorbers.references import tuned
 from vibroimpact.absorbers.tuning import den_hartog
-from vibroimpact.claims.coupling_checks import errors
+from vibroimpact.claims.coupling_checks import OBSERVED, SAME_POWER, SETTLED, errors
 from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
@@ -97,9 +97,9 @@ ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
 """Where both balls lean: modules tuned alike, their impacts not in the same instant."""
 LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
-STARTS, SEED, CYCLES, SETTLE = 32, 1, 2000, 1500
+STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
 LONG = 10000
-"""Cycles of starts that are not on the leaning orbit after SETTLE: some are on long transients."""
+"""Cycles of starts that are not on the leaning orbit after SETTLED: some are on long transients."""
 SIDE = 8
 WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
 SYMMETRIC, LEANING, ALL, LINEAR = "symmetric", "leaning", "all starts", "linear absorber"
@@ -108,9 +108,7 @@ TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
-"""Coupling from which the error no longer falls."""
-SAME_POWER = 1e-3
-"""Relative difference of powers of one and the same motion."""
+"""Coupling from which errors and missing motions are told apart from those of weaker coupling."""
 MISSING = 0.15
 ENDS = {FOLD: "F", PERIOD_DOUBLING: "P", NEIMARK_SACKER: "N", GRAZING: "G", STRAIGHT: "L"}
 """Letters of how a stable range ends."""
@@ -199,15 +197,15 @@ def _power(equal):
     for force in FORCES:
         system = equal.with_(f10_hat=force, f20_hat=force)
         unit = force**2
-        taken = impact_power(system, begun, CYCLES, SETTLE) / unit
+        taken = impact_power(system, begun, CYCLES, SETTLED) / unit
         leaning = leaning_orbits(system, both=False)[:1]
         found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
         powers = [impact_power(system, [one.state], 1)[0] / unit for one in leaning]
         on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
         if leaning and not on_it.all():
             late = ~on_it
-            lasting[f"leaning share after {SETTLE} cycles, force {force:g}"] = on_it.mean(), on_it.std() / STARTS**0.5
-            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLE) / unit
+            lasting[f"leaning share after {SETTLED} cycles, force {force:g}"] = on_it.mean(), on_it.std() / STARTS**0.5
+            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLED) / unit
             on_it = np.isclose(taken, powers[0], rtol=SAME_POWER)
         for one in (one for one in found if one.admissible):
             alone = impact_power(system, [one.state], 1)[0] / unit
@@ -231,7 +229,7 @@ def _coexisting(system):
     if not leaning:
         return {}
     alone = impact_power(system, [leaning[0].state], 1)[0]
-    taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLE) / alone
+    taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLED) / alone
     others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
     if not len(others):
         return {"leaning share, unequal forces": 1.0}

@@ -142,7 +142,7 @@ def draw(tables: dict) -> Figure:
         if len(largest):
             axes.plot(largest.index, largest, label=name, markersize=3.6, linewidth=0.8, **look)
             middle = largest.index[len(largest) // 2]
-            beside = {"xytext": (-3, 5), "ha": "right"} if panel in ("fast", "slow") else {"xytext": (4, -12)}
+            beside = {"xytext": (-3, 5), "ha": "right"} if panel != "distance" else {"xytext": (4, -12)}
             axes.annotate(name, (middle, largest[middle]), textcoords="offset points", **beside)
             if panel in SLOPES:
                 _slope(axes, largest.index[-1], largest.iloc[-1], *SLOPES[panel])

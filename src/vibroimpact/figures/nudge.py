@@ -4,12 +4,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.claims.verdict_table import partners
+from vibroimpact.claims.verdict_grid import exact_orbits
 from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.figures import animation
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
-from vibroimpact.system.state import IMPACT, NAMES
+from vibroimpact.frames import to_frame
+from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import PRINTED, of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
@@ -26,43 +27,9 @@ SPEC = {
 
 PUSH, CYCLES, PER_CYCLE = 1e-6, 40, 40
 """Displacement of ball 2, length of the run in forcing periods, samples in each."""
-BALL, BOXES = "Y2", ("X1", "Y1", "X2", "Y2")
-
-
-def compute(system) -> dict:
-    """Follow the most unstable of the exact orbits that belong to fixed points called stable by (10.26), nudged.
-
-    Returns "motion": columns t (forcing periods), X1, Y1, X2, Y2, at all samples and impacts; "impacts": columns t,
-    module, wall; "distance": columns t, distance (Euclidean, of the state from that of the orbit, once a period);
-    "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label, multiplier (largest
-    modulus). There are no rows where no such orbit is unstable.
-    """
-    label, orbit = _called_stable(system)
-    if orbit is None:
-        return {name: pd.DataFrame(columns=columns) for name, columns in COLUMNS.items()}
-    start = orbit.state + PUSH * (np.array(NAMES) == BALL)
-    times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
-    run = simulate(system, start, CYCLES, sample_times=times * system.period)
-    hits = run.events[run.events["kind"] == IMPACT]
-    at = np.array([NAMES.index(name) for name in BOXES])
-    motion = np.column_stack([times, run.samples[:, at]])
-    corners = np.column_stack([hits["tau"] / system.period, hits["state"][:, at]])
-    ends = hits["tau"][hits["module"] == 2] / system.period
-    found = {
-        "motion": np.vstack([motion, corners]),
-        "impacts": np.column_stack([hits["tau"] / system.period, hits["module"], hits["wall"]]),
-        "distance": np.column_stack(
-            [times[::PER_CYCLE], np.linalg.norm(run.samples[::PER_CYCLE] - orbit.state, axis=1)]
-        ),
-        "flights": np.column_stack([ends[1:], np.diff(ends)]),
-        "orbit": [[label, abs(orbit.multipliers[0])]],
-    }
-    tables = {name: pd.DataFrame(rows, columns=COLUMNS[name]) for name, rows in found.items()}
-    return tables | {"motion": tables["motion"].sort_values("t", ignore_index=True)}
-
-
+BALL = "Y2"
 COLUMNS = {
-    "motion": ["t", *BOXES],
+    "motion": ["t", *animation.COORDINATES],
     "impacts": ["t", "module", "wall"],
     "distance": ["t", "distance"],
     "flights": ["t", "length"],
@@ -70,16 +37,42 @@ COLUMNS = {
 }
 
 
+def compute(system) -> dict:
+    """Follow the most unstable of the exact orbits that belong to fixed points called stable by (10.26), nudged.
+
+    Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, of the state from
+    that of the orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods);
+    "orbit": label, multiplier (largest modulus). There are no rows where no such orbit is unstable.
+    """
+    label, orbit = _called_stable(system)
+    if orbit is None:
+        return {name: pd.DataFrame(columns=columns) for name, columns in COLUMNS.items()}
+    start = orbit.state + PUSH * (np.array(NAMES) == BALL)
+    times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
+    run = simulate(system, start, CYCLES, sample_times=times * system.period)
+    samples = pd.DataFrame(run.samples, columns=NAMES).assign(tau=times * system.period)
+    shown = animation.compute(samples, to_frame(run), system.period, CYCLES)
+    ends = shown["impacts"].query("module == 2")["t"].to_numpy()
+    away = np.linalg.norm(run.samples[::PER_CYCLE] - orbit.state, axis=1)
+    rows = {
+        "distance": np.column_stack([times[::PER_CYCLE], away]),
+        "flights": np.column_stack([ends[1:], np.diff(ends)]),
+        "orbit": [[label, abs(orbit.multipliers[0])]],
+    }
+    return shown | {name: pd.DataFrame(found, columns=COLUMNS[name]) for name, found in rows.items()}
+
+
 def _called_stable(system):
     """Label and orbit of the most unstable motion that (10.26) calls stable; None where there is none."""
-    points, roots = fixed_points(system), symmetric_solutions(system)
-    found = [(None, None)]
-    for point, partner in zip(points, partners([point.C for point in points], roots[:, 2:]), strict=True):
-        if partner is not None and of_fixed_point(system, point)[PRINTED] == STABLE:
-            orbit = symmetric_orbit(system, roots[partner])
-            if orbit.admissible and abs(orbit.multipliers[0]) > 1:
-                found.append((point.label, orbit))
-    return max(found, key=lambda one: 0 if one[1] is None else abs(one[1].multipliers[0]))
+    points = fixed_points(system)
+    orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
+    found = [
+        (point.label, orbit)
+        for point, orbit in zip(points, orbits, strict=True)
+        if orbit is not None and of_fixed_point(system, point)[PRINTED] == STABLE
+        if orbit.admissible and abs(orbit.multipliers[0]) > 1
+    ]
+    return max(found, key=lambda one: abs(one[1].multipliers[0]), default=(None, None))
 
 
 @styled

@@ -153,7 +153,11 @@ def paint(path):
 
 
 def label(path):
-    path.write_text(path.read_text().replace("stable<", "stabil<", 1))
+    """Another letter: the words of a picture are outlines."""
+    text = path.read_text()
+    first, *_, last = re.findall(r'(#STIXGeneral-[\w-]+)"/>', text)
+    assert first != last
+    path.write_text(text.replace(f'{first}"/>', f'{last}"/>', 1))
 
 
 def move_outline(path):
