@@ -245,7 +245,7 @@ onstart:
 
 
 def results_of_a_commit(wildcards):
-    """Refused before anything is built, rather than after it."""
+    """Return the results of the default build; refuse a changed checkout before anything is built."""
     try:
         committed(ROOT)
     except ValueError as error:

@@ -135,7 +135,6 @@ DOTS = {
 """Looks of the regimes in which simulated starts end."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
-NO_SPECIAL_POINT = "none"
 HUES = {
     FixedPoints.name: BLACK,
     SymmetricOrbits.name: COLOURS[SYMMETRIC],

@@ -15,7 +15,6 @@ Along = fields.items(Literal[NAMES], 1, len(NAMES), "The parameters that move to
 ODD = fields.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "should be odd and ascending")
 APART = fields.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
 Harmonic = Annotated[int, Field(ge=1, le=999)]
-Velocity = Annotated[float, Field(gt=0, le=1e4)]
 Window = Annotated[int, Field(ge=1, le=100_000)]
 
 
