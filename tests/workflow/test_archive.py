@@ -99,3 +99,10 @@ def test_elsewhere_there_is_no_archive_without_git(elsewhere):
     assert elsewhere.returncode == 1
     assert "archive: commit all changes first" in said
     assert "Traceback" not in said
+
+
+def test_a_container_has_the_checkout_that_an_archive_needs():
+    """Docker reads patterns as git does, but for those without a slash, which git also finds further below."""
+    listed = ["git", "ls-files", "--cached", "--ignored", "--exclude-from=.dockerignore"]
+    assert subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout == ""
+    assert not {".git", "**/.git", ".*"} & set((ROOT / ".dockerignore").read_text().split())
