@@ -45,10 +45,10 @@ benchmark: set-up  ## time per impact of every method, with its error (a minute 
 	.venv/bin/python workflow/scripts/benchmark.py
 
 attack: set-up  ## attack what the certificates of runs say, 20 000 runs of each kind (RUNS=20000; a core for a quarter of an hour)
-	.venv/bin/pytest tests/exact/engine/test_attack.py --attack=$(RUNS)
+	.venv/bin/pytest -s tests/exact/engine/test_attack.py --attack=$(RUNS)
 
 # Tests that need no build of the figures: formulas, orbits, the core of the engine, the config, the map of the repository.
-QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact certificate)) sweeps absorbers \
+QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) sweeps absorbers \
 	integrators/test_contact_laws.py regimes/test_classification.py figures/test_specs.py figures/test_notebooks.py \
 	pipeline/test_config_reading.py report/test_report_text.py docs/test_map.py
 

@@ -7,8 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.figures.plotting.tables import read
 from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.tables import read
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]
 RHO = 2 * (1 - KAPPA) / (np.pi * (1 + KAPPA))

@@ -7,7 +7,7 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.figures import companion_10_08
-from vibroimpact.figures.plotting.tables import select
+from vibroimpact.tables import select
 
 SYSTEM = vi.System(**PARAMETERS, **dict(zip(("f10_hat", "f20_hat"), FORCES["equal"], strict=True)))
 

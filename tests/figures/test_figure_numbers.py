@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
-from vibroimpact.figures.plotting.tables import select
+from vibroimpact.tables import select
 
 KAPPA = mpmath.mpf("0.65")
 RHO = 2 * (1 - KAPPA) / (mpmath.pi * (1 + KAPPA))

@@ -13,7 +13,7 @@ from snakemake.api import SnakemakeApi
 from snakemake.settings.types import ConfigSettings, ResourceSettings
 
 from pipeline_trees import ROOT
-from vibroimpact.figures.plotting.tables import read
+from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import columns, each, spec_of, specs
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
 from vibroimpact_pipeline.result_records import RECORDS
 
 FIGURES = [f"fig10_{number:02}" for number in range(1, 12)]

@@ -38,7 +38,7 @@ rule claims:
         markdown="results/claims.md",
     params:
         config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
-        code=LIBRARY | fingerprints("docs/claims.yaml"),
+        code=LIBRARY | fingerprints("pipeline", "docs/claims.yaml"),
     log:
         "results/logs/claims.log",
     benchmark:

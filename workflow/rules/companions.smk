@@ -1,7 +1,8 @@
 # Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/figures/.
 
-# What `compute` of each takes: settings of the config, named as the last key of their paths (a * for all of a section);
-# inputs; `system`, that of a case; `systems`, those of all cases. Without one of these entries it is not made.
+# What `compute` of each takes: settings of the config, named as the last key of their paths (a * stands for all of a
+# section, but for its `case`); inputs; `system`, that of a case; `systems`, those of all cases. Without one of these
+# entries it is not made.
 COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {

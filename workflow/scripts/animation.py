@@ -3,8 +3,8 @@
 import json
 from pathlib import Path
 
+from vibroimpact import tables
 from vibroimpact.figures.animation import PLACES, compute, draw
-from vibroimpact.figures.plotting import tables
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.field import responses
-from vibroimpact.figures.plotting import tables
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
 from vibroimpact.figures.plotting.style import write_and_draw
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance

@@ -1,8 +1,8 @@
 """All fixed points of one case -> CSV, a row per point, by label."""
 
-from vibroimpact.figures.plotting import tables
-from vibroimpact.figures.plotting.fixed_point_table import fixed_point_table
+from vibroimpact import tables
 from vibroimpact.system import System
+from vibroimpact.theory.fixed_points.table import fixed_point_table
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from vibroimpact import tables
 from vibroimpact.claims.verdict_table import FORMER
 from vibroimpact.figures.force_sweep import VERDICTS, compute, draw
-from vibroimpact.figures.plotting import tables
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.frames import with_former_names
 from vibroimpact.system import System

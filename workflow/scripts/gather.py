@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

@@ -1,7 +1,7 @@
 """Work-precision chart and stress tests -> CSV, a row per method."""
 
+from vibroimpact import tables
 from vibroimpact.accuracy.comparison import compare
-from vibroimpact.figures.plotting import tables
 from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:

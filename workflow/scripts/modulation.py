@@ -1,7 +1,7 @@
 """Measures of the regimes of all cases and their Lyapunov spectra -> three CSV files."""
 
+from vibroimpact import tables
 from vibroimpact.claims.modulation_tables import modulation_tables
-from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

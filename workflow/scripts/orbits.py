@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.claims.orbit_proofs import proof_rows
 from vibroimpact.claims.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

@@ -9,9 +9,9 @@ import dataclasses
 import json
 from pathlib import Path
 
+from vibroimpact import tables
 from vibroimpact.claims.orbit_proofs import counts
 from vibroimpact.exact.orbits.certify import certify as certify_orbits
-from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact.theory.completeness_proof import certify, certify_asymmetric
 from vibroimpact_pipeline.jobs import running

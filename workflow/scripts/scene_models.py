@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.accuracy import scene_models
-from vibroimpact.figures.plotting import tables
-from vibroimpact.figures.plotting.fixed_point_table import labelled_points
 from vibroimpact.figures.plotting.legibility import smallest_visible_error
 from vibroimpact.figures.plotting.style import draw_tables
 from vibroimpact.frames import with_former_names
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
+from vibroimpact.theory.fixed_points.table import labelled_points
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.specs import drawing_module, specs
 

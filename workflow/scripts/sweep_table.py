@@ -4,7 +4,7 @@ import sys
 
 import pandas as pd
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
 from vibroimpact.frames import to_dataset
 from vibroimpact.sweeps.spec import POINT
 from vibroimpact_pipeline.jobs import running

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.exact.engine.all_cores import at_most
-from vibroimpact.figures.plotting import tables
 from vibroimpact.sweeps.request import parsed
 from vibroimpact.sweeps.rows import columns, rows
 from vibroimpact_pipeline.jobs import running

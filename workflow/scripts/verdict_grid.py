@@ -1,7 +1,7 @@
 """Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
 
+from vibroimpact import tables
 from vibroimpact.claims.verdict_grid import compute
-from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

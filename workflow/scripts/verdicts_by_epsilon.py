@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.claims.verdict_grid import by_epsilon
-from vibroimpact.figures.plotting import tables
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

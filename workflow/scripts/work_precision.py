@@ -2,10 +2,10 @@
 
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.accuracy.timing import versions
 from vibroimpact.accuracy.work_precision import Problem, measure
 from vibroimpact.figures import work_precision as figure
-from vibroimpact.figures.plotting import tables
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.integrators import TIMED
 from vibroimpact.system import System

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.plotting.fixed_point_table import labelled_points
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes.slow_variables import amplitude_and_lag
+from vibroimpact.tables import curve, join, select
+from vibroimpact.theory.fixed_points.table import labelled_points
 from vibroimpact.theory.response import impact_times, leading_order
 
 SPEC = {

@@ -20,7 +20,6 @@ from vibroimpact.figures.plotting.style import (
     new_figure,
     styled,
 )
-from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes.basins import plane
 from vibroimpact.regimes.classification import starts
 from vibroimpact.regimes.coupling import (
@@ -37,6 +36,7 @@ from vibroimpact.regimes.coupling import (
 )
 from vibroimpact.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
 from vibroimpact.regimes.two_terms import amplitudes
+from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {

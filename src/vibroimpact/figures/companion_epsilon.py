@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join
 from vibroimpact.regimes.epsilon_limit import NoOrbit, compare, first_order, order
+from vibroimpact.tables import curve, join
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
 SPEC = {

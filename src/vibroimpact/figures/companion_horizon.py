@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 
 from vibroimpact.accuracy.horizon import departure
 from vibroimpact.figures.plotting.style import BLACK, GREY, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
+from vibroimpact.tables import curve, join, select
 
 SPEC = {
     "title": "Where double precision leaves the true trajectory",

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.plotting.markdown import EXACTLY
 from vibroimpact.figures.plotting.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join, select
+from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.manifold import sawtooth
 
 SPEC = {

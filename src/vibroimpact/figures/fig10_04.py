@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.markdown import EXACTLY
 from vibroimpact.figures.plotting.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join, select
+from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
 

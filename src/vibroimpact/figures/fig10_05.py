@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.plotting.markdown import EXACTLY
 from vibroimpact.figures.plotting.style import BLACK, LEVEL, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join, select
+from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.manifold import C_min, rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers, printed_limit
 

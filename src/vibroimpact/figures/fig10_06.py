@@ -4,11 +4,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.plotting.fixed_point_table import labelled_points
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
-from vibroimpact.figures.plotting.tables import curve, join, select
+from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
+from vibroimpact.theory.fixed_points.table import labelled_points
 
 SPEC = {
     "title": "Fixed points for equal forces",

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.plotting.fixed_point_table import labelled_point
 from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.figures.plotting.tables import curve, join, select
+from vibroimpact.tables import curve, join, select
+from vibroimpact.theory.fixed_points.table import labelled_point
 from vibroimpact.theory.response import impact_times, leading_order
 
 SPEC = {

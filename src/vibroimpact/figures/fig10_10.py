@@ -4,9 +4,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures import fig10_06, fig10_07
-from vibroimpact.figures.plotting.fixed_point_table import labelled_point
 from vibroimpact.figures.plotting.style import SINGLE_COLUMN, heading, new_figure, styled
-from vibroimpact.figures.plotting.tables import join
+from vibroimpact.tables import join
+from vibroimpact.theory.fixed_points.table import labelled_point
 
 SPEC = {
     "title": "The only fixed point for weak forces, and its response",

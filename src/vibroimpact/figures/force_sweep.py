@@ -12,10 +12,10 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.manifold import branches
 from vibroimpact.figures.plotting.regime_colours import COLOURS
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
-from vibroimpact.figures.plotting.tables import join
 from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
+from vibroimpact.tables import join
 from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 

@@ -9,9 +9,9 @@ from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.figures.plotting.regime_colours import COLOURS
 from vibroimpact.figures.plotting.style import DOUBLE_COLUMN, hatch_gaps, new_figure, side_by_side, styled
-from vibroimpact.figures.plotting.tables import curve, join
 from vibroimpact.regimes.classification import REGIMES
 from vibroimpact.sweeps.grid import LINEAR, LOGARITHMIC
+from vibroimpact.tables import curve, join
 
 SYMBOLS = {
     "epsilon": r"$\varepsilon$",

@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from vibroimpact.figures.plotting.tables import read
 from vibroimpact.figures.plotting.versions import drawing_versions
+from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 

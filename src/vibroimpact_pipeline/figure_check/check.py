@@ -12,8 +12,8 @@ from itertools import repeat
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from vibroimpact.figures.plotting.tables import read
 from vibroimpact.figures.plotting.versions import drawing_versions
+from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.table_distances import compare
 from vibroimpact_pipeline.specs import each

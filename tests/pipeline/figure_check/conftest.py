@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from pipeline_trees import ROOT
-from vibroimpact.figures.plotting.tables import read
+from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import accept
 from vibroimpact_pipeline.figure_check.check import check, compared_files

@@ -8,7 +8,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_08
-from vibroimpact.figures.plotting.tables import curve, join, read
+from vibroimpact.tables import curve, join, read
 from vibroimpact_pipeline.figure_check import table_distances
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.figure_check.table_distances import FAR, KINDS, MEASURES, compare

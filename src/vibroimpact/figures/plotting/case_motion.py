@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
+from vibroimpact.accuracy.window import window
 from vibroimpact.figures.plotting.case_points import HINT
 from vibroimpact.figures.plotting.markdown import EXACTLY
-from vibroimpact.figures.plotting.window import window
 from vibroimpact.regimes.classification import ASYMMETRIC, SYMMETRIC, Regime
 from vibroimpact.regimes.periodicity import distance_after
 from vibroimpact.system import System
@@ -29,7 +29,7 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 
     Args:
         parameters: of the system, by name.
-        settings: of the simulation, see `vibroimpact.figures.plotting.window.window`.
+        settings: of the simulation, see `vibroimpact.accuracy.window.window`.
 
     Raises:
         ValueError: the files hold another case, or were made with other parameters or settings.

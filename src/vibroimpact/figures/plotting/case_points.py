@@ -6,11 +6,11 @@ A file that was made with other parameters than those of the notebook is refused
 import numpy as np
 import pandas as pd
 
+from vibroimpact import tables
 from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.figures.plotting import tables
-from vibroimpact.figures.plotting.fixed_point_table import fixed_point_table, labelled_points
 from vibroimpact.figures.plotting.markdown import EXACTLY, plain
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 AGREES = 1e-8
 """Difference of coordinates below which two tables hold the same fixed points: they were made by the same code."""

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact.figures.plotting.style import STABLE, UNSTABLE
-from vibroimpact.figures.plotting.tables import curve, select
+from vibroimpact.tables import curve, select
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.masri import printed_limit
 

@@ -5,9 +5,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.figures.plotting.tables import curve, join, select
 from vibroimpact.regimes import modulation
 from vibroimpact.regimes.periodicity import samples_per_cycle
+from vibroimpact.tables import curve, join, select
 
 PANELS = {"a": "X_2", "b": "W_2"}
 WORDS = {"X_2": "second box", "W_2": "its ball, relative to the box"}

@@ -8,7 +8,7 @@ import matplotlib.style
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from vibroimpact.figures.plotting import tables
+from vibroimpact import tables
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
