@@ -5,7 +5,12 @@ Every table has the columns `panel` and `series`, then one column per plotted qu
 """
 
 import numpy as np
-import pandas as pd
+
+from vibroimpact.system.extras import need
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 TEXT = ("panel", "series", "label")
 SAID = (*TEXT, "failed")

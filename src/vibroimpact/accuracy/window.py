@@ -3,11 +3,15 @@
 from dataclasses import dataclass
 
 import numpy as np
-import pandas as pd
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.system import System
+from vibroimpact.system.extras import need
 from vibroimpact.system.state import KINDS, NAMES
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from vibroimpact.figures.plotting import style, tables
+from vibroimpact import tables
+from vibroimpact.figures.plotting import style
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import HEADING, main
 from vibroimpact_pipeline.figure_check.check import SUMS

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from vibroimpact.figures import fig10_02, fig10_04, fig10_06
-from vibroimpact.figures.plotting import drawing, style, tables
+from vibroimpact import tables
+from vibroimpact.figures.plotting import drawing, style
 from vibroimpact_pipeline.figure_check import check as checks
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import SUMS, check, check_all, has_failed, lines

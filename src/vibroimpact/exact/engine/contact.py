@@ -68,7 +68,7 @@ def common_velocity(q, box, ball):
 def box_accelerations(q, walls, boxes, sine):
     """Return the accelerations of both boxes."""
     i1, i2 = inverse_masses(q, mode_of(walls))
-    return acceleration(q, i1, i2, boxes[0], boxes[1], boxes[2], boxes[3], q.f1 * sine, q.f2 * sine)
+    return acceleration(q, (i1, i2), (boxes[0], boxes[1]), (boxes[2], boxes[3]), (q.f1 * sine, q.f2 * sine))
 
 
 @inlined

@@ -22,7 +22,7 @@ from vibroimpact.exact.engine.energy import (
     work_tables,
 )
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
-from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, go_on
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, Sampling, Span, go_on
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
@@ -480,7 +480,7 @@ def _by_events(piece, flow, squares, n, lane, m):
     """Carry the run of a lane on by the event loop to where both balls fly; return PAUSED, or the status of a finished
     run.
     """
-    runs, counters, no_times, no_samples = m.runs, m.counters[lane], np.empty(0), np.empty((0, 8))
+    runs, counters, unsampled = m.runs, m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[march.FIRST, lane], m.constants[march.FIRST_TAIL, lane]
     phase, tail, turns = runs[march.PHASE, lane], runs[march.TAIL, lane], int(runs[march.TURNS, lane])
     elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / flow.coefficients.omega
@@ -492,9 +492,7 @@ def _by_events(piece, flow, squares, n, lane, m):
         counters[EVENTS] = 0.0
         motion, log, earlier = progress.motion, Log(m.rows, counters), runs[march.EVENTS, lane]
         leaving = Departure(motion.boxes, motion.balls, motion.walls, progress.elapsed, progress.phase)
-        progress, ended = go_on(
-            flow, progress, first, stop, 0.0, no_times, no_samples, log, earlier, np.int64(0)
-        )  # fmt: skip
+        progress, ended = go_on(flow, progress, Span(*first, stop), unsampled, log, earlier, np.int64(0))
         noted, motion = int(counters[EVENTS]), progress.motion
         runs[march.EVENTS, lane] += noted
         if runs[march.WATCHED, lane] > 0.0:

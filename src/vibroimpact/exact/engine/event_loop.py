@@ -173,6 +173,22 @@ class Progress(NamedTuple):
     stalled: int
 
 
+class Span(NamedTuple):
+    """Where a run begins and ends: phase with its tail, and number of forcing cycles."""
+
+    phase: float
+    tail: float
+    cycles: int
+
+
+class Sampling(NamedTuple):
+    """Ascending sample times (n,), on a clock that shows start when the run starts, and states (n, 8) to fill."""
+
+    start: float
+    times: np.ndarray
+    states: np.ndarray
+
+
 @compiled
 def integrate(
     numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, counters, checkpoint
@@ -193,18 +209,8 @@ def integrate(
     else:
         progress = progress_at(checkpoint)
     log = Log(rows, counters)
-    progress, status = go_on(
-        flow,
-        progress,
-        (phase, tail),
-        cycles,
-        start,
-        times,
-        samples,
-        log,
-        checkpoint[EARLIER],
-        np.int64(INTERRUPT_INTERVAL),
-    )
+    span, sampling, interval = Span(phase, tail, cycles), Sampling(start, times, samples), np.int64(INTERRUPT_INTERVAL)
+    progress, status = go_on(flow, progress, span, sampling, log, checkpoint[EARLIER], interval)
     if status == FINISHED:
         pack(progress.motion.boxes, progress.motion.balls, final)
     write_checkpoint(progress, checkpoint)
@@ -255,10 +261,11 @@ def progress_at(checkpoint):
 
 
 @in_place
-def go_on(flow, progress, start_phase, cycles, start, sample_times, samples, log, earlier, interval):
+def go_on(flow, progress, span, sampling, log, earlier, interval):
     """Continue to the end or to a pause (rows full, or more than interval exclusions); return (progress, status)."""
     q = flow.coefficients
-    (first, first_tail), (motion, due, phase, tail, revolutions, elapsed, sampled, stalled) = start_phase, progress
+    (first, first_tail, cycles), (start, sample_times, samples) = span, sampling
+    motion, due, phase, tail, revolutions, elapsed, sampled, stalled = progress
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
     status, pause = FINISHED, log.counters[EVALUATIONS] + interval

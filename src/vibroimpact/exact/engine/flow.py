@@ -134,8 +134,9 @@ def jet_at(flow, mode, boxes, sine, cosine, j):
 
 
 @inlined
-def acceleration(q, i1, i2, x1, x2, v1, v2, s1, s2):
-    """Return box accelerations for inverse masses i1, i2 under forces s1, s2 (also: the next derivative)."""
+def acceleration(q, inverses, positions, velocities, forces):
+    """Return the accelerations of both boxes (of derivatives: the next one); inverses: of the moving masses."""
+    (i1, i2), (x1, x2), (v1, v2), (s1, s2) = inverses, positions, velocities, forces
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
     a2 = i2 * (s2 - q.k12 * x1 - q.k22 * x2 - q.c12 * v1 - q.c22 * v2)
     return a1, a2
@@ -154,14 +155,14 @@ def jet(q, mode, boxes, sine, cosine):
     x1, x2, v1, v2 = boxes
     fall = -q.omega * q.omega
     s, c = sine, q.omega * cosine  # derivatives of the forcing's sine: s, c, -omega^2 s, -omega^2 c, ...
-    a1, a2 = acceleration(q, i1, i2, x1, x2, v1, v2, q.f1 * s, q.f2 * s)
-    b1, b2 = acceleration(q, i1, i2, v1, v2, a1, a2, q.f1 * c, q.f2 * c)
+    a1, a2 = acceleration(q, (i1, i2), (x1, x2), (v1, v2), (q.f1 * s, q.f2 * s))
+    b1, b2 = acceleration(q, (i1, i2), (v1, v2), (a1, a2), (q.f1 * c, q.f2 * c))
     s, c = fall * s, fall * c
-    c1, c2 = acceleration(q, i1, i2, a1, a2, b1, b2, q.f1 * s, q.f2 * s)
-    d1, d2 = acceleration(q, i1, i2, b1, b2, c1, c2, q.f1 * c, q.f2 * c)
+    c1, c2 = acceleration(q, (i1, i2), (a1, a2), (b1, b2), (q.f1 * s, q.f2 * s))
+    d1, d2 = acceleration(q, (i1, i2), (b1, b2), (c1, c2), (q.f1 * c, q.f2 * c))
     s, c = fall * s, fall * c
-    e1, e2 = acceleration(q, i1, i2, c1, c2, d1, d2, q.f1 * s, q.f2 * s)
-    g1, g2 = acceleration(q, i1, i2, d1, d2, e1, e2, q.f1 * c, q.f2 * c)
+    e1, e2 = acceleration(q, (i1, i2), (c1, c2), (d1, d2), (q.f1 * s, q.f2 * s))
+    g1, g2 = acceleration(q, (i1, i2), (d1, d2), (e1, e2), (q.f1 * c, q.f2 * c))
     return _scaled(x1, v1, a1, b1, c1, d1, e1, g1), _scaled(x2, v2, a2, b2, c2, d2, e2, g2)
 
 

@@ -233,7 +233,7 @@ def meet(runs, c, work, integrals):
     if integrals > 0:
         hits, early = (impact & one, impact & ~one), (x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
         flight = there, t, time, 1.0 - limit
-        _observe(runs, c, work, integrals, flight, hits, early, (b1, b2), (d1, d2), (e1, e2), (u1, u2), (s, k))
+        _observe(runs, c, work, integrals, flight, hits, early, ((b1, b2), (d1, d2), (e1, e2), (u1, u2), (s, k)))
     e1, e2, o1, o2 = where(doubt, d1, e1), where(doubt, d2, e2), where(doubt, u1, o1), where(doubt, u2, o2)
     put = where(one, b1, b2) - wall
     z1, z2 = where(impact & one, put, z1), where(impact & ~one, put, z2)
@@ -363,14 +363,14 @@ def _sine_and_cosine(phase, tail):
 
 
 @inlined
-def _observe(runs, c, work, integrals, flight, hits, early, boxes, late, after, balls, forcing):
+def _observe(runs, c, work, integrals, flight, hits, early, arrival):
     """Add the statistics of a flight and its impact.
 
     flight: where there is one, its last step, its time, the error of Hermite's polynomial in that step; hits: where a
-    module has an impact; early: boxes and forcing before the step; boxes: positions after it; late, after: velocities
-    before and after the impact.
+    module has an impact; early: boxes and forcing before the step; arrival: positions of the boxes after it, their
+    velocities before and after the impact, those of the balls, the forcing.
     """
-    there, t, time, wrong = flight
+    (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, WATCHED) > 0.0) & there, t * (1 / 3)
     for i in range(2):
         hit, row, approach = watched & hits[i], STATISTICS_AT + LARGEST + i, late[i] - balls[i]

@@ -299,7 +299,7 @@ def _changes(q, walls, boxes, phase, i):
     one, two = inverse_masses(q, mode_of(walls))
     s, c, fall = math.sin(phase), q.omega * math.cos(phase), -q.omega * q.omega
     x1, x2, v1, v2 = boxes
-    a1, a2 = acceleration(q, one, two, x1, x2, v1, v2, q.f1 * s, q.f2 * s)
-    b1, b2 = acceleration(q, one, two, v1, v2, a1, a2, q.f1 * c, q.f2 * c)
-    c1, c2 = acceleration(q, one, two, a1, a2, b1, b2, q.f1 * fall * s, q.f2 * fall * s)
+    a1, a2 = acceleration(q, (one, two), (x1, x2), (v1, v2), (q.f1 * s, q.f2 * s))
+    b1, b2 = acceleration(q, (one, two), (v1, v2), (a1, a2), (q.f1 * c, q.f2 * c))
+    c1, c2 = acceleration(q, (one, two), (a1, a2), (b1, b2), (q.f1 * fall * s, q.f2 * fall * s))
     return (b1, c1) if i == 0 else (b2, c2)

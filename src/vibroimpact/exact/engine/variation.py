@@ -120,7 +120,7 @@ def fill_rate(q, walls, state, phase, field):
     """Fill in the rate of change (8,) of a state (8,) in a contact state."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     force = math.sin(phase)
-    a1, a2 = acceleration(q, i1, i2, state[0], state[1], state[2], state[3], q.f1 * force, q.f2 * force)
+    a1, a2 = acceleration(q, (i1, i2), (state[0], state[1]), (state[2], state[3]), (q.f1 * force, q.f2 * force))
     field[0], field[1], field[2], field[3] = state[2], state[3], a1, a2
     field[4], field[5] = state[6], state[7]
     field[6] = a1 if walls[0] != 0 else 0.0

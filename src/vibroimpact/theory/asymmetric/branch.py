@@ -88,12 +88,6 @@ def impact_phases(v, kappa):
     return middle - half, middle + half
 
 
-def first_harmonic(v, kappa):
-    """First harmonic of the saw-tooth, the complex h in Z = Re(h exp(i (tau_0 + phi))) + ..., at -1 < v < 1."""
-    a, b = impact_phases(v, kappa)
-    return slope_change(v, kappa) / np.pi * (np.exp(-1j * a) - np.exp(-1j * b))
-
-
 def slope_change(v, kappa):
     """Return the change of the slope of Z at an impact: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
     return 4 * amplitudes(np.square(v), kappa)[0] / (np.pi * (1 - np.square(v)))

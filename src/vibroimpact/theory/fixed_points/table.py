@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 
 import numpy as np
-import pandas as pd
 
+from vibroimpact.system.extras import need
 from vibroimpact.system.verdict import all_stable
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 from vibroimpact.theory.manifold import C_min, overshoot, rho
 from vibroimpact.theory.masri import printed_limit
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
