@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from pipeline_trees import ROOT
-from vibroimpact.figures import fig10_04
 from vibroimpact import tables
+from vibroimpact.figures import fig10_04
 from vibroimpact.figures.plotting import style
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs

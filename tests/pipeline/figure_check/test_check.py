@@ -8,8 +8,8 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
-from vibroimpact.figures import fig10_02, fig10_04, fig10_06
 from vibroimpact import tables
+from vibroimpact.figures import fig10_02, fig10_04, fig10_06
 from vibroimpact.figures.plotting import drawing, style
 from vibroimpact_pipeline.figure_check import check as checks
 from vibroimpact_pipeline.figure_check import pictures
