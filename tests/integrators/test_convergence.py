@@ -77,7 +77,7 @@ def test_the_engine_is_exact_to_rounding(method, motion):
 def test_the_modal_form_is_exact_in_flight_whatever_its_looks(name, method, motion):
     for setting in method("modal scan").settings:
         found = errors(method("modal scan"), motion(name), setting)
-        assert found.final < 1e-11
+        assert found.final < 1e-12
         assert (found.missed, found.spurious) == (0, 0)
 
 

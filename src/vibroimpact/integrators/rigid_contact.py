@@ -79,9 +79,9 @@ def first_look(tau, s, q, walls, step):
 
 @inlined()
 def newton_or_middle(t, value, slope, low, high):
-    """The next time to try for a zero that lies between low and high, where the value falls below zero."""
+    """The next time to try for a zero in [low, high], where the value falls below zero; a zero that is hit stays."""
     after = t - value / slope if slope != 0.0 else math.inf
-    return after if low < after < high else 0.5 * (low + high)
+    return after if low <= after <= high else 0.5 * (low + high)
 
 
 class Contacts:
