@@ -218,8 +218,9 @@ def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(scenes, name, v
     C = [min(select(table, f"{label}{i}", f"P_{i}")["C"].item() for i in (1, 2)) for label in "abc"]
     assert ["stable" if one > float(LIMIT) else "unstable" for one in C] == verdicts
     axes = fig10_06.draw(table).axes
-    assert [one.get_title("left").split("   ")[1] for one in axes[::2]] == verdicts
-    assert [one.get_title("right") for one in axes[:2]] == ["module 1", "module 2"]
+    heads = [one.get_title("left").split("   ")[1] for one in axes[::2]]
+    assert heads == [f"{verdict} by (10.26)" for verdict in verdicts]
+    assert [one.get_title("center").strip() for one in axes[:2]] == ["module 1", "module 2"]
     assert len({one.get_xlim() for one in axes}) == 1
 
 

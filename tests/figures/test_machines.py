@@ -57,11 +57,14 @@ def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
     assert len(hits) > 20
 
 
-def test_the_figure_shows_every_clearance(made):
+def test_the_figure_names_every_curve_and_the_best_clearance(made):
     response, motion = machines.draw(made).axes
-    assert [line.get_label() for line in response.lines][2:] == [
-        f"balls, $L = {1000 * L:g}$ mm" for L in SCENE["clearances"]
-    ]
+    names = ", ".join(text.get_text() for text in response.texts).split(", ")
+    expected = [f"$L = {1000 * L:g}$ mm" for L in SCENE["clearances"]]
+    assert sorted(names) == sorted([*expected, *machines.LINES])
+    assert len(response.lines) == len(names)
+    best = made["summary"]["swing"].to_numpy().argmin()
+    assert response.get_title("left").endswith(expected[best])
     assert len(motion.lines) == 3
     assert motion.get_title("left").endswith(
         f"$L = {1000 * SCENE['shown']['L']:g}$ mm, {SCENE['shown']['frequency']:g} Hz"

@@ -25,11 +25,12 @@ SPEC = {
         r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch. Circles: fixed points of "
         r"the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the cases. "
         r"Then, per case, how unequal the flights of each exact pair of mirror images are as :math:`\varepsilon` falls "
-        "(:math:`v`: difference of the flight times over the period), down to the fixed point that it leads to. A3, A5 "
-        "and A7 are labels in `orbits.csv`; the stable A3 of the equal case is the response of Fig. 10.8.",
+        "(:math:`v`: difference of the flight times over the period), down to the fixed point that it leads to; named "
+        r"is its verdict at the :math:`\varepsilon` of the case. The stable pair of the equal case, A3 in "
+        "`orbits.csv`, is the response of Fig. 10.8.",
     "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a green curve rises "
-        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon that end in circles "
-        "at epsilon 0; the lowest line crosses zero just before.",
+        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon from diamonds, "
+        "named stable or unstable, to circles at epsilon 0; the lowest line crosses zero just before.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
@@ -132,6 +133,8 @@ MARKS = {
     POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
     ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
+CHAPTER = "equal", "unequal", "weak"
+"""Cases that are named after their forces."""
 SKEWED = 1e-3
 """Flights of a module are unequal where its v^2 is above this."""
 _PHASES, _SPEEDS = (
@@ -249,10 +252,10 @@ def draw(tables: dict) -> Figure:
     for axes in others[1:]:
         axes.sharey(others[0])
         axes.tick_params(labelleft=False)
-    heading(left, "a", "the manifold")
+    heading(left, "a", "both branches of the manifold")
     _draw_manifold(left, tables["csv"], tables["modules"])
     for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
-        heading(axes, letter, f"exact pairs, {case}")
+        heading(axes, letter, f"exact pairs, {case} forces" if case in CHAPTER else f"exact pairs, case {case}")
         _draw_case(axes, pairs[pairs["case"] == case])
     if cases:
         others[0].set_ylabel("inequality of flights, $v^2$")
@@ -276,11 +279,11 @@ def _draw_manifold(axes, pieces, modules):
 
 
 def _draw_case(axes, pairs):
-    for (label, verdict), way in pairs.groupby(["label", "exact"], sort=False):
+    for (_, verdict), way in pairs.groupby(["label", "exact"], sort=False):
         axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
-        last = way.iloc[0]
-        above = {"textcoords": "offset points", "ha": "right"}
-        axes.annotate(f"{label}, {verdict}", last[["epsilon", "squared"]], (-3, 4), **above)
+        start = way.iloc[0][["epsilon", "squared"]]
+        axes.plot(*start, clip_on=False, zorder=3, **MARKS[ORBIT])
+        axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")
     ends = pairs.drop_duplicates("label")["limit"]
     axes.plot(np.zeros(len(ends)), ends, clip_on=False, zorder=3, **MARKS[POINT])
     axes.axhline(0, color=BLACK, linewidth=0.6)

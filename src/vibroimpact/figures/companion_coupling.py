@@ -44,10 +44,9 @@ SPEC = {
     "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
         "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside "
         "it (upright: in proportion). b: difference of the flight times of ball 1 over the period where both balls "
-        "lean, the same way or opposite ways, while that is stable; it ends at a fold (F), period doubling (P), "
-        "Neimark-Sacker bifurcation (N), or as a ball no longer leans (L). Modules tuned alike, forces 1.52 and "
-        "1.54. c: mean power of all impacts, over the square of both forces: exact symmetric orbits, the stable "
-        "leaning one, mean and standard deviation over starts; dotted: dampers of linear absorbers of the same "
+        "lean, the same way or opposite ways, while that is stable; marks: how it ends. Modules tuned alike, forces "
+        "1.52 and 1.54. c: mean power of all impacts, over the square of both forces: exact symmetric orbits, the "
+        "stable leaning one, mean and standard deviation over starts; dotted: dampers of linear absorbers of the same "
         "mass.",
     "alt": "Three panels. First: errors near six per cent but for couplings from 1.4 to 2, and crosses there and near"
         " 40. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
@@ -110,8 +109,9 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 WELL = 5.0
 """Coupling from which errors and missing motions are told apart from those of weaker coupling."""
 MISSING = 0.15
-ENDS = {FOLD: "F", PERIOD_DOUBLING: "P", NEIMARK_SACKER: "N", GRAZING: "G", STRAIGHT: "L"}
-"""Letters of how a stable range ends."""
+ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", STRAIGHT: "v"}
+"""Marks of how a stable range ends."""
+_END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 
 
 def compute(systems: dict) -> dict:
@@ -315,8 +315,9 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     grid = figure.subplots(1, 3)
-    for axes, letter in zip(grid, "abc", strict=True):
-        heading(axes, letter)
+    heads = "error of leading order", "where both balls lean", "power at the impacts"
+    for axes, letter, words in zip(grid, "abc", heads, strict=True):
+        heading(axes, letter, words)
     _draw_errors(grid[0], table)
     _draw_leans(grid[1], table[table["panel"] == "lean"])
     _draw_power(grid[2], table)
@@ -334,28 +335,33 @@ def _draw_errors(axes, table):
         missing = rows[rows["error"].isna()]["coupling"]
         cross, label = ("+", None) if name == PROPORTION else ("x", "no motion")
         axes.plot(missing, np.full(len(missing), 100 * MISSING), cross, markersize=5, label=label, **look)
-    axes.set(xlabel=r"$\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 100 * MISSING + 1))
+    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 100 * MISSING + 1))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)
     axes.legend(loc="lower left", fontsize=8)
 
 
 def _draw_leans(axes, table):
-    words = {"textcoords": "offset points", "fontsize": 8.5, "ha": "center"}
+    table = table.reindex(columns=["series", "coupling", "v", "ends"])  # no balls may lean
     for series, rows in table.groupby("series", sort=False):
-        look = {"color": BLACK if series.startswith(SAME) else GREY}
-        axes.plot(rows["coupling"], rows["v"], **STABLE | look)
-        for end, side in ((rows.iloc[0], -7), (rows.iloc[-1], 7)):
-            if end["ends"] in ENDS:
-                place = end["coupling"], end["v"]
-                axes.plot(*place, "o", markersize=3.5, **look)
-                axes.annotate(ENDS[end["ends"]], place, (abs(side) if end["ends"] == STRAIGHT else side, -3), **words)
-    for name, colour, near, apart in ((SAME, BLACK, 30.0, (0, 6)), (OPPOSITE, GREY, 3.0, (36, -8))):
+        axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(SAME) else GREY})
+    for end, marker in ENDS.items():
+        rows = table[table["ends"] == end]
+        if len(rows):
+            axes.plot(rows["coupling"], rows["v"], marker=marker, label=end, zorder=3, **_END)
+    beside = {"textcoords": "offset points", "fontsize": 8.5}
+    for name, near, look in (
+        (SAME, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
+        (OPPOSITE, 3.0, {"xytext": (6, -8), "ha": "left", "color": GREY}),
+    ):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
             place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
-            axes.annotate(name, (place["coupling"], place["v"]), apart, color=colour, **words)
-    axes.set(xscale="log", xlabel=r"$\hat\alpha_{12}$", ylabel="$|v_1|$", ylim=(0, 0.45), xlim=LIMITS)
+            axes.annotate(name, place[["coupling", "v"]], **beside, **look)
+    axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
+    axes.set(ylabel="inequality of flights, $|v_1|$", ylim=(0, 0.6))
+    if table["ends"].notna().any():
+        axes.legend(loc="upper left", fontsize=8, handlelength=0.8)
 
 
 def _draw_power(axes, table):
@@ -373,7 +379,7 @@ def _draw_power(axes, table):
     rows = select(table, "power", LINEAR)
     axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label=LINEAR)
     axes.set(
-        xlabel=r"$\hat f_{10} = \hat f_{20}$",
+        xlabel=r"force $\hat f_{10} = \hat f_{20}$",
         ylabel=r"power / $\hat f_{10}^2$, in $10^{-2}$",
         ylim=(1, 6),
         xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),

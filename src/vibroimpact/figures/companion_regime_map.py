@@ -1,6 +1,7 @@
 """Companion: which regime starts end in over both forcing amplitudes, with the theory's borders drawn over it."""
 
 from functools import cache
+from textwrap import fill
 
 import numpy as np
 import pandas as pd
@@ -12,15 +13,15 @@ from matplotlib.ticker import MaxNLocator
 from scipy import ndimage
 
 from vibroimpact.figures.plotting.regime_colours import COLOURS, key, paint
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.sweeps.observations import FROM_REST, fixed_point_counts
 
 SPEC = {
     "title": "Map of regimes over both forcing amplitudes",
     "caption": "Over the plane of both forcing amplitudes the regime that most of several starts end in, with a stroke "
-        "where others coexist. Started from rest, which is not counted, a ball may stay idle. Dotted: the theory's "
-        "number of fixed points changes; solid: that of the stable ones does; crosses: the cases.",
+        "where others coexist. Started from rest, which is not counted, a ball may stay idle. Line: where the theory's "
+        "number of stable fixed points changes; crosses: the cases.",
     "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
         "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
@@ -59,17 +60,15 @@ SPEC = {
     },
 }  # fmt: skip
 
-BORDERS = {
-    "fixed points": {"linestyles": (0, (1, 1)), "linewidths": 1.1},
-    "stable points": {"linestyles": "solid", "linewidths": 1.6},
-}
+BORDERS = ("fixed points", STABLE_POINTS := "stable points")
 HALVINGS = 4
 """Halvings between two cells with different counts: the border is found to 1/32 of their distance."""
 TOGETHER = "coexisting"
 NAMED_FROM = 20
 """A patch of so many cells or more bears the name of its regime; the key has the regimes without one."""
-_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 6.0, "markeredgewidth": 1.4}
-_STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 8.0, "markeredgewidth": 0.8}
+_BORDER = {"color": BLACK, "linewidth": 1.4}
+_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
+_STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
 TICKS = 4
 """At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
 
@@ -157,31 +156,29 @@ def _pieces(corners, crossing):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a colour for each regime, a stroke where several coexist; borders of the theory."""
+    """Draw the tables of `compute`: a colour for each regime, a stroke where several coexist; the theory's border."""
     cells, cases, borders = (tables[name] for name in ("csv", "cases", "borders"))
     regimes = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
-    figure = new_figure(DOUBLE_COLUMN, 104.0)
+    figure = new_figure(SINGLE_COLUMN, 103.0)
     axes = figure.add_subplot()
     occurring = paint(axes, regimes)
     together = cells[cells[TOGETHER] > 1]
     axes.plot(together["f10_hat"], together["f20_hat"], **_STROKES)
-    for series, style in BORDERS.items():
-        pieces = borders[borders["series"] == series][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
-        axes.add_collection(LineCollection(pieces, colors=BLACK, **style))
+    pieces = borders[borders["series"] == STABLE_POINTS][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
+    axes.add_collection(LineCollection(pieces, **_BORDER))
     axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
-    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
+    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
     for case, *place in cases.itertuples(index=False):
-        axes.annotate(case, place, (5, 3), textcoords="offset points", bbox=paper)
+        axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", bbox=paper)
     unnamed = [name for name in occurring if not _name(axes, regimes, name)]
     f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
-    handles = key(unnamed) | {"others coexist": Line2D([], [], **_STROKES)}
-    for series, style in BORDERS.items():
-        look = {"linestyle": style["linestyles"], "linewidth": style["linewidths"]}
-        handles[f"number of {series} changes"] = Line2D([], [], color=BLACK, **look)
-    figure.legend(handles.values(), handles, loc="outside right center", fontsize=9)
+    heading(axes, words="where most starts end")
+    handles = {"others coexist": Line2D([], [], **_STROKES), "theory's border": Line2D([], [], **_BORDER)}
+    handles |= {fill(name, 26): handle for name, handle in key(unnamed).items()}
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
     return figure
 
 

@@ -16,7 +16,7 @@ SPEC = {
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
         "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "
         "arrow after :math:`S_2`: there is one further up the SIM, off the frame. Heads: verdicts of (10.26), those "
-        "of the chapter.",
+        "of the chapter; it judges the impacts alone, and the exact motion may be unstable where it says stable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, hollow grey squares S1, S2 the "
         "singular points; in row b an arrow points to an S2 beyond the frame.",
@@ -24,7 +24,8 @@ SPEC = {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
             "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
-            ":math:`S_2` (hollow grey squares), one row per fixed point.",
+            ":math:`S_2` (hollow grey squares), one row per fixed point. Heads: verdicts of (10.26), which judges the "
+            "impacts alone.",
         "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
             "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
             "row, hollow grey squares S1, S2 the singular points.",
@@ -46,8 +47,8 @@ MODULES = (1, 2)
 NAME = {"textcoords": "offset points", "fontsize": 10}
 CLOSE = 0.12
 """Distance from the fold, as a part of the axis, within which labels need leaders."""
-ROW_HEIGHT, FOOT = 35.0, 7.0
-"""Height in mm of a row of planes, and of the labels below the last row."""
+ROW_HEIGHT, ENDS = 34.0, 11.0
+"""Height in mm of a row of planes, and of the heads above and labels below them all."""
 MARKERS = {
     "S": {"marker": "s", "color": GREY, "markersize": 4.4, "markerfacecolor": "none", "markeredgewidth": 1.0},
     "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
@@ -99,14 +100,14 @@ def _plane(system, point, module, end):
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i hollow grey squares."""
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
-    figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + FOOT)
+    figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)
     grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
     for row, label in zip(grid, labels, strict=True):
         heading(row[0], label, verdict(table, label))
         for axes, module in zip(row, MODULES, strict=True):
             draw_plane(axes, table, f"{label}{module}")
     for axes, module in zip(grid[0], MODULES, strict=True):
-        axes.set_title(f"module {module}", loc="right", pad=4)
+        axes.set_title(f"module {module}\n", pad=4)  # a line above the head of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
     return figure
@@ -120,7 +121,7 @@ def verdict(table: pd.DataFrame, label: str) -> str:
     if not all(map(len, places)):
         return ""
     stable = all(place.item() > border for place, border in zip(places, borders, strict=True))
-    return "stable" if stable else "unstable"
+    return f"{'stable' if stable else 'unstable'} by (10.26)"
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> None:

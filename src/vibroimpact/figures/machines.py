@@ -1,5 +1,7 @@
 """Machines in kilograms, newtons and metres: how far they swing over the frequency, and how a box and its ball move."""
 
+from itertools import cycle
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -147,24 +149,54 @@ def _motion(machine, cycles):
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw the tables of `compute`: swings over the frequency, a motion over the time."""
     swings, shown = dict(iter(tables["csv"].groupby("series", sort=False))), tables["motion"]
-    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    figure = new_figure(DOUBLE_COLUMN, 66.0)
     response, motion = figure.subplots(1, 2)
     for name, look in LINES.items():
-        response.plot(swings[name]["frequency"], swings[name]["swing"], label=name, **look)
-    for name, marker in zip((name for name in swings if name not in LINES), MARKERS, strict=False):
-        line = swings[name]
+        response.plot(swings[name]["frequency"], swings[name]["swing"], **look)
+    with_balls = {name: line for name, line in swings.items() if name not in LINES}
+    for line, marker in zip(with_balls.values(), cycle(MARKERS)):
         look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
-        every = max(1, len(line) // 16)
-        response.plot(line["frequency"], line["swing"], label=f"balls, ${name[:-3]}$ mm", markevery=every, **look)
-    response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm", ylim=(0.0, None))
+        response.plot(line["frequency"], line["swing"], markevery=max(1, len(line) // 16), **look)
+    response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm")
+    response.set_ylim(0.0, 1.08 * tables["csv"]["swing"].max())
+    _name_linear(response, *(swings[name] for name in LINES))
+    _name_peaks(response, with_balls)
     motion.plot(shown["time"], shown["box"], label="box 1", **BOX)
     motion.plot(shown["time"], shown["ball"], label="its ball", **BALL)
     walls = shown[shown["at_wall"]]
     motion.plot(walls["time"], walls["ball"], label="ball at a wall", **WALLS)
     motion.set(xlabel="time, s", ylabel="displacement, mm")
     L, hertz = shown[["L", "frequency"]].iloc[0]
-    heading(response, "a", "largest displacement")
+    best = min(with_balls, key=lambda name: with_balls[name]["swing"].max())
+    heading(response, "a", f"lowest peak with balls: {_clearance(best)}")
     heading(motion, "b", f"motion at $L = {MM * L:g}$ mm, {hertz:g} Hz")
     motion.legend(loc="lower left", fontsize=9)
-    figure.legend(*response.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure
+
+
+def _name_linear(axes, without, best):
+    """Name the linear systems: the first on its falling flank, the second below the middle of its line."""
+    high = without[without["swing"] >= 0.75 * without["swing"].max()]
+    beside = {"textcoords": "offset points"}
+    axes.annotate("without balls", high[["frequency", "swing"]].iloc[-1], (5, 0), color=GREY, **beside)
+    middle = best[["frequency", "swing"]].iloc[len(best) // 2]
+    axes.annotate("best absorbers", middle, (0, -3), va="top", ha="center", **beside)
+
+
+def _name_peaks(axes, with_balls):
+    """Write each clearance beside the peak of its curve, away from the middle, but inside; peaks in one place share a name."""
+    peaks = {}
+    for name, line in with_balls.items():
+        at = line.loc[line["swing"].idxmax()]
+        peaks.setdefault((at["frequency"], round(at["swing"], 1)), []).append(_clearance(name))
+    low, high = axes.get_xlim()
+    for place, names in peaks.items():
+        along = (place[0] - low) / (high - low)
+        leftwards = 0.2 < along < 0.45 or along > 0.8
+        side = {"xytext": (-8, 1), "ha": "right"} if leftwards else {"xytext": (4, 1)}
+        axes.annotate(", ".join(names), place, textcoords="offset points", **side)
+
+
+def _clearance(name):
+    """The name of a series, "L = 5 mm", as it is printed."""
+    return f"${name.removesuffix(' mm')}$ mm"
