@@ -93,7 +93,9 @@ def draw(tables: dict) -> Figure:
         marker, name = MARKS[series]
         place = own["X1"] - own["Y1"], own["X2"] - own["Y2"]
         (handles[name],) = axes.plot(*place, marker=marker, **_MARK)
-    heading(axes, words=f"where starts end, case {starts['panel'].iloc[0]}")
+    responses = starts["label"].nunique()
+    seen = f"{responses} responses share the starts" if responses > 1 else "all starts end alike"
+    heading(axes, words=f"{seen}, case {starts['panel'].iloc[0]}")
     axes.set(xlabel="start of ball 1, $W_1(0)$", ylabel="start of ball 2, $W_2(0)$")
     axes.set(aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.claims.verdict_table import NO_ORBIT, partners
-from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, LEVEL, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.regimes import two_terms
 from vibroimpact.regimes.hierarchy import EXACT, LEADING, TWO_TERMS, error, harmonics_name, levels, of_harmonics
 from vibroimpact.regimes.midpoint_grid import plane_of_forces
@@ -151,22 +151,28 @@ def _limits(system, fold_range):
 def draw(tables: dict) -> Figure:
     """Draw the table "csv" of `compute`: error against cost, the worst of the cases for each level."""
     worst = tables["csv"].groupby(["series", "level"], sort=False)[["cost", "error"]].max().reset_index()
-    figure = new_figure(SINGLE_COLUMN, 84.0)
+    figure = new_figure(SINGLE_COLUMN, 76.0)
     axes = figure.add_subplot()
     for series, style in STYLES.items():
         line = worst[worst["series"] == series]
-        axes.plot(line["cost"], line["error"], **style, label=series)
+        axes.plot(line["cost"], line["error"], **style)
+    beside = {"textcoords": "offset points", **HALO}
     exact = worst.loc[worst["series"] == EXACT, "cost"].max()
     for row in worst[worst["series"].isin([THEORY, OF_U])].itertuples():
         aside = {"xytext": (-6, 4), "ha": "right"} if row.level == TWO_TERMS else {"xytext": (6, -3)}
-        axes.annotate(row.level, (row.cost, row.error), **aside, textcoords="offset points", **HALO)
+        axes.annotate(row.level, (row.cost, row.error), **aside, **beside)
+    for series, end, aside in (
+        (OF_FORCE, 0, {"xytext": (6, 0), "color": STYLES[OF_FORCE]["color"]}),
+        (OF_U, -1, {"xytext": (-8, -3), "ha": "right"}),
+    ):
+        place = worst.loc[worst["series"] == series, ["cost", "error"]].iloc[end]
+        axes.annotate(series, place, **aside, **beside)
     axes.axvline(exact, **LEVEL)
-    beside = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points"}
-    axes.annotate("exact", (exact, 0.94), (4, 0), **beside)
+    axes.annotate("exact", (exact, 0.94), (4, 0), xycoords=axes.get_xaxis_transform(), **beside)
+    heading(axes, words="error against cost, level by level")
     axes.set(xscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
     if worst["error"].gt(0).any():
         axes.set_yscale("log")
     axes.margins(y=0.08)
     axes.set_xlim(0.3, 30 * worst["cost"].max())
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=9)
     return figure

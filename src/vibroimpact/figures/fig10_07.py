@@ -44,8 +44,6 @@ COORDINATES = {
     "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
 }
 """U_i and X_i grey, W_i and Y_i black, as in the chapter; within a colour the line style tells them apart."""
-LOWEST = ("X", "Y")
-"""Named where they are lowest; the others where they are highest."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float) -> pd.DataFrame:
@@ -96,18 +94,23 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
     """Draw the four coordinates of one module over tau with their names, and the walls W_i = 1 and W_i = -1."""
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
-    for name, line in lines.items():
-        inner = line[line["tau"].between(*line["tau"].quantile([0.05, 0.95]))]
-        at = inner["value"].argmin() if name in LOWEST else inner["value"].argmax()
-        side = {"va": "top" if name in LOWEST else "bottom", "ha": "center", "color": COORDINATES[name]["color"]}
-        offset = (0, -2 if name in LOWEST else 2)
+    tau = lines["U"]["tau"].to_numpy()
+    inner = (tau > 0.05 * tau[-1]) & (tau < 0.95 * tau[-1])
+    # Rounded: else the last digit decides between one cycle and the next.
+    U, X, W, Y = (line["value"].round(9).where(inner).to_numpy() for line in lines.values())
+    apart, highest, lowest = np.nanargmax(np.abs(U - X)), np.nanargmax(W), np.nanargmin(Y)
+    upwards = U[apart] > X[apart]
+    names = {"U": (apart, upwards), "X": (apart, not upwards), "W": (highest, True), "Y": (lowest, False)}
+    for name, (at, above) in names.items():
         axes.annotate(
             f"${name}_{module}$",
-            inner[["tau", "value"]].iloc[at],
-            offset,
+            lines[name][["tau", "value"]].iloc[at],
+            (0, 2 if above else -2),
             textcoords="offset points",
             fontsize=10,
-            **side,
+            va="bottom" if above else "top",
+            ha="center",
+            color=COORDINATES[name]["color"],
             **HALO,
         )
     axes.set_ylabel("displacement")

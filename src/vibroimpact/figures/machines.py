@@ -184,7 +184,7 @@ def _name_linear(axes, without, best):
 
 
 def _name_peaks(axes, with_balls):
-    """Write each clearance beside the peak of its curve, away from the middle, but inside; peaks in one place share a name."""
+    """Write each clearance beside the peak of its curve, on its free side; peaks in one place share a name."""
     peaks = {}
     for name, line in with_balls.items():
         at = line.loc[line["swing"].idxmax()]
