@@ -35,12 +35,16 @@ def test_chart_keeps_failed_and_unavailable_methods():
 
 def test_each_kind_of_method_has_its_own_colour_and_mark_and_each_method_its_name():
     rows = [ROW | dict(method=kind, family=kind) for kind in work_precision.KINDS]
+    rows += [ROW | dict(method=f"another {kind}", family=kind) for kind in ("Taylor", "solve_ivp")]
     figure = work_precision.draw(pd.DataFrame(rows), footer="")
+    looks = work_precision.KINDS.values()
+    assert len({colour for colour, *_ in looks}) == len({marker for _, marker, _ in looks}) == len(looks)
     (key,) = (legend for part in figure.subfigs for legend in part.legends)
-    looks = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
-    assert len({colour for colour, _ in looks}) == len({marker for _, marker in looks}) == len(rows)
+    assert {text.get_text() for text in key.get_texts()} == {"Taylor", "solve_ivp", *work_precision.CROWDED}
+    shown = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
+    assert shown == [work_precision.KINDS[text.get_text()][:2] for text in key.get_texts()]
     named = {text.get_text() for text in figure.subfigs[0].axes[0].texts}
-    assert named - {"better"} == set(work_precision.KINDS) - set(work_precision.CROWDED)
+    assert named - {"better"} == {row["method"] for row in rows} - set(work_precision.CROWDED)
 
 
 def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_ones():

@@ -3,7 +3,9 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.claims.verdict_table import FORMER
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.frames import with_former_names
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 SPEC = {
@@ -16,15 +18,15 @@ SPEC = {
     "method": "verdicts as computed",
     "columns": {
         "panel": {"meaning": "the case"}, "label": {"meaning": "label of the fixed point", "unit": "text"},
-        "C1, C2": {"compared": "roots"}, "printed_10_26, masri_derived, slow_flow, floquet": {},
+        "C1, C2": {"compared": "roots"}, "printed_10_26, fast, slow, exact, masri_derived, slow_flow, floquet": {},
     },
 }  # fmt: skip
 
 CRITERIA = {
     "printed_10_26": "(10.26)",
-    "masri_derived": "impacts,\nas derived",
-    "slow_flow": "slow flow",
-    "floquet": "exact\norbit",
+    "fast": "impacts,\nas derived",
+    "slow": "slow flow",
+    "exact": "exact\norbit",
 }
 """The columns of the published table, and what the figure calls them."""
 FACES = {STABLE: BLACK, UNSTABLE: "white"}
@@ -33,11 +35,12 @@ ROW, HEAD = 6.0, 22.0
 
 
 def compute(points: pd.DataFrame) -> pd.DataFrame:
-    """The verdicts on all fixed points: columns panel (the case), label, C1, C2, one per criterion.
+    """The verdicts on all fixed points: columns panel (the case), label, C1, C2, one per criterion, former names last.
 
     points: columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
     """
-    return points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
+    table = points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
+    return with_former_names(table, FORMER)
 
 
 @styled

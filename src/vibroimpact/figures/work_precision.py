@@ -13,8 +13,9 @@ SPEC = {
     "title": "Error against time, method by method",
     "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
         "forcing cycle, for every method and setting on three test problems: the nearer to the lower left, the better. "
-        "Methods of a kind share colour and mark; their names stand where they are most exact. Hollow marks: impacts "
-        "missed or spurious. In the lane at the right: runs that failed, with their reason.",
+        "Methods of a kind share colour and mark; their names stand where they are most exact; the key has the kinds "
+        "of several methods or without names. Hollow marks: impacts missed or spurious. In the lane at the right: runs "
+        "that failed, with their reason.",
     "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
         "logarithmic axes, a line per method with the colour and mark of its kind. Runs that failed stand in a lane "
         "at the right, numbered. This engine stands alone in the lower left corner.",
@@ -65,11 +66,11 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
             outcome, reason, order.
         footer: versions, printed below.
     """
-    figure = new_figure(DOUBLE_COLUMN, 118.0)
+    figure = new_figure(DOUBLE_COLUMN, 114.0)
     problems = list(dict.fromkeys(table["problem"]))
     failures = table[(table["outcome"] != "finished") & table["seconds_per_cycle"].notna()]
     numbers = {key: n for n, key in enumerate(dict.fromkeys(map(_failure, failures.itertuples())), start=1)}
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.32))
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1, 0.275))
     panels = upper.subplots(1, len(problems), sharex=True, sharey=True, squeeze=False)[0]
     for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
         here = table[table["problem"] == problem]
@@ -83,10 +84,16 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
         _better(axes)
         heading(axes, letter, problem)
     panels[0].set_ylabel("time per cycle [s]")
-    handles = {kind: Line2D([], [], linewidth=0.8, **_look(kind)) for kind in KINDS if (table["family"] == kind).any()}
-    lower.legend(handles.values(), handles, loc="upper center", ncols=4)
+    handles = {kind: Line2D([], [], linewidth=0.8, **_look(kind)) for kind in _in_key(table)}
+    lower.legend(handles.values(), handles, loc="upper center", ncols=5, fontsize=9)
     _notes(lower, numbers, table, footer)
     return figure
+
+
+def _in_key(table):
+    """Kinds with several methods, or whose methods are not named; of the others the name of the method says enough."""
+    methods = table.groupby("family")["method"].nunique()
+    return [kind for kind in KINDS if methods.get(kind, 0) > (0 if kind in CROWDED else 1)]
 
 
 def _look(kind):
@@ -137,7 +144,7 @@ def _notes(figure, numbers, table, footer):
     for row in absent.drop_duplicates("method").itertuples():
         lines.append(f"{row.method}: unavailable ({row.reason})")
     title = ["grey lane: no result"] if lines else []
-    figure.text(0.02, 0.6, "\n".join([*title, *lines]), fontsize=7, va="top", linespacing=1.25)
+    figure.text(0.02, 0.68, "\n".join([*title, *lines]), fontsize=7, va="top", linespacing=1.25)
     figure.text(0.02, 0.02, footer, fontsize=7, color=GREY, va="bottom")
 
 

@@ -50,7 +50,7 @@ class MethodRun:
 
 
 class Method(ABC):
-    """One integrator of (10.1). A new one is one file with a subclass, listed in `integrators.METHODS`.
+    """One integrator of (10.2). A new one is one file with a subclass, listed in `integrators.METHODS`.
 
     name, family: as printed; settings: from coarse to fine, all of one kind (`knob` says which); careful: the
     one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
