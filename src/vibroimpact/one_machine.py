@@ -106,12 +106,14 @@ class Design:
         hardest = max(self.response, key=lambda row: row["impact_speed_m_s"])
         narrow, wide = map(_mm, self.off)
         verdict = f"{1 - self.peak / self.without:.0%} less" if self.peak < self.without else "no less"
+        settled = "" if self._settled(worst) else " (not settled where it is largest, see below)"
         waited, watched = self.window
         return "\n".join([
             f"natural frequency {self.natural:.4g} Hz, static deflection {_mm(self.static)}",
             *self._of_masses(),
             f"clearance {1000 * machine.L:.10g} mm to each side, restitution {machine.kappa:g}",
-            f"largest displacement {_mm(self.peak)} once settled: {verdict} than {_mm(self.without)} without ball",
+            f"largest displacement {_mm(self.peak)} once settled{settled}: {verdict} than {_mm(self.without)} without "
+            "ball",
             f"  {_mm(self.near[0])} to {_mm(self.near[1])} with clearances within {NEAR:.0%} of it",
             f"  {_mm(self.settling)} while it settles from rest",
             f"  ball fixed in its box {_mm(self.fixed)}",
@@ -148,9 +150,16 @@ class Design:
 
     def _of_masses(self):
         for row in self.masses:
-            yield f"with {row['mass_kg']:.4g} kg {_mm(row['peak_m'])}, best linear absorber {_mm(row['absorber_m'])}"
+            ball = f"clearance {1000 * row['clearance_m']:.10g} mm, restitution {row['restitution']:g}"
+            yield (
+                f"with {row['mass_kg']:.4g} kg {_mm(row['peak_m'])} ({ball}), "
+                f"best linear absorber {_mm(row['absorber_m'])}"
+            )
         if self.masses:
             yield f"the lowest, with {self.machine.m:.4g} kg:"
+
+    def _settled(self, row):
+        return self.peak <= FRAGILE * row["later_m"]
 
     def _warnings(self):
         """A line on each thing to know before the design is built."""
@@ -161,7 +170,7 @@ class Design:
                 end = "least" if value == tried[0] else "greatest"
                 yield f"The {name.removesuffix('_m')} is the {end} of those tried; one beyond it may serve better."
         worst = max(self.response, key=lambda row: row["with_m"])
-        if self.peak > FRAGILE * worst["later_m"]:
+        if not self._settled(worst):
             later = f"{_mm(worst['later_m'])} in the {LATER} periods after them"
             yield f"At {worst['frequency_Hz']:.4g} Hz that motion had not settled: it is at most {later}."
         if self.near[1] > FRAGILE * self.peak:

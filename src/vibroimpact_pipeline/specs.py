@@ -61,11 +61,13 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
     module = drawing_module(figure, scene, known)
     if module == figure:
         return known[figure] | {"module": module}
+    own = known[module]["own"]
     tables = {
         name: table | {"file": table["file"].replace(f"/{module}.", f"/{figure}.")}
         for name, table in known[module]["tables"].items()
     }
-    return known[module] | known[module]["own"] | {"tables": tables, "module": module}
+    tables["csv"]["about"] = f"{own['title'].format_map(scene)}."
+    return known[module] | own | {"tables": tables, "module": module}
 
 
 def at(config: dict, path: str):

@@ -11,6 +11,7 @@ import yaml
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.datapackage import data_package
+from vibroimpact_pipeline.specs import LIKE, spec_of
 
 
 @pytest.fixture(scope="module")
@@ -98,6 +99,24 @@ def test_a_column_that_the_dictionary_lacks_is_refused():
         data_package({"results/orbits.csv": ["case", "colour"]}, files(specs, data), data["units"], cited)
     with pytest.raises(LookupError, match=r"results/new.csv: case: not in the data dictionary"):
         data_package({"results/new.csv": ["case"]}, files(specs, data), data["units"], cited)
+
+
+@pytest.mark.parametrize(("notebook", "like"), LIKE.items())
+def test_tables_of_a_figure_of_ones_own_are_described_as_those_of_the_figure_it_is_drawn_like(built, notebook, like):
+    specs, data = read(ROOT)
+    scene = {"notebook": notebook, "case": "equal", "fixed_point": "b"}
+    mine = spec_of("mine", scene, specs)
+    headers = {}
+    for name, table in specs[like]["tables"].items():
+        with open(built / table["file"], encoding="utf-8", newline="") as file:
+            headers[mine["tables"][name]["file"]] = next(csv.reader(file))
+    cited = {"title": "t", "abstract": "a", "version": 1, "keywords": [], "license": "MIT", "authors": []}
+    package = data_package(headers, files(specs | {"mine": mine}, data), data["units"], cited)
+    assert {resource["path"] for resource in package["resources"]} == {
+        path.removeprefix("results/") for path in headers
+    }
+    [plotted] = [one["description"] for one in package["resources"] if one["path"] == "figures/mine.csv"]
+    assert plotted == f"{mine['own']['title']}.".replace("{case}", "equal").replace("{fixed_point}", "b")
 
 
 def test_what_it_says_of_the_project_is_what_the_citation_says(package):

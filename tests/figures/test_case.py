@@ -113,7 +113,9 @@ def test_why_a_fixed_point_is_unstable_is_said_with_the_multipliers_of_a_simulat
     for name, largest in zip(shown["exact orbit"], shown["its largest multiplier"], strict=True):
         jacobian = vi.simulate(system, symmetric[int(name[1:]) - 1].state, 1).jacobian
         assert largest == pytest.approx(abs(np.linalg.eigvals(jacobian)).max(), abs=1e-4)
-    assert shown.loc["b", ["impacts, by (10.26)", "slow flow", "the exact system"]].tolist() == [
+    assert shown.loc[
+        "b", ["printed_10_26: impacts, by (10.26)", "slow: slow flow", "exact: its multipliers"]
+    ].tolist() == [
         "stable",
         "unstable",
         "unstable",

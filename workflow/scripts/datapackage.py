@@ -10,6 +10,7 @@ from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.datapackage import data_package
 from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.specs import spec_of
 
 
 def header(path):
@@ -19,9 +20,10 @@ def header(path):
 
 with running(snakemake) as out:
     specs, data = read(ROOT)
+    made = {figure: spec_of(figure, scene, specs) for figure, scene in snakemake.params.figures.items()}
     cited = yaml.safe_load(Path(snakemake.input.citation).read_text(encoding="utf-8"))
     build = snakemake.output.json.removesuffix("results/datapackage.json")  # the prefix of a module
     headers = {path.removeprefix(build): header(path) for path in snakemake.input if path.endswith(".csv")}
-    package = data_package(headers, files(specs, data), data["units"], cited)
+    package = data_package(headers, files(specs | made, data), data["units"], cited)
     text = json.dumps(package, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     Path(out.json).write_text(text, encoding="utf-8")

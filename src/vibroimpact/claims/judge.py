@@ -42,7 +42,7 @@ def problems(claims: list[dict]) -> list[str]:
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
     """The claims, each with its verdict, the parts that hold or do not, and the numbers.
 
-    One that reads evidence which is not about the chapter is not judged.
+    One that reads evidence which is not about the chapter is not judged, and has the reason.
 
     Raises:
         ValueError: the list of claims has problems.
@@ -54,8 +54,8 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
     for claim in claims:
         try:
             finding = CHECKS[claim["check"]](evidence, **claim.get("arguments", {}))
-        except NotOfTheChapter:
-            judged.append({**claim, "verdict": NOT_JUDGED, "parts": {}, "numbers": {}})
+        except NotOfTheChapter as unlike:
+            judged.append({**claim, "verdict": NOT_JUDGED, "reason": str(unlike), "parts": {}, "numbers": {}})
         else:
             judged.append({**claim, "verdict": finding.verdict, "parts": finding.parts, "numbers": finding.numbers})
     return judged
@@ -103,7 +103,8 @@ def _row(claim):
     parts = [f"{part}: {_WORDS[holds]}" for part, holds in claim["parts"].items()]
     numbers = [f"{name} = {_shown(value)}" for name, value in claim["numbers"].items()]
     cells = [claim["id"], claim["place"], claim["statement"], f"**{claim['verdict']}**"]
-    cells += ["; ".join(parts) + (". " if numbers else "") + ", ".join(numbers), claim["refuted_by"]]
+    cells += [claim.get("reason", "; ".join(parts) + (". " if numbers else "") + ", ".join(numbers))]
+    cells.append(claim["refuted_by"])
     return "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |"
 
 

@@ -1,6 +1,7 @@
 """The commands: each with its options and the table it computes from a system."""
 
 import csv
+from argparse import ArgumentTypeError
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -71,7 +72,8 @@ def add_system_options(parser) -> None:
     group.add_argument("--case", choices=CASES, default="equal", help="forces of the chapter's case (default: equal)")
     for name, value in NAMES.items():
         usual = "that of the case" if value is None else value
-        group.add_argument(f"--{name.replace('_', '-')}", type=float, metavar="X", help=f"default: {usual}")
+        spellings = dict.fromkeys((f"--{name.replace('_', '-')}", f"--{name}"))
+        group.add_argument(*spellings, type=float, metavar="X", help=f"default: {usual}")
 
 
 def system_of(options) -> System:
@@ -151,7 +153,10 @@ def _design_options(parser):
 
 def _range(text) -> tuple[float, ...]:
     """A number, or the two of A..B."""
-    return tuple(float(word) for word in text.split("..", maxsplit=1))
+    try:
+        return tuple(float(word) for word in text.split("..", maxsplit=1))
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r} should be a number [kg], or two as in 0..40") from None
 
 
 def _design(options):

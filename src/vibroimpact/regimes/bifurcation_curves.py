@@ -16,6 +16,7 @@ from vibroimpact.regimes.branches import Branch, same_root
 from vibroimpact.regimes.continuation import Curve, Lost
 from vibroimpact.regimes.families import FOLD, SYMMETRY_BREAKING, AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.system.amplitude import path_of
+from vibroimpact.system.representation import Representation, brief
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
 _DIFFERENCE = 1e-6
@@ -47,8 +48,8 @@ class Plane:
         return float(np.minimum((z[-2:] - low) / (high - low), (high - z[-2:]) / (high - low)).min())
 
 
-@dataclass(frozen=True, eq=False)
-class BifurcationCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class BifurcationCurve(Representation):
     """A curve of special points of one family of responses.
 
     family, kind: of the response; "fold" or "symmetry breaking", of the theory with its module. names: of both
@@ -62,6 +63,11 @@ class BifurcationCurve:
     points: np.ndarray
     amplitudes: np.ndarray
     x: np.ndarray
+
+    def _shown(self):
+        ends = f"{brief(self.points[0])} to {brief(self.points[-1])}"
+        named = {"family": self.family.name, "kind": self.kind, "names": ", ".join(self.names)}
+        return named | {"points": f"{len(self.points)}, {ends}"}
 
     def rows(self, number: int = 0) -> list[dict]:
         """A row per point: family, curve, special, both parameters, C1, C2."""

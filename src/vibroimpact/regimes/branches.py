@@ -8,6 +8,7 @@ import numpy as np
 
 from vibroimpact.regimes.continuation import Curve, Lost
 from vibroimpact.regimes.families import SPEED_ZERO, AsymmetricOrbits, flight_fractions
+from vibroimpact.system.representation import Representation, brief
 
 _SAME = 1e-6
 
@@ -40,12 +41,17 @@ class Node:
     admissible: bool | None
 
 
-@dataclass(frozen=True, eq=False)
-class Branch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Branch(Representation):
     """A piece of a solution curve: its nodes in their order along it."""
 
     family: object
     nodes: list[Node]
+
+    def _shown(self):
+        ends = brief([self.nodes[0].p, self.nodes[-1].p])
+        kinds = [f"{node.kind} at {node.p:.4g}" for node in self.special]
+        return {"family": self.family.name, "p": ends, "nodes": str(len(self.nodes)), "special": ", ".join(kinds)}
 
     @property
     def special(self) -> list[Node]:

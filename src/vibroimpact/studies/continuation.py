@@ -44,6 +44,12 @@ def branches(
         of: "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
         progress: tell family and parameter on standard error, if that is a terminal; "exact" takes some ten seconds.
 
+    Returns:
+        Each branch has .family, .nodes in their order, of which the first and last may lie one step beyond `between`,
+        and .special, the special ones. A node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or
+        ""), .stable and .admissible. The table has a row per node of each piece between special points; these belong
+        to both pieces.
+
     Raises:
         ValueError: an argument is malformed, or there is no system at an end.
     """

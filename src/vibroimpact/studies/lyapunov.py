@@ -22,7 +22,7 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
     True
 
     Args:
-        state: (8,) start at tau = 0.
+        state: (8,) start at tau = 0; from rest a ball may stay idle for good.
         cycles: forcing periods that are averaged over; settle: those before them. Raise `settle` where a motion settles
             slowly; the start decides where several motions attract (`basins`).
         blocks: parts of `cycles`, at least 2, whose scatter gives the error.

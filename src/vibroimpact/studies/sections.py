@@ -7,6 +7,8 @@ from vibroimpact.exact.engine.simulation import MOST_CYCLES
 from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import counted
 
+_STEP = 100  # cycles of the transient between two lines of progress
+
 
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
     """Stroboscopic Poincare sections of many runs: their states at the end of every forcing cycle once settled.
@@ -22,7 +24,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     Args:
         systems, states: combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0.
         cycles: forcing periods of each run; settle: those of them that are left out.
-        progress: count the cycles on standard error, if that is a terminal.
+        progress: count the steps, of 100 cycles and then of 1, on standard error, if that is a terminal.
 
     Returns:
         States (..., cycles - settle, 8), dimensionless, in the shape of the combination; nan once a run has failed
@@ -33,8 +35,10 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     """
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles - 1)
-    states = ensemble(systems, states, settle, settle=settle)["final"]
-    systems, found = np.array(systems, dtype=object), np.empty((*states.shape[:-1], cycles - settle, 8))
-    for k in counted(range(cycles - settle), "sections: cycle", progress):
-        states = found[..., k, :] = ensemble(systems, states, 1, settle=1)["final"]
-    return found
+    begin, systems = settle % _STEP, np.array(systems, dtype=object)
+    states, found = ensemble(systems, states, begin, settle=begin)["final"], []
+    steps = [_STEP] * (settle // _STEP) + [1] * (cycles - settle)
+    for step in counted(steps, "sections: step", progress):
+        states = ensemble(systems, states, step, settle=step)["final"]
+        found.append(states)
+    return np.stack(found[settle - cycles :], axis=-2)

@@ -23,7 +23,7 @@ def sweep(
     axes: Mapping[str, Iterable[float]],
     observe: Sequence[str],
     *,
-    starts: int = 1,
+    starts: int = 5,
     seed: int = 0,
     cycles: int = 1000,
     settle: int = 800,
@@ -44,7 +44,8 @@ def sweep(
         axes: the values of one or two parameters, by name.
         observe: any of "amplitudes", "envelopes", "energy", "peaks", "regimes" (these simulate, from every start),
             "fixed_points" and "orbits"; docs/howto.md has their columns.
-        starts, seed: number of starts, spread evenly, the first at rest; what scrambles them.
+        starts, seed: number of starts, spread evenly, the first at rest; what scrambles them. From rest a ball may stay
+            idle that moves from any other start.
         cycles, settle: forcing periods of each run, and those of them that are left out; not of "regimes", which have
             those of `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto.md).
         band: of "peaks": the values of the parameter along which the highest peak is sought, by name.

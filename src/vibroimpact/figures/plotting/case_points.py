@@ -54,12 +54,12 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
 
 WHY = {
     "label": "fixed point",
-    "printed_10_26": "impacts, by (10.26)",
-    "fast": "impacts, as derived",
-    "slow": "slow flow",
+    "printed_10_26": "printed_10_26: impacts, by (10.26)",
+    "fast": "fast: impacts, as derived",
+    "slow": "slow: slow flow",
     "orbit": "exact orbit",
     "largest multiplier": "its largest multiplier",
-    "exact": "the exact system",
+    "exact": "exact: its multipliers",
 }
 """Columns of the table of reasons, and what its heads call them."""
 
