@@ -40,9 +40,11 @@ def test_each_kind_of_method_has_its_own_colour_and_mark_and_each_method_its_nam
     looks = work_precision.KINDS.values()
     assert len({colour for colour, *_ in looks}) == len({marker for _, marker, _ in looks}) == len(looks)
     (key,) = (legend for part in figure.subfigs for legend in part.legends)
-    assert {text.get_text() for text in key.get_texts()} == {"Taylor", "solve_ivp", *work_precision.CROWDED}
-    shown = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
-    assert shown == [work_precision.KINDS[text.get_text()][:2] for text in key.get_texts()]
+    *kinds, hollow = [text.get_text() for text in key.get_texts()]
+    assert {*kinds} == {"Taylor", "solve_ivp", *work_precision.CROWDED}
+    *shown, _ = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
+    assert shown == [work_precision.KINDS[kind][:2] for kind in kinds]
+    assert (hollow, key.get_lines()[-1].get_markerfacecolor()) == ("hollow: other impacts", "white")
     named = {text.get_text() for text in figure.subfigs[0].axes[0].texts}
     assert named - {"better"} == {row["method"] for row in rows} - set(work_precision.CROWDED)
 

@@ -50,6 +50,13 @@ def test_a_table_has_a_line_for_each_row():
     assert cell("a\n b | c") == r"a b \| c"
 
 
+def test_no_line_of_a_page_is_lost_as_a_comment():
+    pages = [*(ROOT / "docs").glob("*.md"), *(ROOT / "report/pages").glob("*.md")]
+    assert len(pages) > 15
+    lost = [(page.name, line) for page in pages for line in page.read_text(encoding="utf-8").splitlines()]
+    assert [(name, line) for name, line in lost if line.lstrip().startswith("% ")] == []
+
+
 def test_captions_fill_from_the_config():
     captions = {name: about["caption"] for name, about in figure_texts(ROOT, CONFIG).items()}
     assert [name for name, text in captions.items() if len(text) < 20 or re.search(r"\{\w+_hat\}", text)] == []

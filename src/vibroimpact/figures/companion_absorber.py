@@ -281,5 +281,5 @@ def draw(tables: dict) -> Figure:
     for name, words in named.items():
         place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
         axes.annotate(words, (0.03, peaks.loc[name, "value"]), (0, 4), **place)
-    axes.set(xlabel="clearance over static deflection, $1/f$", ylabel="peak displacement per force, $|X_i|\\,/\\,f$")
+    axes.set(xlabel="clearance over static deflection, $1/f$", ylabel="peak over static deflection, $|X_i|\\,/\\,f$")
     return figure

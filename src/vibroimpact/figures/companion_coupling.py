@@ -333,8 +333,9 @@ def _draw_errors(axes, table):
             rows["coupling"], 100 * rows["error"], marker, markerfacecolor=face, markersize=size, label=name, **look
         )
         missing = rows[rows["error"].isna()]["coupling"]
-        cross, label = ("+", None) if name == PROPORTION else ("x", "no motion")
-        axes.plot(missing, np.full(len(missing), 100 * MISSING), cross, markersize=5, label=label, **look)
+        cross, label = ("+", None) if name == PROPORTION else ("x", "no exact motion")
+        above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
+        axes.plot(missing, np.ones(len(missing)), cross, markersize=5, label=label, **look, **above)
     axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 100 * MISSING + 1))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)

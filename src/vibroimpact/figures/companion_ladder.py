@@ -160,10 +160,11 @@ def draw(tables: dict) -> Figure:
     exact = worst.loc[worst["series"] == EXACT, "cost"].max()
     for row in worst[worst["series"].isin([THEORY, OF_U])].itertuples():
         aside = {"xytext": (-6, 4), "ha": "right"} if row.level == TWO_TERMS else {"xytext": (6, -3)}
+        aside = {"xytext": (-5, -9), "ha": "right"} if row.series == OF_U and row.cost < exact else aside
         axes.annotate(row.level, (row.cost, row.error), **aside, **beside)
     for series, end, aside in (
-        (OF_FORCE, 0, {"xytext": (6, 0), "color": STYLES[OF_FORCE]["color"]}),
-        (OF_U, -1, {"xytext": (-8, -3), "ha": "right"}),
+        (OF_FORCE, 0, {"xytext": (-6, -3), "ha": "right", "color": STYLES[OF_FORCE]["color"]}),
+        (OF_U, -1, {"xytext": (-10, -13)}),
     ):
         place = worst.loc[worst["series"] == series, ["cost", "error"]].iloc[end]
         axes.annotate(series, place, **aside, **beside)
@@ -173,6 +174,6 @@ def draw(tables: dict) -> Figure:
     axes.set(xscale="log", xlabel="terms of the response summed", ylabel="largest relative error of $C$")
     if worst["error"].gt(0).any():
         axes.set_yscale("log")
-    axes.margins(y=0.08)
+    axes.margins(y=0.14)
     axes.set_xlim(0.3, 30 * worst["cost"].max())
     return figure

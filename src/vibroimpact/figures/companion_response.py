@@ -225,10 +225,6 @@ def draw(tables: dict) -> Figure:
     last = panels[len(pairs)]
     _draw_panel(last, balls["force"], linear["force"], "f10_hat")
     heading(last, ascii_lowercase[len(pairs)], f"detuning {balls['force']['sigma_e_hat'].iloc[0]:g}")
-    for name, rows in linear["force"][linear["force"]["series"].isin(LINES)].groupby("series"):
-        end = rows.iloc[-1]
-        below = {"textcoords": "offset points", "ha": "right", "va": "top"}
-        last.annotate(name, end[["f10_hat", "ratio"]], (-4, -3), **below)
     logarithmic(last, "x")
     last.set_xlabel(r"$\hat f_{10} = \hat f_{20}$")
     for axes in panels[len(pairs) + 1 :]:
@@ -245,7 +241,7 @@ def _draw_panel(axes, balls, linear, x):
     axes.fill_between(balls[x], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
     for name, look in LINES.items():
         line = linear[linear["series"] == name]
-        axes.plot(line[x], line["ratio"], **look)
+        axes.plot(line[x], line["ratio"], label=name, **look)
     repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
     for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
         axes.plot(balls[x][shown], balls["ratio"][shown], label=name, **look)

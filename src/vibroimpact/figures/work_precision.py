@@ -49,6 +49,8 @@ KINDS = {
 """Colour, mark and its size of each kind of method, its `family`; the colours of Okabe and Ito, of safe contrast."""
 CROWDED = "compliant contact", "multiple scales"
 """Kinds whose methods are not named."""
+CLOSE = "RK45", "LSODA"
+"""Methods not named, either: between others of their kind, whose names they would cover."""
 SMALLEST, LARGEST = 1e-16, 30.0
 LANE, LANE_STEP, END = 1.4e3, 8.0, 5e4
 """Errors are drawn between SMALLEST and LARGEST; beyond, around LANE, are the runs that failed."""
@@ -85,7 +87,8 @@ def draw(table: pd.DataFrame, footer: str) -> Figure:
         heading(axes, letter, problem)
     panels[0].set_ylabel("time per cycle [s]")
     handles = {kind: Line2D([], [], linewidth=0.8, **_look(kind)) for kind in _in_key(table)}
-    lower.legend(handles.values(), handles, loc="upper center", ncols=5, fontsize=9)
+    handles["hollow: other impacts"] = Line2D([], [], linestyle="", color=GREY, marker="o", markerfacecolor="white")
+    lower.legend(handles.values(), handles, loc="upper center", ncols=3, fontsize=9)
     _notes(lower, numbers, table, footer)
     return figure
 
@@ -111,7 +114,7 @@ def _method(axes, method, rows):
     whole = (rows["missed"] + rows["spurious"]) == 0
     for chosen, fill in ((whole, look["color"]), (~whole, "white")):
         axes.plot(x[chosen], y[chosen], linestyle="", markerfacecolor=fill, **look)
-    if len(rows) and kind not in CROWDED:
+    if len(rows) and kind not in CROWDED and method not in CLOSE:
         first, offset = x.argmin(), (6, -6) if kind == "exact flow" else (-2, 5)
         axes.annotate(method, (x.iloc[first], y.iloc[first]), offset, textcoords="offset points", fontsize=7, **HALO)
 

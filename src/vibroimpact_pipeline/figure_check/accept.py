@@ -30,11 +30,14 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
         pictures_only: keep the tables, and take the pictures that are drawn of them now.
 
     Raises:
-        ValueError: the reason is empty. Nothing is written.
+        ValueError: the reason is empty, or a figure that has no reference is to keep its tables. Nothing is written.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:
         raise ValueError('reason: empty; say why the reference set changes, REASON="a longer axis"')
+    new = [verdict["figure"] for verdict in verdicts if _is_new(verdict, reference)]
+    if new and pictures_only:
+        raise ValueError(f"{', '.join(new)}: no reference, whose tables could be kept; accept it without PICTURES=1")
     sums = reference_sums(reference)
     for verdict in verdicts:
         figure, files = verdict["figure"], verdict["files"]
@@ -53,8 +56,15 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     (reference / SUMS).write_text(json.dumps(dict(sorted(sums.items())), indent=1) + "\n", encoding="utf-8")
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
-    entries = "\n".join(f"- {line(verdict)}.{_built_from(verdict, build)}" for verdict in verdicts)
+    said = {verdict["figure"]: f"{verdict['figure']}: new" for verdict in verdicts if verdict["figure"] in new}
+    entries = "\n".join(
+        f"- {said.get(verdict['figure'], line(verdict))}.{_built_from(verdict, build)}" for verdict in verdicts
+    )
     changes.write_text(f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n{entries}\n{earlier}", encoding="utf-8")
+
+
+def _is_new(verdict, reference):
+    return verdict["module"] and not (reference / f"{verdict['figure']}.png").exists()
 
 
 def _built_from(verdict, build):

@@ -83,6 +83,18 @@ def test_pictures_alone_are_drawn_of_the_tables_that_are_published(tree, run, mo
     assert said == []
 
 
+def test_a_new_figure_brings_its_tables_and_is_recorded_as_new(tree, run):
+    for path in tree.reference.glob("fig10_04.*"):
+        path.unlink()
+    before = contents(tree.reference)
+    status, said = run("fig10_04", "--pictures", "--reason", "why not")
+    assert (status, changed(before, tree.reference)) == (1, set())
+    assert "fig10_04: no reference, whose tables could be kept; accept it without PICTURES=1" in said
+    assert run("fig10_04", "--reason", "a new one")[0] == 0
+    assert (tree.reference / "fig10_04.csv").exists()
+    assert "- fig10_04: new." in (tree.reference / "CHANGES.md").read_text(encoding="utf-8")
+
+
 def test_a_figure_that_is_no_longer_made_leaves_the_set(tree, run):
     verdict = {"figure": "fig10_11", "module": None, "files": {}, "status": "failed", "tables": []}
     folder = tree.build / "results/figure_check"

@@ -78,7 +78,7 @@ def draw(table: pd.DataFrame) -> Figure:
         cycles.tick_params(labeltop=axes is grid[0])
         axes.tick_params(top=False)
     cycles_above = grid[0].child_axes[0]
-    cycles_above.set_xlabel("forcing cycle")
+    cycles_above.set_xlabel("forcing cycle", labelpad=6)
     grid[-1].set_xlabel(r"$\tau$")
     figure.align_ylabels()
     return figure
