@@ -47,8 +47,9 @@ def errors_of(flow, flights, events, limit):
     errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
     matrix, product, part = np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
     _begin(q, flights[0], errors)
+    root = _root(errors)
     for n in range(len(flights)):
-        told[n, 0] = told[n, 1] = UNIT * _root(errors)
+        told[n, 0] = told[n, 1] = UNIT * root
         if flights[n, LENGTH] > 0.0:
             _copy(flights[n], part)
             _fly(flow, part, errors, matrix, product)
@@ -57,9 +58,10 @@ def errors_of(flow, flights, events, limit):
             _pass(q, flights, events, n, errors, matrix, product)
         else:
             _end(q, flights[n], 0.0, errors, product[0])
-        if not _root(errors) <= known:  # also where it is no number: an impact without velocity
+        root = _root(errors)
+        if not root <= known:  # also where it is no number: an impact without velocity
             return told, math.inf
-    return told, UNIT * _root(errors)
+    return told, UNIT * root
 
 
 @compiled
@@ -186,9 +188,10 @@ def _root(errors):
     """Return the root mean square of errors over the whole state."""
     total = 0.0
     for k in range(8):
-        total += errors.independent[k, k]
-        for j in range(errors.repeated.shape[1]):
-            total += errors.repeated[k, j] ** 2
+        row = errors.independent[k, k]  # rows by themselves, which the processor adds side by side
+        for j in range(6):
+            row += errors.repeated[k, j] ** 2
+        total += row
     return math.sqrt(total)
 
 
