@@ -114,7 +114,9 @@ def test_sections_are_the_states_of_single_runs_at_whole_cycles():
 
 
 def test_a_sweep_without_cycles_has_numbers():
-    [row] = vi.sweep(SYSTEM, {"f20_hat": [1.0]}, ["amplitudes", "regimes", "peaks"], band={"sigma_e_hat": [0.2]})
+    [row] = vi.sweep(
+        SYSTEM, {"f20_hat": [1.0]}, ["amplitudes", "regimes", "peaks"], band={"sigma_e_hat": [0.2]}, starts=1
+    )
     assert row["failed"] == ""
     assert all(np.isfinite(row[name]) for name in ("largest_X1", "rms_X2", "peak", "asymmetric"))
     outcome = vi.ensemble(SYSTEM, REST, 1000, settle=800)

@@ -22,8 +22,9 @@ def errors(system) -> list[dict]:
     """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
 
     error: the largest difference of C_1 or C_2 from that of the exact orbit, over the larger of its C; nan where there
-    is none that is a motion. predicted, exact: True if called stable on both time scales, and if all multipliers are
-    inside the unit circle. orbits: how many symmetric motions there are, the same in all rows.
+    is none that is a motion. own_error: the same with each difference over its own C. predicted, exact: True if called
+    stable on both time scales, and if all multipliers are inside the unit circle. orbits: how many symmetric motions
+    there are, the same in all rows.
     """
     points = fixed_points(system)
     found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
@@ -32,11 +33,12 @@ def errors(system) -> list[dict]:
     for point, place in zip(points, places, strict=True):
         orbit = None if place is None else found[place]
         moves = orbit is not None and orbit.admissible
-        error = float(np.abs(point.C - orbit.C).max() / orbit.C.max()) if moves else np.nan
+        apart = np.abs(point.C - orbit.C) if moves else np.full(2, np.nan)
+        over = orbit.C if moves else np.ones(2)
         predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == STABLE
-        rows.append(
-            {"error": error, "predicted": predicted, "exact": moves and orbit.stability == STABLE, "orbits": motions}
-        )
+        of_point = {"error": float(apart.max() / over.max()), "own_error": float((apart / over).max())}
+        stable = moves and orbit.stability == STABLE
+        rows.append(of_point | {"predicted": predicted, "exact": stable, "orbits": motions})
     return rows
 
 
@@ -54,6 +56,7 @@ def strong_coupling(evidence, case, couplings):
         numbers |= {f"{name}: points": len(rows), f"{name}: called stable, wrongly": [called, wrong]}
         numbers[f"{name}: without a motion"] = sum(np.isnan(row["error"]) for row in rows)
         numbers[f"{name}: largest error"] = np.nanmax([row["error"] for row in rows])
+        numbers[f"{name}: largest error over its own C"] = np.nanmax([row["own_error"] for row in rows])
     return Finding(parts, numbers)
 
 

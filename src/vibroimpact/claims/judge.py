@@ -57,7 +57,8 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
         except NotOfTheChapter as unlike:
             judged.append({**claim, "verdict": NOT_JUDGED, "reason": str(unlike), "parts": {}, "numbers": {}})
         else:
-            judged.append({**claim, "verdict": finding.verdict, "parts": finding.parts, "numbers": finding.numbers})
+            found = {"verdict": finding.verdict, "reason": "", "parts": finding.parts, "numbers": finding.numbers}
+            judged.append(claim | found)
     return judged
 
 
@@ -103,7 +104,7 @@ def _row(claim):
     parts = [f"{part}: {_WORDS[holds]}" for part, holds in claim["parts"].items()]
     numbers = [f"{name} = {_shown(value)}" for name, value in claim["numbers"].items()]
     cells = [claim["id"], claim["place"], claim["statement"], f"**{claim['verdict']}**"]
-    cells += [claim.get("reason", "; ".join(parts) + (". " if numbers else "") + ", ".join(numbers))]
+    cells += [claim.get("reason") or "; ".join(parts) + (". " if numbers else "") + ", ".join(numbers)]
     cells.append(claim["refuted_by"])
     return "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |"
 

@@ -60,6 +60,8 @@ SPEC = {
         "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
         "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
             "unit": "dimensionless", "compared": "roots"},
+        "own_error": {"meaning": "largest error of $C_1$ or $C_2$ over its own exact one; blank without a motion",
+            "unit": "dimensionless", "compared": "roots"},
         "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
         "orbits": {"meaning": "number of symmetric motions of that case at that coupling", "unit": "dimensionless",
             "compared": "algebra"},
@@ -152,8 +154,10 @@ def _errors(systems, held):
         for value in COUPLINGS
         for row in errors(coupled(system, value, held))
     ]
-    table = pd.DataFrame(rows, columns=["case", "coupling", "error", "predicted", "exact", "orbits"])
-    columns = {name: table[name].to_numpy() for name in ("case", "coupling", "error", "predicted", "orbits")}
+    table = pd.DataFrame(rows, columns=["case", "coupling", "error", "own_error", "predicted", "exact", "orbits"])
+    columns = {
+        name: table[name].to_numpy() for name in ("case", "coupling", "error", "own_error", "predicted", "orbits")
+    }
     return curve("error", HELD if held else PROPORTION, **columns, stable=table["exact"].to_numpy())
 
 
@@ -265,6 +269,8 @@ def _of_errors(tables):
             f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
             f"largest error at coupling 1, {name}": at_ours.max(),
             f"least of the largest errors, {name}": known.groupby("coupling")["error"].max().min(),
+            f"largest error over its own C, coupling 1, {name}": table[table["coupling"] == 1.0]["own_error"].max(),
+            f"largest error over its own C, coupling 100, {name}": table[table["coupling"] == 100.0]["own_error"].max(),
             f"without a motion, {name}": len(missing),
             f"without a motion, from coupling {WELL:g}, {name}": int((missing >= WELL).sum()),
             f"called stable, {name}": int(table["predicted"].sum()),
