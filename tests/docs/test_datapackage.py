@@ -73,7 +73,10 @@ def test_a_table_with_another_column_type_or_value_is_not(package, tmp_path):
 
 def test_it_has_all_tables_of_a_build_but_those_that_others_gather(package):
     folder, described = package
-    gathered = re.compile(r"(fixed_points|orbits|verdicts)/\w+\.csv|accuracy/benchmark\.csv|sweeps/\w+/tiles/.*|(report|force_sweep)/.*")
+    gathered = re.compile(
+        r"(fixed_points|orbits|verdicts)/\w+\.csv|accuracy/benchmark\.csv|"
+        r"sweeps/\w+/tiles/.*|(report|force_sweep)/.*"
+    )
     tables = {str(path.relative_to(folder)) for path in folder.rglob("*.csv")}
     found = [resource["path"] for resource in described["resources"]]
     assert {path for path in tables if not gathered.fullmatch(path)} <= {*found} <= tables
