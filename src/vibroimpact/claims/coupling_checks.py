@@ -33,10 +33,10 @@ def errors(system) -> list[dict]:
     for point, place in zip(points, places, strict=True):
         orbit = None if place is None else found[place]
         moves = orbit is not None and orbit.admissible
-        apart = np.abs(point.C - orbit.C) if moves else np.full(2, np.nan)
-        over = orbit.C if moves else np.ones(2)
+        C = orbit.C if moves else np.full(2, np.nan)
+        apart = np.abs(point.C - C)
         predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == STABLE
-        of_point = {"error": float(apart.max() / over.max()), "own_error": float((apart / over).max())}
+        of_point = {"error": float(apart.max() / C.max()), "own_error": float((apart / C).max())}
         stable = moves and orbit.stability == STABLE
         rows.append(of_point | {"predicted": predicted, "exact": stable, "orbits": motions})
     return rows

@@ -13,6 +13,7 @@ from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNS
 from vibroimpact.regimes import asymmetric_limit
 from vibroimpact.regimes.classification import ASYMMETRIC
 from vibroimpact.regimes.epsilon_limit import order
+from vibroimpact.system.chapter import CASES
 from vibroimpact.theory.asymmetric import branch
 from vibroimpact.theory.asymmetric.asymmetric_points import fixed_points
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -133,8 +134,6 @@ MARKS = {
     POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
     ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
-CHAPTER = "equal", "unequal", "weak"
-"""Cases that are named after their forces."""
 SKEWED = 1e-3
 """Flights of a module are unequal where its v^2 is above this."""
 _PHASES, _SPEEDS = (
@@ -255,7 +254,7 @@ def draw(tables: dict) -> Figure:
     heading(left, "a", "both branches of the manifold")
     _draw_manifold(left, tables["csv"], tables["modules"])
     for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
-        heading(axes, letter, f"exact pairs, {case} forces" if case in CHAPTER else f"exact pairs, case {case}")
+        heading(axes, letter, f"exact pairs, {case} forces" if case in CASES else f"exact pairs, case {case}")
         _draw_case(axes, pairs[pairs["case"] == case])
     if cases:
         others[0].set_ylabel("inequality of flights, $v^2$")

@@ -110,7 +110,6 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
 """Coupling from which errors and missing motions are told apart from those of weaker coupling."""
-MISSING = 0.15
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", STRAIGHT: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
@@ -342,7 +341,7 @@ def _draw_errors(axes, table):
         cross, label = ("+", None) if name == PROPORTION else ("x", "no exact motion")
         above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
         axes.plot(missing, np.ones(len(missing)), cross, markersize=5, label=label, **look, **above)
-    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 100 * MISSING + 1))
+    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 16))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)
     axes.legend(loc="lower left", fontsize=8)

@@ -159,8 +159,11 @@ def draw(tables: dict) -> Figure:
     beside = {"textcoords": "offset points", **HALO}
     exact = worst.loc[worst["series"] == EXACT, "cost"].max()
     for row in worst[worst["series"].isin([THEORY, OF_U])].itertuples():
-        aside = {"xytext": (-6, 4), "ha": "right"} if row.level == TWO_TERMS else {"xytext": (6, -3)}
-        aside = {"xytext": (-5, -9), "ha": "right"} if row.series == OF_U and row.cost < exact else aside
+        aside = {"xytext": (6, -3)}
+        if row.level == TWO_TERMS:
+            aside = {"xytext": (-6, 4), "ha": "right"}
+        elif row.series == OF_U and row.cost < exact:
+            aside = {"xytext": (-5, -9), "ha": "right"}
         axes.annotate(row.level, (row.cost, row.error), **aside, **beside)
     for series, end, aside in (
         (OF_FORCE, 0, {"xytext": (-6, -3), "ha": "right", "color": STYLES[OF_FORCE]["color"]}),

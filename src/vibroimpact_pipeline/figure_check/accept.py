@@ -56,10 +56,8 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     (reference / SUMS).write_text(json.dumps(dict(sorted(sums.items())), indent=1) + "\n", encoding="utf-8")
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
-    said = {verdict["figure"]: f"{verdict['figure']}: new" for verdict in verdicts if verdict["figure"] in new}
-    entries = "\n".join(
-        f"- {said.get(verdict['figure'], line(verdict))}.{_built_from(verdict, build)}" for verdict in verdicts
-    )
+    told = (one | {"status": "new", "reasons": []} if one["figure"] in new else one for one in verdicts)
+    entries = "\n".join(f"- {line(one)}.{_built_from(one, build)}" for one in told)
     changes.write_text(f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n{entries}\n{earlier}", encoding="utf-8")
 
 

@@ -189,7 +189,7 @@ def _root(errors):
     total = 0.0
     for k in range(8):
         row = errors.independent[k, k]  # rows by themselves, which the processor adds side by side
-        for j in range(6):
+        for j in range(errors.repeated.shape[1]):
             row += errors.repeated[k, j] ** 2
         total += row
     return math.sqrt(total)
