@@ -33,12 +33,17 @@ def test_definitions_below_10_2():
     assert system.period == pytest.approx(2 * math.pi / 1.1)
 
 
-@pytest.mark.parametrize("coupled", [True, False])
-def test_a_module_is_undriven_where_neither_a_force_nor_the_other_moves_it(coupled):
+@pytest.mark.parametrize(
+    ("coupled", "forces", "modules"),
+    [
+        (True, (1.0, 1.0), (1, 2)), (True, (1.0, 0.0), (1, 2)), (True, (0.0, 1.0), (1, 2)), (True, (0.0, 0.0), ()),
+        (False, (1.0, 1.0), (1, 2)), (False, (1.0, 0.0), (1,)), (False, (0.0, 1.0), (2,)), (False, (0.0, 0.0), ()),
+    ],
+)  # fmt: skip
+def test_modules_that_a_force_or_the_other_module_moves_take_part(coupled, forces, modules):
     links = {} if coupled else dict(alpha12_hat=0.0, gamma12_hat=0.0)
-    for f10, f20 in ((1.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)):
-        system = vi.System(**CHAPTER | links | dict(f10_hat=f10, f20_hat=f20))
-        assert system.has_undriven_module == (f10 == f20 == 0.0 if coupled else 0.0 in (f10, f20))
+    f10, f20 = forces
+    assert vi.System(**CHAPTER | links | dict(f10_hat=f10, f20_hat=f20)).modules == modules
 
 
 positive = st.floats(0.05, 20.0)

@@ -101,11 +101,15 @@ class System:
         return self.epsilon * np.array([self.f10_hat, self.f20_hat])
 
     @property
-    def has_undriven_module(self) -> bool:
-        """True if some module has neither a force nor a coupling, so that its impacts can only die out."""
-        uncoupled = self.alpha12_hat == 0 and self.gamma12_hat == 0
-        forced = [self.f10_hat != 0, self.f20_hat != 0]
-        return not (all(forced) if uncoupled else any(forced))
+    def modules(self) -> tuple[int, ...]:
+        """Numbers of the modules that take part: a force drives them, or the module to which they are coupled.
+
+        A module without force and coupling takes no part: it stays at rest, or comes to rest. This is the only place
+        that decides it. A single machine has (1,), see `PhysicalSystem.single`.
+        """
+        forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
+        coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
+        return (1, 2) if coupled and forced else tuple(forced)
 
     def with_(self, **changes: float) -> "System":
         """The same system with some parameters changed.

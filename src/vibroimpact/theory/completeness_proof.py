@@ -124,7 +124,7 @@ def _same(box, known):
 def _all_zeros(system, pairs):
     """Pairs of charts with the boxes that have exactly one zero in the square, and with those that stay open."""
     found, undecided = [], []
-    if not system.has_undriven_module:
+    if system.modules == (1, 2):
         with ctx.workprec(_BITS):
             for pair in pairs:
                 zeros, unclear = _subdivide(_Conditions(system, pair))

@@ -66,7 +66,7 @@ def _refuse_resonance(system):
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
     refuse_free_motion(system)
-    for sign in () if system.has_undriven_module else (1, -1):
+    for sign in () if system.modules != (1, 2) else (1, -1):
         ImpulseResponse(system, sign)
 
 

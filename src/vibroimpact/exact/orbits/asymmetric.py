@@ -102,7 +102,7 @@ def asymmetric_solutions(system, starts: int = STARTS):
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    if system.has_undriven_module:
+    if system.modules != (1, 2):
         return np.empty((0, 6)), np.empty(0, dtype=int)
     period = system.period
     conditions = AsymmetricConditions(system)

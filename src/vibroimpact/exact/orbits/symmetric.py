@@ -112,7 +112,7 @@ def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
 
 def _solutions(system, systems, response):
     """The roots of each of some systems that differ from one in their forces alone."""
-    driven = [k for k, one in enumerate(systems) if not one.has_undriven_module]
+    driven = [k for k, one in enumerate(systems) if one.modules == (1, 2)]
     found = [np.empty((0, 4))] * len(systems)
     if not driven:
         return found

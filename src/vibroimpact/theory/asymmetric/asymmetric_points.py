@@ -147,7 +147,7 @@ def search(system: System) -> list[AsymmetricPoint]:
         ValueError: as `fixed_points`.
     """
     refuse_free_motion(instance("system", system, System))
-    if system.has_undriven_module:
+    if system.modules != (1, 2):
         return []
     found = [_point(system, pair, x) for pair in PAIRS for x in _zeros(balance(system, pair))]
     return sorted(found, key=lambda point: tuple(point.C))

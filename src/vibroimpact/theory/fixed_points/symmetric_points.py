@@ -102,7 +102,7 @@ def search(system: System) -> FixedPointSearch:
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     zeros, multiple = np.empty((0, 2)), np.empty(0, bool)
-    if not system.has_undriven_module:  # what its ball dissipates would leave it no fixed point
+    if system.modules == (1, 2):  # what its ball dissipates would leave it no fixed point
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
     points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
     points.sort(key=lambda point: tuple(point.C))
