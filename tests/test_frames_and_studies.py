@@ -7,9 +7,8 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact import frames
-from vibroimpact.accuracy import stress_tests
-from vibroimpact.claims import verdict_table
-from vibroimpact.regimes import onset
+from vibroimpact.accuracy import stress_tests, verdict_table
+from vibroimpact.studies.regimes import onset
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)

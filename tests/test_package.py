@@ -104,14 +104,14 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
         "vibroimpact.system",
         "vibroimpact.theory",
         "vibroimpact.exact",
-        "vibroimpact.regimes",
+        "vibroimpact.studies.regimes",
         "vibroimpact.integrators",
-        "vibroimpact.absorbers",
+        "vibroimpact.studies.absorbers",
     )
     assert {name for name in lacking if name.startswith(science)} == {
-        "vibroimpact.theory.completeness_proof",
+        "vibroimpact.studies.completeness.points",
         "vibroimpact.theory.fixed_points.table",
-        "vibroimpact.exact.orbits.certify",
+        "vibroimpact.studies.completeness.orbits",
         "vibroimpact.exact.orbits.proof",
     }
 

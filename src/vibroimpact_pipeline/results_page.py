@@ -7,8 +7,8 @@ from pathlib import Path
 
 from jinja2 import Environment
 
-from vibroimpact_pipeline.report.mathematics import STYLE
-from vibroimpact_pipeline.report.policy import guarded
+from vibroimpact_pipeline.html.mathematics import STYLE
+from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.regimes.classification import REGIMES
+from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.tables import read
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]
@@ -134,7 +134,7 @@ def test_statistics_of_the_modulated_response_are_those_of_its_samples(table):
 
 
 def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
-    shares = table("figures/companion_regime_map.csv")
+    shares = table("figures/studies/companion_regime_map.csv")
     both, names = table("sweeps/regime_map.csv"), [*REGIMES]
     np.testing.assert_allclose(shares[names].sum(axis=1), 1.0, atol=1e-12)
     assert (shares["stable_points"] <= shares["fixed_points"]).all()
@@ -144,7 +144,7 @@ def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
 
 
 def test_shares_of_basins_are_those_of_the_figure(table):
-    starts = table("figures/companion_basins.csv")
+    starts = table("figures/studies/companion_basins.csv")
     for row in table("regimes/basin_shares.csv").itertuples():
         share = (starts["label"] == row.regime).mean()
         assert row.share == pytest.approx(share, rel=1e-12)
@@ -154,7 +154,7 @@ def test_shares_of_basins_are_those_of_the_figure(table):
 
 
 def test_orders_are_slopes_of_the_curves(table):
-    curves = table("figures/companion_epsilon.csv")
+    curves = table("figures/studies/companion_epsilon.csv")
     for row in table("regimes/epsilon_orders.csv").itertuples():
         line = curves[(curves["panel"] == row.panel) & (curves["series"] == f"{row.case}, {row.label}")]
         small = line[line["epsilon"] < 0.005]
@@ -184,7 +184,7 @@ def test_errors_of_the_chart_belong_to_runs_with_a_final_state(table):
 
 
 def test_limits_in_the_companions_are_those_named(table):
-    regions = table("figures/companion_10_05.csv").groupby("series")
+    regions = table("figures/studies/companion_10_05.csv").groupby("series")
     kappa, C = (regions.get_group("symmetry breaking")[name] for name in ("kappa", "C"))
     assert C.to_numpy() == pytest.approx(np.pi**2 / (np.pi**2 - 4))
     fold = regions.get_group("fold")

@@ -18,11 +18,11 @@ from hostile import HOSTILE, RUN, STATEMENT, Markup
 from pipeline_trees import ROOT
 from vibroimpact.figures.plotting.markdown import code, one_line, plain
 from vibroimpact_pipeline.figure_check.page import page as check_page
-from vibroimpact_pipeline.report import offline
-from vibroimpact_pipeline.report.pages import Pages, anchor, attribute, data
-from vibroimpact_pipeline.report.policy import guarded
-from vibroimpact_pipeline.report.results import Results
-from vibroimpact_pipeline.report.site import SPHINX, write_article, write_site
+from vibroimpact_pipeline.html.policy import guarded
+from vibroimpact_pipeline.studies.report import offline
+from vibroimpact_pipeline.studies.report.pages import Pages, anchor, attribute, data
+from vibroimpact_pipeline.studies.report.results import Results
+from vibroimpact_pipeline.studies.report.site import SPHINX, write_article, write_site
 
 FILLED_PAGES = sorted(path.stem for path in (ROOT / "report/pages").glob("*.md"))
 LIVE = ("motion", "fixed_points", "play")

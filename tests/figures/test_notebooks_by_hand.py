@@ -116,7 +116,7 @@ def test_the_response_is_that_of_the_point(shown):
     for (C, B), psi, phase in zip(on_manifold, angles, phases, strict=True):
         U = float(B) * np.sin(2 * np.pi * float(phase) - psi)
         assert U + float(C) == pytest.approx(1.0, abs=2e-3)  # W = U + Z at the wall
-    assert "**b**: **no orbit**" in shown["response"]  # lost in a fold at 0.732, docs/findings.md
+    assert "**b**: **no orbit**" in shown["response"]  # lost in a fold at 0.732, docs/studies/findings.md
 
 
 def amplitudes(forces, cycles=300):

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from configs import FREE, GOOD, ONE_CASE, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSUAL, edited, problems
 from pipeline_trees import CORES, ROOT, run_module
-from vibroimpact.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.system import System
 from vibroimpact_pipeline.config import ConfigError, checked, read
 from vibroimpact_pipeline.config.model import PREFIXES, RULES, Config, Parameters

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from vibroimpact.sweeps.grid import Grid, axis
-from vibroimpact.sweeps.rows import rows
-from vibroimpact.sweeps.spec import Spec
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.rows import rows
+from vibroimpact.studies.sweeps.spec import Spec
 
 BAND = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 5}
 FORCES = ["f10_hat", "f20_hat"]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from configs import GOOD
-from vibroimpact.claims.judge import to_markdown
+from vibroimpact.studies.claims.judge import to_markdown
 
 RUN = "void(document.title='taken')"
 HOSTILE = (
@@ -20,7 +20,7 @@ HOSTILE = (
 STATEMENT = (
     f"Words of the repository, with $C_1$; what is live in them is none: <script>{RUN}</script> [x](javascript:{RUN})"
 )
-"""In Markdown, as `docs/claims.yaml` has them."""
+"""In Markdown, as `docs/studies/claims.yaml` has them."""
 SHOWN = {
     "chapter": ["fig10_06"],
     "own": ["mine"],

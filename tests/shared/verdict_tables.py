@@ -3,7 +3,7 @@
 import pandas as pd
 
 import vibroimpact as vi
-from vibroimpact.claims.verdict_table import fixed_point_rows, orbit_rows
+from vibroimpact.accuracy.verdict_table import fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory.fixed_points.symmetric_points import labels
 

@@ -8,10 +8,10 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.absorbers.decay import decay_time
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.regimes.lyapunov import largest_exponent
+from vibroimpact.studies.absorbers.decay import decay_time
+from vibroimpact.studies.regimes.lyapunov import largest_exponent
 
 CHAPTER = dict(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 SYSTEM = vi.System(**CHAPTER)

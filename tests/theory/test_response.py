@@ -5,9 +5,9 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from vibroimpact.exact.measures.slow_variables import measure
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.regimes.slow_variables import measure
 from vibroimpact.theory.response import impact_times, leading_order, mean_power
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)

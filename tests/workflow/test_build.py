@@ -43,7 +43,7 @@ def test_every_result_has_a_record_and_every_record_its_result(built):
 
 def test_a_failed_job_shows_its_log(tree):
     tree.edit(
-        "src/vibroimpact/figures/companion_10_05.py",
+        "src/vibroimpact/studies/figures/companion_10_05.py",
         "def compute(",
         "raise SystemExit('no such figure')\n\n\ndef compute(",
     )

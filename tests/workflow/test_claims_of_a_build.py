@@ -8,12 +8,12 @@ import pytest
 import yaml
 
 from pipeline_trees import ROOT
-from vibroimpact_pipeline.report.results import Results
+from vibroimpact_pipeline.studies.report.results import Results
 
-EXPECTED = yaml.safe_load((ROOT / "tests/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
-FINDINGS = (ROOT / "docs/findings.md").read_text(encoding="utf-8")
+EXPECTED = yaml.safe_load((ROOT / "tests/studies/claims/expected_verdicts.yaml").read_text(encoding="utf-8"))
+FINDINGS = (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
 DOCUMENTS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md")))
-PLACES = yaml.safe_load((ROOT / "docs/numbers.yaml").read_text(encoding="utf-8"))
+PLACES = yaml.safe_load((ROOT / "docs/studies/numbers.yaml").read_text(encoding="utf-8"))
 SOURCED = [(number, PLACES[key]) for number, key in re.findall(r"\[(−?[\d.]+)\]\(numbers\.yaml#([\w.-]+)\)", DOCUMENTS)]
 """Numbers of documents with the place in a build that each is from."""
 CHAOTIC = tuple(

@@ -98,7 +98,7 @@ def test_results_of_another_config_that_are_copied_in_are_made_anew(drawn, tmp_p
 
 
 CHECKOUT = {
-    "docs/claims.yaml": "claims",
+    "docs/studies/claims.yaml": "claims",
     "notebooks/drawings.ipynb": "fig10_01",
     "environment.lock": DRAWING,
     "src/vibroimpact/figures/plotting/vibroimpact.mplstyle": DRAWING,

@@ -136,7 +136,7 @@ def in_report(outputs, category):
 
 
 def sweep_request(sweep):
-    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.sweeps.request."""
+    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
     spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.report.figure_texts import figure_texts
 from vibroimpact_pipeline.results_page import page
 
 with running(snakemake) as out:

@@ -12,9 +12,9 @@ import papermill
 from traitlets.config import Config
 
 from vibroimpact_pipeline import provenance
+from vibroimpact_pipeline.html.figure_texts import words
+from vibroimpact_pipeline.html.offline import page
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.report.figure_texts import words
-from vibroimpact_pipeline.report.offline import page
 
 
 def execute(notebook, executed, parameters: dict):

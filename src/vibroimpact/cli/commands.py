@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact import one_machine
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.studies import one_machine
 from vibroimpact.system import PhysicalSystem, System
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.chapter import CASES, PARAMETERS

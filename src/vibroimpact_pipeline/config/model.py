@@ -9,9 +9,9 @@ from vibroimpact.system import System
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import described, problems_of
-from vibroimpact_pipeline.config.regimes import Regimes
 from vibroimpact_pipeline.config.section import Place, Section
-from vibroimpact_pipeline.config.sweeps import Sweep
+from vibroimpact_pipeline.studies.config.regimes import Regimes
+from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""

@@ -10,7 +10,7 @@ from PIL import ImageChops, ImageFilter
 
 from vibroimpact_pipeline.figure_check import check, pictures
 from vibroimpact_pipeline.figure_check.table_distances import KINDS
-from vibroimpact_pipeline.report.policy import guarded
+from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SPREAD = 7

@@ -12,9 +12,9 @@ from scipy.optimize import root
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.theory import completeness_proof as module
+from vibroimpact.studies.completeness import points as module
+from vibroimpact.studies.completeness.points import certify
 from vibroimpact.theory import manifold
-from vibroimpact.theory.completeness_proof import certify
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPointSearch, labels, search, search_radius
 from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import rates

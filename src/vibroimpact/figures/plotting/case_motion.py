@@ -10,10 +10,10 @@ import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.accuracy.window import window
+from vibroimpact.exact.measures.periodicity import distance_after
 from vibroimpact.figures.plotting.case_points import HINT
 from vibroimpact.figures.plotting.markdown import EXACTLY
-from vibroimpact.regimes.classification import ASYMMETRIC, SYMMETRIC, Regime
-from vibroimpact.regimes.periodicity import distance_after
+from vibroimpact.studies.regimes.classification import ASYMMETRIC, SYMMETRIC, Regime
 from vibroimpact.system import System
 
 SETTLED = 1e-6

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from vibroimpact import tables
-from vibroimpact.claims.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
+from vibroimpact.accuracy.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.plotting.markdown import EXACTLY, plain
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points

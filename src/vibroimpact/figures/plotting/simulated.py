@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.exact.measures import modulation
+from vibroimpact.exact.measures.periodicity import samples_per_cycle
 from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
-from vibroimpact.regimes import modulation
-from vibroimpact.regimes.periodicity import samples_per_cycle
 from vibroimpact.tables import curve, join, select
 
 PANELS = {"a": "X_2", "b": "W_2"}

@@ -1,0 +1,1 @@
+"""Measures of a simulated motion: period, symmetry, impacts per cycle, slow variables, bursts."""

@@ -1,0 +1,64 @@
+"""Linear systems for comparison: no balls, balls fixed to their boxes, linear absorbers of their mass."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vibroimpact.studies.absorbers.linear import Linear
+from vibroimpact.system.arguments import reals
+from vibroimpact.system.matrices import damping_matrix, masses, stiffness_matrix
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Linear absorbers, one on each box, each of the mass epsilon of a ball.
+
+    frequency: (2,), natural frequency of an absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless.
+    damping: (2,), its damping ratio, damping / (2 epsilon frequency).
+    """
+
+    frequency: tuple[float, float]
+    damping: tuple[float, float]
+
+
+def without_balls(system) -> Linear:
+    """The boxes alone, of mass 1."""
+    return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing)
+
+
+def fixed_balls(system) -> Linear:
+    """Boxes with their balls fixed in them, of mass 1 + epsilon."""
+    stuck = np.diag(masses(system, (True, True)))
+    return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing)
+
+
+def tuned(system, tuning: Tuning) -> Linear:
+    """The boxes, each with a linear absorber in place of its ball; coordinates (X1, X2, Y1, Y2).
+
+    Raises:
+        ValueError: a frequency is not above 0 or a damping ratio below 0.
+    """
+    frequency, damping = _pair("frequency", tuning.frequency), _pair("damping", tuning.damping)
+    if not (frequency > 0).all() or not (damping >= 0).all():
+        raise ValueError(f"tuning: {tuning} needs frequencies above 0 and damping ratios of at least 0")
+    spring, damper = system.epsilon * frequency**2, 2 * system.epsilon * frequency * damping
+    return Linear(
+        np.diag([1.0, 1.0, system.epsilon, system.epsilon]),
+        _attached(damping_matrix(system), damper),
+        _attached(stiffness_matrix(system), spring),
+        np.concatenate([system.forcing, [0.0, 0.0]]),
+    )
+
+
+def _attached(matrix, links):
+    """A matrix (2, 2) of the boxes with links (2,) to the absorbers, shape (4, 4)."""
+    link = np.diag(links)
+    return np.block([[matrix + link, -link], [-link, link]])
+
+
+def _pair(name, values: ArrayLike):
+    pair = reals(name, values)
+    if pair.shape != (2,) or not np.isfinite(pair).all():
+        raise ValueError(f"{name}: needs two finite numbers, one for each box, got {values}")
+    return pair

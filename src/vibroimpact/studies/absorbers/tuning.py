@@ -1,0 +1,90 @@
+"""Tuning of the linear absorbers: by the textbook, and by optimisation."""
+
+import numpy as np
+from scipy.optimize import minimize
+
+from vibroimpact.studies.absorbers.linear import POINTS, Linear, checked_band
+from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
+
+STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
+"""Starts of the search for the best tuning, as multiples of the textbook's frequencies."""
+FARTHEST = 100.0
+"""The best tuning is looked for within so many times the textbook's, either way. In a narrow band, or one without a
+resonance, the least peak is that of an absorber with as little damping, or stiffness, as may be."""
+
+
+def den_hartog(system) -> Tuning:
+    """The tuning of the textbook (Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; damping: Brock 1946).
+
+    It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
+    static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled
+    the rule is approximate.
+
+    The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
+    frequency Omega_n of the box. `Tuning.damping` refers to that of the absorber, which is Omega_n / (1 + epsilon): so
+    it is sqrt(3 epsilon / (8 (1 + epsilon))).
+    """
+    ratio = system.epsilon
+    host = np.sqrt([1.0, system.stiffness2])
+    damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio))))
+    return Tuning(tuple(float(value) for value in host / (1 + ratio)), (damping, damping))
+
+
+def best(system, band: tuple[float, float]) -> Tuning:
+    """The tuning with the lowest peak (`Linear.peak`) over a band of frequencies, the forces kept.
+
+    The peak is a largest value, which has kinks: a bound on all values in the band is minimised instead, by sequential
+    quadratic programming from three starts. It is a local optimum from each, the best of which is returned.
+
+    Raises:
+        ValueError: the band is none, or no force acts.
+        ArithmeticError: no start led to an optimum.
+    """
+    frequencies = np.linspace(*checked_band(band), POINTS)
+    if not system.forcing.any():
+        raise ValueError("system: no force acts on it, so that there is no response to reduce")
+    book = den_hartog(system)
+    textbook = np.log([*book.frequency, *book.damping])
+    found = []
+    for factors in STARTS:
+        start = textbook + np.log([*factors, 1.0, 1.0])
+        bound = _levels(start, system, frequencies).max()
+        result = minimize(
+            lambda values: values[-1],
+            [*start, bound],
+            jac=lambda values: np.eye(5)[-1],
+            constraints={"type": "ineq", "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies)},
+            bounds=[(value - np.log(FARTHEST), value + np.log(FARTHEST)) for value in textbook] + [(None, None)],
+            method="SLSQP",
+            options={"maxiter": 200, "ftol": 1e-9},
+        )
+        if result.success:
+            found.append(_tuning(result.x[:4]))
+    if not found:
+        raise ArithmeticError(f"no best tuning was found in the band ({frequencies[0]}, {frequencies[-1]})")
+    return min(found, key=lambda tuning: tuned(system, tuning).peak(band))
+
+
+def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
+    """Return all linear systems for comparison, by name; the best absorbers are those of a band of frequencies.
+
+    Raises:
+        ValueError, ArithmeticError: as `best`.
+    """
+    return {
+        "without balls": without_balls(system),
+        "balls fixed": fixed_balls(system),
+        "absorbers of the textbook": tuned(system, den_hartog(system)),
+        "best absorbers": tuned(system, best(system, band)),
+    }
+
+
+def _levels(logarithms, system, frequencies):
+    """Logarithms of |X_i| at all frequencies, of both boxes that move."""
+    amplitudes = tuned(system, _tuning(logarithms)).amplitudes(frequencies)
+    return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
+
+
+def _tuning(logarithms):
+    values = [float(value) for value in np.exp(logarithms)]
+    return Tuning((values[0], values[1]), (values[2], values[3]))

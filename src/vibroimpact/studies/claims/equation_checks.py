@@ -1,0 +1,170 @@
+"""Checks of sections 10.2 and 10.3: the equations as printed, put to the test at random states and on simulations."""
+
+from itertools import product
+
+import numpy as np
+from scipy.integrate import quad
+
+from vibroimpact.studies.claims.finding import Finding, as_printed
+from vibroimpact.system.matrices import rate_matrix
+from vibroimpact.system.restitution import after_impact
+from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_phase, rho, sawtooth
+
+CHECKS = (
+    "small_balls",
+    "weak_coupling",
+    "own_frequency",
+    "bound_of_the_balls",
+    "common_impact_instants",
+    "equations_in_U_and_W",
+    "leading_order_solution",
+    "manifold_from_impact_conditions",
+    "orders_of_the_expansion",
+)
+ROUNDING = 1e-12
+KAPPAS = (0.05, 0.3, 0.65, 0.95)
+_TERMS = {"one term": "distance", "two terms": "two terms"}
+"""Terms of (10.7) that are kept -> panel of the table of orders with the distance that they leave."""
+
+
+def small_balls(evidence):
+    """M << m, against epsilon = m / M << 1."""
+    epsilon = evidence.system.epsilon
+    return as_printed(1 / epsilon < 1, epsilon < 1, **{"M / m": 1 / epsilon, "m / M": epsilon})
+
+
+def weak_coupling(evidence):
+    """Coupling spring and damper against those to ground; the stiffer of two counts for each."""
+    system = evidence.system
+    spring = system.alpha12 / min(1.0, system.stiffness2)
+    damper = system.gamma12 / min(system.gamma1, system.gamma2)
+    return Finding({"k12 < k1, k2": spring < 1, "c12 < c1, c2": damper < 1}, {"k12 / k": spring, "c12 / c": damper})
+
+
+def own_frequency(evidence):
+    """(10.1) has the natural frequency omega_10 in the first force, so that Omega_1 would be 1, against (10.5)."""
+    system = evidence.system
+    corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
+    return as_printed(system.Omega == 1, corrected, Omega=system.Omega)
+
+
+def bound_of_the_balls(evidence):
+    """-L <= y_i <= L with the absolute displacement, against the relative one, on all simulated motions."""
+    samples = [simulation.samples for simulation in evidence.simulations.values()]
+    absolute = max(table[["Y1", "Y2"]].abs().to_numpy().max() for table in samples)
+    relative = max((table[f"X{i}"] - table[f"Y{i}"]).abs().max() for table in samples for i in (1, 2))
+    return as_printed(absolute <= 1, relative <= 1 + ROUNDING, **{"largest Y": absolute, "largest W": relative})
+
+
+def common_impact_instants(evidence):
+    """One sequence tau_j for both modules in (10.2), against one for each: distance of each ball from its wall."""
+    own, other = [], []
+    for simulation in evidence.simulations.values():
+        impacts = simulation.impacts
+        from_wall = np.column_stack([1 - (impacts[f"X{i}"] - impacts[f"Y{i}"]).abs() for i in (1, 2)])
+        place = impacts["module"].to_numpy() - 1
+        rows = np.arange(len(place))
+        own.append(from_wall[rows, place])
+        other.append(from_wall[rows, 1 - place])
+    own, together = np.abs(np.concatenate(own)).max(), (np.abs(np.concatenate(other)) < ROUNDING).mean()
+    numbers = {"share of impacts in common": together, "largest distance of a ball from its own wall": own}
+    return as_printed(together == 1, own < ROUNDING, **numbers)
+
+
+def equations_in_U_and_W(evidence):
+    """(10.3) line by line at random states between impacts, the accelerations being those of (10.2); then impacts.
+
+    Line W1 has the force on box 2 as printed, that on box 1 as corrected.
+    """
+    system = evidence.system.with_(f10_hat=1.0, f20_hat=0.89)
+    rng = np.random.default_rng(1)
+    f, tau = system.forcing, 0.7
+    X, Y, dX, dY = rng.uniform(-1, 1, (4, 2))
+    phase = [np.sin(system.Omega * tau), np.cos(system.Omega * tau)]
+    ddX = (rate_matrix(system) @ [*X, *dX, *phase])[2:4]
+    eps = system.epsilon
+    U, dU, W, dW = X + eps * Y, dX + eps * dY, X - Y, dX - dY
+    place, speed = (U + eps * W) / (1 + eps), (dU + eps * dW) / (1 + eps)
+    stiffness, damping = np.array([1, system.stiffness2]), np.array([system.gamma1, system.gamma2])
+    left = damping * speed + stiffness * place + system.gamma12 * (speed - speed[::-1])
+    left += system.alpha12 * (place - place[::-1])
+    printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # the amplitude of the force in each line as printed
+    # U'' and W'' are both X'' between impacts, where the ball flies freely.
+    both = dict(zip("12", ddX + left, strict=True))
+    residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
+    parts = {f"line {line}": abs(value) < ROUNDING for line, value in residual.items()}
+    with_f10 = both["1"] - f[0] * phase[0]
+    jump_of_U, jump_of_W = _errors_of_jumps(system)
+    parts |= {"no impact in U": jump_of_U < ROUNDING, "-(1 + kappa) W' at impacts in W": jump_of_W < ROUNDING}
+    others = all(holds for part, holds in parts.items() if part != "line W1")
+    numbers = {"residual of W1": residual["W1"], "with f10 in line W1": with_f10}
+    numbers |= {"residual of jumps": max(jump_of_U, jump_of_W)}
+    return Finding(parts, numbers, corrected=bool(others and abs(with_f10) < ROUNDING))
+
+
+def _errors_of_jumps(system):
+    """Largest errors at random impacts: of no jump of U', and of the jump -(1 + kappa) W' of W'."""
+    box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
+    X, Y = after_impact(system.epsilon, system.kappa, box, ball)
+    U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()
+    W = np.abs(X - Y + system.kappa * (box - ball)).max()
+    return U, W
+
+
+def leading_order_solution(evidence):
+    """(10.9)-(10.11) in (10.8), by its own conditions, with B and phase by (10.16), (10.17); (10.19) by quadrature."""
+    t, found = np.linspace(0.1, np.pi - 0.1, 50), []
+    for kappa, C in product(KAPPAS, (0.3, 0.9, 1.1, 1.6)):
+        B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
+        Z = sawtooth(np.array([t - 0.05, t, t + 0.05]), C, 0.0)
+        at_walls = [B * np.sin(j * np.pi + phase) + sawtooth(j * np.pi, C, 0.0) - (-1) ** j for j in (0, 1)]
+        before = B * np.cos(phase) + slope
+        found.append({"flight": Z[0] - 2 * Z[1] + Z[2], "walls": at_walls, "impacts": 2 * slope - (1 + kappa) * before})
+    return _vanish(found, harmonics=_error_of_the_harmonics())
+
+
+def _vanish(found, **others):
+    """Finding that all residuals vanish to rounding: of each name the largest of those found, then the others."""
+    worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
+    parts = {name: value < ROUNDING for name, value in worst.items()}
+    return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
+
+
+def manifold_from_impact_conditions(evidence):
+    """(10.15) and (10.16) against (10.12) and (10.14) at random phases: the same relation, and (10.17) with it."""
+    found = []
+    for kappa in KAPPAS:
+        r = rho(kappa)
+        for C in np.random.default_rng(3).uniform(0.05, 2.5, 50):
+            sine = 1 - C  # B times it, by (10.12)
+            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B times it, by (10.14)
+            B = np.hypot(sine, cosine)
+            residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
+            # Close to the fold the root of (10.15) halves the digits.
+            residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
+            residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
+            found.append(residuals)
+    lowest = max(abs(B_of_C(C_min(rho(kappa)), rho(kappa)) - B_min(rho(kappa))) for kappa in KAPPAS)
+    return _vanish(found, **{"B_min at C_min": lowest})
+
+
+def _error_of_the_harmonics():
+    """Largest error of the first coefficients of (10.19), by quadrature, even ones included."""
+    off = 0.0
+    for n in range(1, 8):
+        found = 2 / np.pi * quad(lambda t, n=n: float(sawtooth(t, 1.0, 0.0)) * np.cos(n * t), 0, np.pi)[0]
+        off = max(off, abs(found - (8 / (np.pi * n) ** 2 if n % 2 else 0.0)))
+    return off
+
+
+def orders_of_the_expansion(evidence):
+    """(10.7): the error of one term falls like epsilon, that of two like epsilon^2; fitted orders.
+
+    The chapter gives the first term, the fixed point; the second is the exact orbit's derivative by epsilon at 0.
+    """
+    table = evidence.epsilon_orders
+    orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}
+    off = {name: (orders[name] - order).abs() for order, name in enumerate(_TERMS, start=1)}
+    parts = {f"{name}: error of order {order}": (off[name] < 0.01).all() for order, name in enumerate(_TERMS, start=1)}
+    numbers = {f"largest error of the order, {name}": off[name].max() for name in _TERMS}
+    return Finding(parts, {"points": len(off["one term"])} | numbers)

@@ -1,0 +1,171 @@
+"""Checks of section 10.3 on the manifold: its fold, where the ball stays inside, and which part of it is stable."""
+
+from itertools import product
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from vibroimpact.studies.claims.finding import Finding
+from vibroimpact.studies.claims.point_checks import CAPTIONS
+from vibroimpact.system.verdict import STABLE
+from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
+from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
+
+CHECKS = (
+    "fold_of_the_manifold",
+    "no_penetration",
+    "printed_condition",
+    "two_branches",
+    "right_arm_is_stable",
+    "left_arm_has_a_stable_piece",
+    "stability_regions",
+)
+KAPPAS = np.linspace(0.01, 0.99, 99)
+EXPONENTS = range(4)
+"""Exponents of pi and rho in (10.26) that a misprint may have changed."""
+_SURPLUS = 1e-9
+
+
+def fold_of_the_manifold(evidence):
+    """(10.25) against a minimisation of (10.16)."""
+    place, level = 0.0, 0.0
+    for kappa in KAPPAS:
+        r = rho(kappa)
+        found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
+        place = max(place, abs(found.x - C_min(r)))
+        level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
+    # The place of a minimum is known to the square root of rounding, its level to rounding.
+    numbers = {"largest error of C_min": place, "of B_min": level}
+    return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
+
+
+def no_penetration(evidence):
+    """|W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points, for large C."""
+    kappa = evidence.system.kappa
+    points = evidence.fixed_points[["C1", "C2"]].to_numpy()
+    end = largest_C(kappa)
+    parts = {
+        "none for C < 0": all(_furthest(C, kappa) > 1 for C in (-1.0, -0.1, -0.01)),
+        "all fixed points": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in points.ravel()),
+        "all C >= 0": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in np.linspace(0.0, 3 * end, 100)),
+    }
+    numbers = {"largest C inside": end, "largest C of a fixed point": points.max()}
+    return Finding(parts, numbers | {"furthest at twice the largest C": _furthest(2 * end, kappa)})
+
+
+def _furthest(C, kappa):
+    t = np.linspace(0, 2 * np.pi, 20001)
+    r = rho(kappa)
+    return np.abs(B_of_C(C, r) * np.sin(t + impact_phase(C, r)) + sawtooth(t, C, 0.0)).max()
+
+
+def printed_condition(evidence):
+    """(10.26) against the multipliers of the impact map: at the limit, and all the way above it.
+
+    It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q). Beside: the limits that the chapter's
+    own captions allow, and the exponents that lead there.
+    """
+    kappa = evidence.system.kappa
+    limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
+    at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
+    stable, below = _stable_above(limit, kappa), _stable(np.linspace(0.0, limit, 200)[1:], kappa)
+    parts = {
+        "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
+        "all motions above it are stable": stable.all(),
+    }
+    exponents = np.array(list(product(EXPONENTS, repeat=2)))
+    readings = 4 / (4 + np.pi ** exponents[:, 0] * rho(kappa) ** exponents[:, 1])
+    at_readings = np.array([_largest_multiplier(C, kappa) for C in readings])
+    right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa).all() for C in readings]
+    least, most = _limits_of_the_captions(evidence)
+    fitting = (least < readings) & (readings < most)
+    numbers = {
+        "(10.26)": limit,
+        "largest multiplier there": at_limit,
+        "with squares": squared,
+        "largest multiplier at that": at_squared,
+        "derived lower limit": lower_limit(kappa),
+        "derived upper limit": upper_limit(kappa),
+        "stable share above": stable.mean(),
+        "stable share below": below.mean(),
+        "other exponents tried": len(readings),
+        "right with these": int(right.sum()),
+        "multiplier nearest to 1 with these": at_readings[np.abs(at_readings - 1).argmin()],
+        "the captions need a limit above": least,
+        "and a stable piece of the left arm one below": most,
+        "exponents of pi and rho that lead there": exponents[fitting],
+        "their limits": readings[fitting],
+        "largest multipliers there": at_readings[fitting],
+    }
+    return Finding(parts, numbers, corrected=bool(right.any()))
+
+
+def _limits_of_the_captions(evidence):
+    """Open interval of lower limits in C with which every caption on a point holds and the left arm is stable in part.
+
+    A point is unstable if one C_i is below the limit. Which point bears which letter does not matter to the interval.
+    """
+    smallest = {True: [], False: []}
+    for case, captions in CAPTIONS.items():
+        of_points = evidence.points(case)[["C1", "C2"]].min(axis=1)
+        for label in captions.keys() & of_points.index:
+            smallest[captions[label] == STABLE].append(of_points[label])
+    return max(smallest[False]), min(*smallest[True], lower_limit(evidence.system.kappa))
+
+
+def _largest_multiplier(C, kappa):
+    return np.abs(impact_multipliers(C, kappa)).max()
+
+
+def _stable(C, kappa):
+    """True where the impact map at C, kappa is stable, arrays (n,) or numbers, shape (n,)."""
+    return np.array([_largest_multiplier(*one) < 1 for one in np.broadcast(C, kappa)])
+
+
+def _stable_above(limit, kappa):
+    """True where motions above a limit that stay between the walls are stable, shape (499,)."""
+    return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
+
+
+def two_branches(evidence):
+    """Pieces of the curve that are stable, and that are unstable: one of each."""
+    kappa = evidence.system.kappa
+    stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
+    first = np.append(True, stable[1:] != stable[:-1])  # of each piece
+    counts = {name: int((first & (stable == says)).sum()) for name, says in (("stable", True), ("unstable", False))}
+    parts = {f"one {name} branch": count == 1 for name, count in counts.items()}
+    return Finding(parts, {f"{name} pieces": count for name, count in counts.items()})
+
+
+def right_arm_is_stable(evidence):
+    """The right arm, from the fold to where it still is a motion."""
+    kappa = evidence.system.kappa
+    fold, end = lower_limit(kappa), largest_C(kappa)
+    C = np.linspace(fold, end, 2002)[1:-1]
+    stable = _stable(C, kappa)
+    parts = {"just right of the fold": stable[0], "all the way": stable.all()}
+    return Finding(parts, {"stable up to C": C[stable].max(), "stable share of the arm": stable.mean()})
+
+
+def left_arm_has_a_stable_piece(evidence):
+    """The left arm, and its piece right of (10.26) above all."""
+    kappa = evidence.system.kappa
+    limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
+    piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
+    arm = _stable(np.linspace(0, fold, 2002)[1:-1], kappa)
+    numbers = {"from": limit, "to": fold, "stable share of the piece": piece.mean()}
+    return Finding({"a piece of the left arm is stable": piece.any() or arm.any()}, numbers)
+
+
+def stability_regions(evidence):
+    """The regions of Fig. 10.5 that (10.26) divides: the share of each with C from 0.5 to 1.1 that is as drawn.
+
+    The border itself is drawn below the curve C_min(kappa) throughout.
+    """
+    kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
+    border, stable = printed_limit(rho(kappa)), _stable(C, kappa)
+    shaded, white = stable[border < C].mean(), (~stable[border > C]).mean()
+    gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
+    parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1, "border below C_min": (gap > 0).all()}
+    numbers = {"stable share of the shaded": shaded, "unstable share of the white": white}
+    return Finding(parts, numbers | {"narrowest gap to C_min": gap.min(), "widest": gap.max()})

@@ -1,0 +1,100 @@
+"""Modulated and other regimes in numbers, with uncertainties over starts, and their Lyapunov spectra."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.exact.measures.modulation import (
+    PER_CYCLE,
+    cycle_amplitudes,
+    extreme_depth,
+    mean_and_error,
+    measures,
+    sampled,
+    variation,
+)
+from vibroimpact.studies.regimes import spectra
+from vibroimpact.studies.regimes.classification import CHAOS, REGIMES, STRONGLY_MODULATED
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.studies.regimes.settling import Observation, settle
+
+EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
+SHOWN = 4
+"""Starts of a regime that are observed over the longest of the windows."""
+
+
+def modulation_tables(
+    systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
+) -> dict:
+    """Measures of every regime that starts end in, case by case; the start from rest is kept apart.
+
+    Args:
+        systems: case -> system. starts: number of spread starts beside the one from rest.
+        cycles: window of the measures. blocks, block: of Lyapunov exponents of chaotic spread starts, so
+            many blocks of so many cycles; exponents of other starts come from the window.
+        windows: lengths in cycles over which measures of the envelope are compared.
+        observation: arguments of `regimes.settling.Observation`.
+
+    Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
+    uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
+    blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
+    spread starts; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see
+    `spectra.rows`).
+    """
+    tables = [
+        _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
+        for case, system in systems.items()
+    ]
+    rows, compared, exponents = zip(*tables, strict=True)
+    return {
+        "measures": pd.concat(rows, ignore_index=True),
+        "spectra": pd.DataFrame([row for part in exponents for row in part]),
+        "windows": pd.DataFrame(
+            [row for part in compared for row in part],
+            columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
+        ),
+    }
+
+
+def _case(case, system, starts, seed, cycles, blocks, block, windows, observation):
+    regimes = settle(system, spread_starts(starts + 1, seed), Observation(**observation))
+    groups = {("rest", regimes[0].name): regimes[:1]}
+    for name in REGIMES:
+        if members := [regime for regime in regimes[1:] if regime.name == name]:
+            groups["spread", name] = members
+    rows, compared, exponents = [], [], []
+    for (start, name), members in groups.items():
+        states = [regime.run.final for regime in members]
+        lasts = start == "spread" and name in CHAOS
+        watched = spectra.watch(system, states, blocks * block if lasts else cycles, block)
+        found = [
+            measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
+            for state, one in zip(states, watched, strict=True)
+        ]
+        key = {"case": case, "start": start, "regime": name}
+        if start == "spread":
+            share = len(members) / starts
+            error = np.sqrt(share * (1 - share) / starts)
+            rows.append({**key, "starts": starts, "quantity": SHARE, "module": 0, "mean": share, "uncertainty": error})
+        for quantity, module in found[0]:
+            mean, error, count = mean_and_error([values[quantity, module] for values in found])
+            if quantity == EXPONENT and count == 1:
+                error = watched[0].errors[0]
+            named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
+            rows.append({**key, "starts": count, **named})
+        exponents += spectra.rows(key, watched)
+        if (start, name) == ("spread", STRONGLY_MODULATED):
+            compared = _windows(case, system, states[:SHOWN], windows)
+    return pd.DataFrame(rows), compared, exponents
+
+
+def _windows(case, system, states, windows):
+    """Measures of the envelope over windows of several lengths, which begin together."""
+    runs = [sampled(system, state, max(windows)) for state in states]
+    rows = []
+    for module in (1, 2):
+        envelopes = [cycle_amplitudes(run.samples[:, 2 * module - 2], PER_CYCLE) for run in runs]
+        for cycles in windows:
+            for name, measure in (("amplitude variation", variation), ("depth from extremes", extreme_depth)):
+                mean, error, _ = mean_and_error([measure(envelope[:cycles]) for envelope in envelopes])
+                rows.append((case, module, cycles, name, mean, error))
+    return rows

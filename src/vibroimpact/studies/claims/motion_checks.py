@@ -1,0 +1,260 @@
+"""Checks of sections 10.4 and 10.5 on motions: simulated responses, modulation, accuracy of the theory."""
+
+import numpy as np
+import pandas as pd
+
+from vibroimpact.accuracy.verdict_table import NO_ORBIT
+from vibroimpact.exact.measures.slow_variables import measure
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.studies.claims.finding import Finding
+from vibroimpact.studies.regimes.classification import IDLE, STRONGLY_MODULATED
+from vibroimpact.studies.regimes.epsilon_limit import compare
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
+from vibroimpact.theory.manifold import stays_within_walls
+
+CHECKS = (
+    "steady_two_impacts",
+    "numerical_results_are_similar",
+    "transients_are_long",
+    "only_possible_behaviour",
+    "no_practical_importance",
+    "resonant_intervals",
+    "beating",
+    "lower_amplitudes_end_stable_responses",
+    "unstable_means_modulated",
+    "periodic_solutions",
+    "assesses_stability",
+    "restitution_far_from_unity",
+)
+SIMILAR = 0.1
+"""Largest relative difference of amplitudes that are called similar here: what a figure of the chapter shows."""
+LARGE = 0.5 / np.sqrt(2)
+"""Standard deviation over mean of the amplitudes 1 + d cos of a beat of depth d = 1/2, largest 3 times smallest."""
+PER_CYCLE = 2
+SMALL = 2e-4, 1e-4
+"""Two epsilon, each small enough that the distance of theory and truth is proportional to it."""
+SAYINGS = [STABLE, UNSTABLE]
+DISPLACEMENTS = ["X1", "Y1", "X2", "Y2"]
+
+
+def steady_two_impacts(evidence, case):
+    """The simulated window repeats every cycle, and each ball meets each wall once in it."""
+    simulation = evidence.simulations[case]
+    cycles = simulation.summary["settings"]["window_cycles"]
+    change = simulation.summary["largest_change_after_cycles"]["1"]
+    counts = [simulation.summary["events"]["impact"][str(module)] for module in (1, 2)]
+    impacts = simulation.impacts
+    alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
+    parts = {
+        "repeats every cycle": change < 1e-6,
+        # One may lie on the edge of the window.
+        "two impacts per cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
+    }
+    return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})
+
+
+def numerical_results_are_similar(evidence, case, label):
+    """A simulated response against the predicted one: amplitudes C and B, and the symmetry that the prediction has."""
+    row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
+    tau, displacements = (simulation.samples.iloc[:-1][names].to_numpy() for names in ("tau", DISPLACEMENTS))
+    measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
+    predicted = {name: row[[f"{name}1", f"{name}2"]].to_numpy(float) for name in ("C", "B")}
+    off = {name: np.abs(getattr(measured, name) / value - 1) for name, value in predicted.items()}
+    asymmetry = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
+    parts = {
+        **{f"amplitudes {name} within a tenth": (values < SIMILAR).all() for name, values in off.items()},
+        "symmetric as predicted": asymmetry.max() < 1e-6,
+    }
+    numbers = {"difference of flight times": asymmetry}
+    for name in predicted:
+        numbers |= {f"{name} predicted": predicted[name], f"{name} simulated": getattr(measured, name)}
+        numbers |= {f"relative difference of {name}": off[name]}
+    return Finding(parts, numbers)
+
+
+def transients_are_long(evidence, case):
+    """Cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
+    motions = evidence.motions(case)
+    stable = motions[motions["exact"] == STABLE]
+    cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
+    return Finding({"longer than the cycles shown": cycles > 10}, {"cycles to a tenth": cycles})
+
+
+def only_possible_behaviour(evidence, case):
+    """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest.
+
+    A motion with one ball idle is called that before anything else; how modulated its box is is told beside.
+    """
+    shares = evidence.shares(case)
+    (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
+    motions = evidence.motions(case)
+    parts = {
+        "no stable 1:1 response": not (motions["exact"] == STABLE).any(),
+        "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
+        "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
+    }
+    numbers = {f"share {regime}": share for regime, share in shares.items()}
+    numbers |= {"from rest": rest, "one ball idle from rest": rest == IDLE}
+    for quantity in ("amplitude variation", "resonant share"):
+        of_modules = evidence.measured(case, "rest", quantity).set_index("module")["mean"]
+        numbers[f"{quantity} from rest"] = of_modules.loc[[1, 2]].to_list()
+    return Finding(parts, numbers)
+
+
+def no_practical_importance(evidence, case, label):
+    """The orbit of an unstable fixed point is not observed: it is unstable itself, and nothing stays near it."""
+    partner = evidence.points(case).loc[label, "orbit"]
+    orbit = evidence.motions(case).set_index("label").loc[partner]
+    parts = {"its orbit is not stable": orbit["exact"] != STABLE}
+    return Finding(parts, {"largest multiplier": orbit["modulus_1"]})
+
+
+def resonant_intervals(evidence, case):
+    """Bursts of resonant flights, and shorter gaps between them, irregular by the largest Lyapunov exponent."""
+    share, burst = (
+        evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
+        for quantity in ("resonant share", "burst length")
+    )
+    gap = burst * (1 - share) / share
+    row = evidence.measured(case, "spread", "largest Lyapunov exponent").iloc[0]
+    parts = {
+        "intervals of resonant motion": (burst > 1).all(),
+        "shorter non-resonant ones between": (gap < burst).all(),
+        "irregular": row["mean"] > 5 * row["uncertainty"],
+    }
+    numbers = {"resonant share": share.tolist(), "burst, cycles": burst.tolist(), "gap, cycles": gap.tolist()}
+    return Finding(parts, numbers | {"largest Lyapunov exponent": row["mean"]})
+
+
+def beating(evidence, case):
+    """Amplitudes of each box vary more than in a sinusoidal beat whose largest is 3 times its smallest."""
+    rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
+    found = rows["mean"].loc[[1, 2]]
+    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
+    return Finding(parts, {"amplitude variation": found.tolist()})
+
+
+def lower_amplitudes_end_stable_responses(evidence, sequence):
+    """From case to case: fixed points stable by theory and by their exact orbits, and where the last motion ends."""
+    points = [evidence.points(case) for case in sequence]
+    in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
+    exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
+    others = [int((evidence.motions(case)["exact"] == STABLE).sum()) for case in sequence]
+    share = evidence.shares(sequence[-1]).get(STRONGLY_MODULATED, 0.0)
+    parts = {
+        "a stable fixed point at first, by theory": in_theory[0] > 0,
+        "a stable fixed point at first, by its exact orbit": exactly[0] > 0,
+        "none at last": in_theory[-1] == exactly[-1] == 0,
+        "modulated response at last": share > 0,
+    }
+    numbers = {
+        "stable by theory": in_theory,
+        "stable by their exact orbits": exactly,
+        "stable 1:1 orbits of any kind": others,
+    }
+    return Finding(parts, numbers | {"modulated share at last": share})
+
+
+def unstable_means_modulated(evidence, case):
+    """The unstable case: the exact orbits of its fixed points are unstable, and spread starts end modulated.
+
+    The chapter does not say it of every case; the shares of all cases without a stable fixed point stand beside.
+    """
+    observed = evidence.modulation["case"].unique()
+    unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
+    shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (*unstable, case)}
+    parts = {
+        "its fixed points are unstable": case in unstable,
+        "strongly modulated from all spread starts": shares[case] == 1,
+    }
+    return Finding(parts, {f"modulated share, {name}": shares[name] for name in unstable})
+
+
+def periodic_solutions(evidence, f10_hat, f20_hat):
+    """Every fixed point has an exact orbit that stays between the walls: of the cases, over a grid, at given forces."""
+    both = evidence.fixed_points.merge(
+        evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
+    )
+    off = np.hypot(both["C1"] - both["C1_exact"], both["C2"] - both["C2_exact"])
+    grid, system = _at_epsilon(evidence), evidence.system.with_(f10_hat=f10_hat, f20_hat=f20_hat)
+    folds = evidence.special_points.query("path == 'f20_hat' and kind == 'fold'").groupby("family")["p"].min()
+    parts = {
+        "an exact orbit for each of the chapter's": len(both) == len(evidence.fixed_points),
+        "that stays between the walls": both["admissible_exact"].all(),
+        "one for each over the grid of forces": grid["admissible"].all(),
+    }
+    numbers = {
+        "points": len(evidence.fixed_points),
+        "largest distance in C": off.max(),
+        "points over the grid": len(grid),
+        "without an orbit between the walls": int((~grid["admissible"]).sum()),
+        f"fixed points at forces {f10_hat}, {f20_hat}": len(fixed_points(system)),
+        "exact orbits there": sum(orbit.symmetric and orbit.admissible for orbit in orbits(system)),
+        "f20 of the fold of fixed points": folds["fixed point"],
+        "f20 of the fold of exact orbits": folds["symmetric orbit"],
+    }
+    return Finding(parts, numbers)
+
+
+def _at_epsilon(evidence):
+    """The grid of verdicts at the epsilon of the cases."""
+    grid = evidence.verdict_grid
+    return grid[grid["epsilon"] == evidence.system.epsilon]
+
+
+def assesses_stability(evidence):
+    """Share of right verdicts of each criterion over a grid of forces, against the multipliers of the exact orbits.
+
+    Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
+    without an exact orbit are counted beside, stable then unstable.
+    """
+    grid = evidence.verdict_grid
+    parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
+    for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
+        for epsilon, rows in grid.groupby("epsilon", sort=False):
+            found = pd.crosstab(rows[criterion], rows["exact"])
+            found = found.reindex(index=SAYINGS, columns=[*SAYINGS, NO_ORBIT], fill_value=0)
+            matrix = found[SAYINGS]
+            numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
+            numbers[f"{name}, epsilon = {epsilon}, no orbit"] = found[NO_ORBIT].to_list()
+            if epsilon == evidence.system.epsilon:
+                for saying in SAYINGS:
+                    right, predicted = matrix.loc[saying, saying], matrix.loc[saying].sum()
+                    parts[f"{saying} by {name} is right, mostly"] = 2 * right > predicted
+                    numbers[f"{saying} by {name}, share right"] = right / predicted if predicted else None
+    points = evidence.fixed_points
+    numbers["of the chapter's points"] = len(points)
+    numbers["right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())
+    numbers["right by fast and slow"] = int((points["theory"] == points["exact"]).sum())
+    return Finding(parts, numbers)
+
+
+def restitution_far_from_unity(evidence, kappas, forces):
+    """At restitution coefficients from small to large: fixed points next to exact orbits, and balls between walls.
+
+    A fixed point is next to an orbit if their distance falls like epsilon; there must be as many of both. Where equal
+    forces have no fixed point nothing is judged, so that each coefficient needs one at some of them.
+    """
+    parts, numbers = {}, {}
+    for kappa in kappas:
+        listed = {force: _points_beside_orbits(evidence.system, kappa, force) for force in forces}
+        parts[f"kappa = {kappa}: a fixed point"] = any(points for points, _ in listed.values())
+        for force, (points, together) in listed.items():
+            numbers[f"fixed points at {kappa}, forces {force}"] = len(points)
+            if points:
+                inside = all(stays_within_walls(C, kappa) for point in points for C in point.C)
+                parts[f"kappa = {kappa}, forces {force}: as the exact orbits"] = together
+                parts[f"kappa = {kappa}, forces {force}: between the walls"] = inside
+    return Finding(parts, numbers)
+
+
+def _points_beside_orbits(system, kappa, force):
+    """Fixed points at equal forces, and True if they are the limits of exact orbits, with no orbit left over."""
+    system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
+    points = fixed_points(system)
+    roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))
+    ratios = [np.divide(*(compare(system.with_(epsilon=e), point).distance for e in SMALL)) for point in points]
+    motions = int((roots[:, 2:] > 0).all(axis=1).sum())
+    return points, motions == len(points) and np.allclose(ratios, SMALL[0] / SMALL[1], rtol=0.05)

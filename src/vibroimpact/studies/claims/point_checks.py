@@ -1,0 +1,191 @@
+"""Checks of section 10.4 on fixed points: number, places, stability, paths under forcing, singular points."""
+
+from itertools import permutations
+
+import numpy as np
+from scipy.optimize import brentq
+
+from vibroimpact.studies.claims.finding import Finding
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels, search
+from vibroimpact.theory.manifold import B_of_C, C_min, rho
+from vibroimpact.theory.slow_flow import rates
+
+CHECKS = (
+    "number_of_fixed_points",
+    "phases_can_be_eliminated",
+    "label_of_a_point",
+    "stable_points",
+    "on_the_left_arm",
+    "points_move_left",
+    "stable_point_moves_down_the_right_arm",
+    "singular_and_bifurcating",
+    "places_of_singular_points",
+)
+NAMES = ("C1", "C2")
+CAPTIONS = {
+    "equal": {"a": UNSTABLE, "b": STABLE, "c": STABLE},
+    "unequal": {"a": UNSTABLE, "b": UNSTABLE, "c": STABLE},
+    "weak": {"a": UNSTABLE},
+}
+"""Stability of each fixed point by the captions of Figs. 10.6, 10.9 and 10.10."""
+STEPS = 111
+"""Number of values of the second amplitude along which a fixed point is followed between cases."""
+
+
+def number_of_fixed_points(evidence, case, number):
+    """The list, proved complete in interval arithmetic."""
+    proof = evidence.proofs[case]["fixed_points"]
+    listed = len(evidence.points(case))
+    parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
+    return Finding(parts, {"listed": listed, "proved, of either sign": proof["proved"], "complete": proof["complete"]})
+
+
+def phases_can_be_eliminated(evidence):
+    """Equations in B_i and C_i alone lead to all fixed points: each solves (10.23), and none is missing."""
+    worst, complete = 0.0, True
+    for case, system in evidence.systems.items():
+        complete &= evidence.proofs[case]["fixed_points"]["complete"]
+        for point in search(system).points:
+            worst = max(worst, np.abs(rates(system, point.B, point.psi, point.C)).max())
+    parts = {"all solve (10.23)": worst < 1e-12, "proved complete": complete}
+    return Finding(parts, {"largest residual of (10.23)": worst})
+
+
+def label_of_a_point(evidence, case, label, says):
+    """A caption's verdict on a point: against the theory with both time scales, and against its exact orbit."""
+    row = evidence.points(case).loc[label]
+    theory = row["theory"]
+    parts = {
+        f"{says} by theory, fast and slow": None if theory not in (STABLE, UNSTABLE) else theory == says,
+        f"{says} by its exact orbit": None if row["exact"] not in (STABLE, UNSTABLE) else row["exact"] == says,
+    }
+    criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
+    return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
+
+
+def stable_points(evidence, case, number):
+    """The number of stable fixed points of a case: by each criterion of the theory, and by their exact orbits.
+
+    The fast criterion, derived, is what the chapter means: stability of the impacts with B and phase held. It is held
+    against the captions too.
+    """
+    points = evidence.points(case)
+    counts = {
+        "by the derived fast criterion": int((points["fast"] == STABLE).sum()),
+        "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
+        "by theory, fast and slow": int((points["theory"] == STABLE).sum()),
+        "by their exact orbits": int((points["exact"] == STABLE).sum()),
+    }
+    right = {name: _captions_right(evidence.points(name)["fast"], name) for name in CAPTIONS}
+    parts = {f"{number} {name}": count == number for name, count in counts.items()}
+    parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
+    numbers = {"captions right in all cases by the fast criterion": sum(right.values())}
+    return Finding(parts, counts | numbers | {"captions": sum(map(len, CAPTIONS.values()))})
+
+
+def _captions_right(verdicts, case):
+    """Number of a case's captions that agree with the verdicts on its points, by label."""
+    return sum(verdicts.get(label) == caption for label, caption in CAPTIONS[case].items())
+
+
+def on_the_left_arm(evidence, case, label, modules):
+    """Projections of a point against the fold of the manifold."""
+    row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
+    parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
+    return Finding(parts, {"C": row[list(NAMES)].tolist(), "C_min": fold})
+
+
+def points_move_left(evidence, before, after):
+    """Every projection, from one case to the other, label by label; also the best that any pairing can do."""
+    first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
+    parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
+    pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
+    moved = {"moves to the left": sum(parts.values()), "of": len(parts)}
+    return Finding(parts, moved | {"in the pairing with most": max(pairings)})
+
+
+def stable_point_moves_down_the_right_arm(evidence, before, after, label):
+    """Both projections of the point that the captions call stable in both cases, by its letter and by continuation.
+
+    The point that bears the letter after is another one than that which continues it as the second amplitude falls.
+    """
+    fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
+    first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))
+    ends = {"by its letter": named, "by continuation": _followed(evidence, before, after, first)}
+    parts = {
+        f"P{i + 1}, {pairing}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
+        for pairing, C in ends.items()
+        for i in (0, 1)
+    }
+    moved = {f"C after, {pairing}": C for pairing, C in ends.items()}
+    return Finding(parts, {"C before": first} | moved | {"C_min": fold})
+
+
+def _followed(evidence, before, after, C):
+    """C of the fixed point that continues another one, from case to case in small steps of the second amplitude."""
+    start, end = evidence.systems[before], evidence.systems[after]
+    for f20 in np.linspace(start.f20_hat, end.f20_hat, STEPS)[1:]:
+        points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
+        C = points[np.linalg.norm(points - C, axis=1).argmin()]
+    return C
+
+
+def singular_and_bifurcating(evidence, case, f20_range):
+    """Does P_i on S_i go with a bifurcation? Where a point is singular, and where two of them merge."""
+    system = evidence.systems[case]
+    meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)
+    here = system.with_(f20_hat=meeting)
+    point = min(fixed_points(here), key=lambda p: _nearest_singular(here, p))
+    counts = [len(fixed_points(system.with_(f20_hat=meeting + shift))) for shift in (-1e-3, 0.0, 1e-3)]
+    rate = np.abs(point.slow_eigenvalues).min()
+    special = evidence.special_points.set_index(["path", "family", "kind"])
+    fold = special.loc[[("f20_hat", "fixed point", "fold")]].iloc[0]
+    at_fold = system.with_(f20_hat=fold["p"] + 1e-6)
+    merging = min(fixed_points(at_fold), key=lambda p: np.abs(p.C - fold[list(NAMES)].to_numpy(float)).max())
+    distance = _nearest_singular(at_fold, merging)
+    parts = {
+        "a fixed point becomes singular": _nearest_singular(here, point) < 1e-6,
+        "their number changes there": len(set(counts)) > 1,
+        "an eigenvalue vanishes there": rate < 1e-3,
+        "a point is singular where two merge": distance < 1e-2,
+    }
+    numbers = {"f20 of P1 = S1": meeting, "number of points there": counts[1], "smallest |eigenvalue|": rate}
+    return Finding(parts, numbers | {"f20 of the fold": fold["p"], "nearest S at the fold": distance})
+
+
+def _determinant_on_branch(system, f20):
+    """The determinant of (10.24) at the point labelled like the second of the case with unequal forces."""
+    there = system.with_(f20_hat=f20)
+    points = sorted(fixed_points(there), key=lambda point: point.C[1])
+    return determinant(there, points[-2].C)
+
+
+def _nearest_singular(system, point):
+    """Distance in C of the nearer of both projections from its nearest singular point."""
+    gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
+    return np.concatenate(gaps).min(initial=np.inf)
+
+
+def places_of_singular_points(evidence, case, label):
+    """S_1 by two eliminations that both lead from (10.23) to equations in B_i, C_i; (10.24) is not printed."""
+    system = evidence.systems[case]
+    listed = fixed_points(system)
+    point = next(p for name, p in zip(labels(system, listed), listed, strict=True) if name == label)
+    first = singular_points(system, point, 1)[:, 0]
+    C = np.linspace(0.0, 3.0, 3001)
+    other = np.array([_other_determinant(system, [c, point.C[1]]) for c in C])
+    second = C[:-1][np.diff(np.sign(other)) != 0]
+    same = len(first) == len(second) and np.allclose(first, second, atol=2e-3)
+    numbers = {"S1 by sin^2 + cos^2 = 1": first.tolist(), "S1 by the product of both": second.tolist()}
+    return Finding({"the squares are where (10.24) is singular": True if same else None}, numbers)
+
+
+def _other_determinant(system, C):
+    """|K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2, which keeps it finite."""
+    balance = Balance.of(system)
+    z, q = balance.at(C)
+    p = q + balance.K * z
+    B = B_of_C(np.asarray(C), rho(system.kappa))
+    return abs(balance.K) ** 4 * np.prod(B**2) - abs(np.prod(p)) ** 2

@@ -1,0 +1,73 @@
+"""Verdicts of the theory on every fixed point over a grid of forces, against the exact orbits at several epsilon."""
+
+import pandas as pd
+
+from vibroimpact.accuracy.verdict_table import FORMER, NO_ORBIT, partners
+from vibroimpact.exact.orbits.floquet import floquet
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under
+from vibroimpact.frames import with_former_names
+from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
+from vibroimpact.theory import criteria
+from vibroimpact.theory.criteria import EXACT
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
+
+NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
+
+
+def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
+    """A row per fixed point and epsilon, for forces at the centres of points x points cells.
+
+    Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
+    theory, admissible (True if its exact orbit stays between the walls) and exact: the verdict on that orbit,
+    "no orbit" where there is none (see `verdict_table.partners`).
+    """
+    forces = plane_of_forces(f10_range, f20_range, points)
+    plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
+    theory = [[(point, criteria.of_fixed_point(here, point)) for point in fixed_points(here)] for here in plane]
+    rows = []
+    for value in epsilon:
+        roots = symmetric_solutions_under(system.with_(epsilon=value), forces)
+        for here, judged, there in zip(plane, theory, roots, strict=True):
+            exact = exact_verdicts(here.with_(epsilon=value), [point.C for point, _ in judged], there)
+            place = {"epsilon": value, "f10_hat": here.f10_hat, "f20_hat": here.f20_hat}
+            rows += [
+                {**place, "C1": point.C[0], "C2": point.C[1], **verdicts, **found}
+                for (point, verdicts), found in zip(judged, exact, strict=True)
+            ]
+    columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
+    return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True), FORMER)
+
+
+def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
+    """A row per fixed point of a system and epsilon: label, verdicts as in `compute`, and the largest multiplier.
+
+    Columns epsilon, label, C1, C2 (of the fixed point), one per criterion of the theory, exact, multiplier (largest
+    modulus of the exact orbit; blank where there is none).
+    """
+    points, rows = fixed_points(system), []
+    for value in epsilon:
+        here = system.with_(epsilon=value)
+        orbits = exact_orbits(here, [point.C for point in points], symmetric_solutions(here))
+        for point, orbit in zip(points, orbits, strict=True):
+            place = {"epsilon": value, "label": point.label, "C1": point.C[0], "C2": point.C[1]}
+            exact = {EXACT: NO_ORBIT} if orbit is None else {EXACT: floquet(orbit)}
+            largest = None if orbit is None else abs(orbit.multipliers[0])
+            rows.append(place | criteria.of_fixed_point(system, point) | exact | {"multiplier": largest})
+    columns = ["epsilon", "label", "C1", "C2", *criteria.CRITERIA, EXACT, "multiplier"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def exact_orbits(system, points, roots):
+    """The Orbit of each fixed point, by their C (n, 2), None where there is none.
+
+    roots: of all symmetric orbits, as `symmetric_solutions` lists them.
+    """
+    for partner in partners(points, roots[:, 2:]):
+        yield None if partner is None else symmetric_orbit(system, roots[partner])
+
+
+def exact_verdicts(system, points, roots):
+    """Yield "admissible" and "exact" of the orbit of each fixed point, as in `compute`."""
+    for orbit in exact_orbits(system, points, roots):
+        yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}

@@ -1,0 +1,1 @@
+"""Proofs that no fixed point and no symmetric orbit is missing."""

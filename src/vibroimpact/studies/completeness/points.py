@@ -1,0 +1,295 @@
+"""Proof that the lists of fixed points are complete, in interval arithmetic (python-flint's arb).
+
+The conditions |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1:
+every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each box a
+condition excludes 0 or a contraction settles how many zeros there are: none, or exactly one in the box of twice the
+width (Krawczyk's test; Neumaier 1990). The functions of a chart are formed anew from the parameters, in intervals, and
+expanded to second order about the centre of a box, the second order enclosed over its reach. Where Delta excludes 0 the
+phases follow uniquely. What stays open at the smallest width is reported.
+"""
+
+import functools
+import itertools
+import math
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.studies.theory import asymmetric_points as asymmetric
+from vibroimpact.studies.theory.branch import ASYMMETRIC, LARGE, SMALL, series
+from vibroimpact.system.extras import need
+from vibroimpact.theory.fixed_points.symmetric_points import search
+
+need("reference", "flint")
+
+from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the word on what is missing)
+
+SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
+_BITS = 128
+_REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
+_NARROWEST = 2.0**-24
+_KNOWN = 2.0**-20  # half-width at which a zero is known well enough to be told from the others
+_MOST = 20_000  # boxes to look at in a pair of charts: the rest is reported as undecided
+_TERMS = 30
+_TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the terms left out, and their derivatives, are below 5^30 100^2 / 60!
+_ORDERS = 3
+_REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
+
+Box = tuple[tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Proof:
+    """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
+
+    isolated: ascending, each with exactly one fixed point: boxes ((C_1 from, to), (C_2 from, to)), or for asymmetric
+        points pairs of charts and the boxes of their parameters.
+    undecided: the same, where nothing is proved; everywhere else, for any real C_i, and v^2 in [-1, 1], there is none.
+    motions: how many of the isolated points have C_i > 0 and v_i^2 > 0, motions at leading order; a box across 0 is not
+        counted. On the asymmetric branch C is positive anyway.
+    complete: nothing is undecided, and the search lists exactly one point in each isolated box.
+    """
+
+    isolated: list
+    undecided: list
+    motions: int
+    complete: bool
+
+
+def certify(system) -> Proof:
+    """Prove the number of fixed points of a system, C_i of either sign.
+
+    There is none where a module is driven by nothing: what its ball dissipates, mu rho C_i^2, leaves C_i = 0, and the
+    search refuses the free motion that would be left.
+
+    Raises:
+        ValueError: as `symmetric_points.search`.
+    """
+    listed = search(system)
+    found, undecided = _all_zeros(system, SYMMETRIC_PAIRS)
+    isolated = []
+    for zero in sorted(_in_amplitudes(*zero) for zero in found):
+        if not any(_same(zero, known) for known in isolated):  # on the edge of two charts
+            isolated.append(zero)
+    open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
+    points = [point.C for point in listed.points + listed.outside]
+    return _proof(isolated, open_boxes, isolated, _matched(isolated, points))
+
+
+def certify_asymmetric(system) -> Proof:
+    """Prove the number of fixed points with an asymmetric module, mirror images counted once.
+
+    Raises:
+        ValueError: as `asymmetric_points.search`.
+    """
+    listed = asymmetric.search(system)
+    isolated, undecided = _all_zeros(system, asymmetric.PAIRS)
+    matched = all(
+        _matched([box for own, box in isolated if own == pair], [point.x for point in listed if point.charts == pair])
+        for pair in asymmetric.PAIRS
+    )
+    return _proof(isolated, undecided, [box for _, box in isolated], matched)
+
+
+def _proof(isolated, undecided, boxes, matched):
+    motions = sum(all(low > 0 for low, _ in box) for box in boxes)
+    return Proof(isolated, undecided, motions, matched and not undecided)
+
+
+def _matched(boxes, points):
+    """Return True if each box holds one of the points and each point is in one box."""
+    inside = [[all(low <= x <= high for (low, high), x in zip(box, at, strict=True)) for at in points] for box in boxes]
+    counts = np.reshape(inside, (len(boxes), len(points)))
+    return bool((counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all())
+
+
+def _in_amplitudes(pair, box) -> Box:
+    """The box of C_i, which is x_i on the chart of small C and 1 / x_i on that of large C."""
+    ends = []
+    for name, (low, high) in zip(pair, box, strict=True):
+        if name == LARGE:
+            across = low <= 0 <= high
+            low, high = (-math.inf, math.inf) if across else (math.nextafter(1 / high, -math.inf), 1 / low)
+        ends.append((low, math.nextafter(high, math.inf) if name == LARGE else high))
+    return tuple(ends)
+
+
+def _same(box, known):
+    """Return True if the inner half of a box, which holds its zero, lies in another one."""
+    shrunk = [((3 * low + high) / 4, (low + 3 * high) / 4) for low, high in box]
+    return all(low >= a and high <= b for (low, high), (a, b) in zip(shrunk, known, strict=True))
+
+
+def _all_zeros(system, pairs):
+    """Pairs of charts with the boxes that have exactly one zero in the square, and with those that stay open."""
+    found, undecided = [], []
+    if system.modules == (1, 2):
+        with ctx.workprec(_BITS):
+            for pair in pairs:
+                zeros, unclear = _subdivide(_Conditions(system, pair))
+                found += [(pair, box) for box in zeros if all(low <= 1 and high >= -1 for low, high in box)]
+                undecided += [(pair, box) for box in unclear]
+    return found, undecided
+
+
+def _subdivide(conditions):
+    """Boxes with exactly one zero, and those that stay open."""
+    pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # all halves are powers of two, so that centres are exact
+    for visited in itertools.count():
+        if not pending:
+            break
+        x, y, half = pending.pop()
+        zeros, _ = conditions.count(x, y, half)
+        if zeros == 0:
+            continue
+        zero = _narrowed(conditions, x, y, half) if zeros == 1 else None
+        if zero is not None:
+            found.append(zero)
+        elif half <= _NARROWEST or visited >= _MOST:
+            undecided.append((x, y, half / _REACH))
+        else:
+            half /= 2
+            pending += [(x + i * half, y + j * half, half) for i in (-1, 1) for j in (-1, 1)]
+    distinct = []
+    for zero in sorted(found):
+        gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
+        if any(gap < 0.5 for gap in gaps):  # within the reach of the first box, where it has one zero only
+            continue
+        (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
+    return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
+
+
+def _narrowed(conditions, x, y, half):
+    """Centre and half-width of a small box about the zero of a wide one, or None where it cannot be made small."""
+    while half > _KNOWN:
+        _, (x, y, half) = conditions.count(x, y, half)
+        half = max(half, _KNOWN)
+        if conditions.count(x, y, half)[0] != 1:
+            return None
+    return (x, y, half) if conditions.phases_follow(x, y, half) else None
+
+
+def _box(x, y, half) -> Box:
+    reach = _REACH * half
+    return (x - reach, x + reach), (y - reach, y + reach)
+
+
+class _Conditions:
+    """Both conditions in one pair of charts, expanded about the centre of a box in t = (x - centre) / half.
+
+    Local polynomials are arrays of intervals, entry [j, k] belonging to t_1^j t_2^k, that hold for |t| <= _REACH.
+    """
+
+    def __init__(self, system, pair):
+        self.kappa, self.names = arb(system.kappa), pair
+        self.f = arb(system.f10_hat), arb(system.f20_hat)
+        sigma = -2 * arb(system.sigma_e_hat)
+        self.e = acb(sigma, system.gamma1_hat), acb(sigma + arb(system.sigma20_hat), system.gamma2_hat)
+        self.K = acb(system.alpha12_hat, system.gamma12_hat)
+        self._chart = functools.lru_cache(maxsize=None)(self._expanded)
+
+    def count(self, x, y, half):
+        """Zeros in the box of this half-width about (x, y): 0 none, 1 exactly one in _REACH times it, or None.
+
+        With 1, also centre and half-width of a box around the zero.
+        """
+        delta, one, two = self._sides(x, y, half)
+        local = np.array([delta - one, delta - two])
+        if any(_excludes_zero(polynomial) for polynomial in local):
+            return 0, None
+        (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
+        if (determinant := a * d - b * c) == 0:
+            return None, None
+        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus what the other terms can add.
+        inverse = np.array([[d, -b], [-c, a]]) / determinant
+        mapped = np.tensordot(inverse.astype(object), local, 1)
+        mapped[0, 1, 0] -= 1
+        mapped[1, 0, 1] -= 1
+        if any(abs(g[0, 0]) > 1 + _size(g, 1) for g in mapped):
+            return 0, None
+        maps = all(abs(g[0, 0]) + _size(g, _REACH) < _REACH for g in mapped)
+        if not (maps and all(_slope(g, _REACH) < 1 for g in mapped)):
+            return None, None
+        centre = [float(-g[0, 0].mid()) * half for g in mapped]
+        radius = max(float((_size(g, _REACH) + g[0, 0].rad()).upper()) for g in mapped) * half
+        rounding = 4 * sys.float_info.epsilon * (abs(x) + abs(y) + half)
+        return 1, (x + centre[0], y + centre[1], radius + rounding)
+
+    def phases_follow(self, x, y, half):
+        """Return True if Delta is not 0 near (x, y), so that the phases are those of n_i / Delta."""
+        return _excludes_zero(self._sides(x, y, _REACH * half)[0])
+
+    def _sides(self, x, y, half):
+        """Local |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
+        (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
+        delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
+        return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
+
+    def _expanded(self, module, at, half):
+        """Coefficients of z, q = e z + n, beta^2 and |n_j|^2, j the other module, in t = (x - at) / half.
+
+        The highest of z, q and beta and of the numerator n_j are enclosed for |t| <= _REACH.
+        """
+        exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, _REACH * half))
+        powers = [arb(half) ** k for k in range(_ORDERS)]
+        real, imaginary, n, beta = (np.array([*a[:2], b[2]]) * powers for a, b in zip(exact, wide, strict=True))
+        z = real + acb(0, 1) * imaginary
+        q = self.e[module] * z + n
+        numerator = self.f[1 - module] * q + sum(self.f) * self.K * z
+        return z, q, _modulus_squared(beta * acb(1)), _modulus_squared(numerator)
+
+
+def _functions(name, at, kappa):
+    """Taylor coefficients at a point, or over an interval, of Re z, Im z, n and beta of a chart."""
+    pi = arb.pi()
+    rho, mu, x = 2 * (1 - kappa) / (pi * (1 + kappa)), 8 / pi**2, arb_series([at, 1], prec=_ORDERS)
+    one = arb_series([1], prec=_ORDERS)
+    if name == ASYMMETRIC:
+        c, s = (_evaluated(coefficients, x) for coefficients in _series())
+        functions = -4 / pi**2 * c, -rho * s, mu * c * c * s, ((1 - x) * s - 4 / pi**2 * c) * c
+    else:
+        functions = {SMALL: (1 - x, -rho * x, mu * x, one), LARGE: (x - 1, -rho * one, mu * one, x)}[name]
+    return [[function[k] for k in range(_ORDERS)] for function in functions]
+
+
+@functools.cache
+def _series():
+    return series(_TERMS, arb.pi())
+
+
+def _evaluated(coefficients, x):
+    value = arb_series([0], prec=_ORDERS)
+    for coefficient in reversed(coefficients):
+        value = value * x + coefficient
+    return value + arb_series([_TAIL] * _ORDERS, prec=_ORDERS)
+
+
+def _modulus_squared(polynomial):
+    """Coefficients of |polynomial|^2 in one or two variables."""
+    real, imaginary = _REAL(polynomial), _IMAGINARY(polynomial)
+    square = np.full(2 * np.array(polynomial.shape) - 1, arb(0))
+    for place in np.ndindex(polynomial.shape):
+        window = tuple(slice(k, k + size) for k, size in zip(place, polynomial.shape, strict=True))
+        square[window] += real[place] * real + imaginary[place] * imaginary
+    return square
+
+
+def _excludes_zero(polynomial):
+    """Return True if the constant term outweighs all others for |t| <= 1."""
+    return abs(polynomial[0, 0]) > _size(polynomial, 1)
+
+
+def _size(polynomial, reach):
+    """Bound on all terms but the constant one for |t| <= reach."""
+    return (abs(polynomial) * reach ** _degrees(polynomial)).ravel()[1:].sum()
+
+
+def _slope(polynomial, reach):
+    """Bound on the sum of both derivatives for |t| <= reach."""
+    degrees = _degrees(polynomial)
+    return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
+
+
+def _degrees(polynomial):
+    return np.add.outer(*map(np.arange, polynomial.shape))

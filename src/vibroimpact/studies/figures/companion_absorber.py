@@ -1,0 +1,285 @@
+"""Companion: how low balls bring the peak over a band of frequencies, against no balls and tuned absorbers.
+
+All is per force: X / f over 1 / f, displacement over static deflection, clearance over static deflection.
+"""
+
+from collections import Counter
+from itertools import takewhile
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.studies.absorbers.decay import decay_time, quickest_decay
+from vibroimpact.studies.absorbers.peaks import peak
+from vibroimpact.studies.figures.companion_response import (
+    FORCES,
+    LINES,
+    frequencies,
+    linear_systems,
+    logarithmic,
+    per_force,
+    ratios,
+)
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.studies.regimes.settling import Observation
+from vibroimpact.studies.regimes.settling import settle as settled
+from vibroimpact.studies.sweeps.grid import axis
+
+SPEC = {
+    "title": "How low balls bring the peak",
+    "caption": r"Peaks of :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat f_{i0}`, "
+        "in a band of frequencies, over the clearance, at the restitution coefficient of the chapter and at the best "
+        "that was tried: at the worst frequency of the band, what one cycle in a hundred exceeds. Level lines: no "
+        "balls, and the best linear absorbers of the mass of the balls, in closed form. Stars: the lowest peaks, "
+        "measured again from rest and seven other starts at twice as many frequencies.",
+    "alt": "Peak over clearance on logarithmic axes. Two valleys of dots, that of small restitution half as high as "
+        "that of the chapter's, lie between a level line without balls far above and one of the best linear absorbers "
+        "at half the height of the lower valley.",
+    "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
+    "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
+        "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
+        "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
+    "columns": {
+        "sweep": {"meaning": "the sweep of the config", "unit": "text", "values": ["clearance", "design"]},
+        "kappa": {"compared": "algebra"},
+        "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
+            "compared": "algebra"},
+        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more: what one cycle in "
+            "a hundred of all starts exceeds", "unit": "dimensionless", "compared": "extremes"},
+        "one_ball": {"meaning": "the same from rest, where only one ball ever meets a wall; blank elsewhere",
+            "unit": "dimensionless", "compared": "extremes"},
+    },
+    "tables": {
+        "summary": {
+            "file": "results/absorber.csv",
+            "about": "What the balls are good for, in numbers, at the system of the sweep `clearance` and along its "
+                "band.",
+            "columns": {
+                "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls what one "
+                    "cycle in a hundred exceeds, at the clearance (and kappa) where it is lowest in the sweep. lowest "
+                    "peak: the same at each kappa of the sweep `design`. plateau: the largest kappa up to which lowest "
+                    "peaks are at most 1.2 times the lowest of all; plateau from, plateau to: the least and the "
+                    r"greatest of these. stroke: the largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
+                    "linear absorbers need to each side; of balls the clearance. Of balls against who, at one "
+                    "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
+                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who. decay: cycles until a tenth of "
+                    "the energy of an impulse on box 1 is left, of balls after the impulse for which this is soonest",
+                    "unit": "text", "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to",
+                    "stroke", "frequencies won", "least", "greatest", "decay"]},
+                "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
+                    "one ball at the kappa of the config while the other meets no wall, or what they are held against",
+                    "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "value": {"meaning": "what the quantity says; of a peak of balls the lower of two measured again where "
+                    "the sweep has its lowest, from rest and seven other starts, at frequencies half-way between, too; "
+                    "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {
+                    "decay": "trajectory", "without balls": "algebra",
+                    "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
+                    "frequencies won": "free", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
+                "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
+                    "unit": "dimensionless", "compared": "free"},
+                "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
+                    "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "peaks"},
+                "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
+                    "over that without balls", "unit": "dimensionless", "compared": "peaks"},
+                "swept": {"meaning": "the peak there as the sweep has it", "unit": "dimensionless",
+                    "compared": "extremes"},
+                "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
+                "f10_hat, f20_hat": {"compared": "extremes"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
+                    "unit": "dimensionless", "compared": "free"},
+                "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "
+                    "the peak is lowest; and how far about it, on the grid of the sweep, it is at most 1.25 times as "
+                    "high", "unit": "dimensionless", "compared": "extremes"},
+                "regime": {"meaning": "the `regime` that most starts end in there", "unit": "text",
+                    "compared": "few outcomes"},
+            },
+        },
+    },
+}  # fmt: skip
+
+BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
+PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
+"""Quantities of the summary, beside those of `_held_against`."""
+NEARLY = 1.25
+"""The margin of a clearance: where the peak is at most so many times the lowest."""
+LEVEL = 1.2
+"""The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
+FROM, TO = "plateau from", "plateau to"
+FEW = 2
+"""The lowest peaks of a sweep that are measured again."""
+FRESH = 8
+"""Starts that a lowest peak is measured from again, rest among them."""
+IMPULSES, LEFT = np.geomspace(0.5, 50.0, 81), 0.1
+"""Velocities given to box 1, in units of L omega_10, and the part of their energy that is left after a decay."""
+TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
+"""Columns of the summary."""
+
+
+def compute(
+    system, response, clearance, design, band: dict, observation: dict, starts: int, seed: int, cycles: int, settle: int
+) -> dict:
+    """Return results of the sweeps with balls, per force, beside linear systems in closed form.
+
+    A lowest peak of a sweep is too low: the lowest of many places is where chance was kind. So the FEW lowest are
+    measured again at their places, from rest and other starts and at the frequencies of the band and those half-way
+    between them (`absorbers.peaks`), and the lowest of these is taken, with its standard error. A motion that none of
+    the starts meets may still move the boxes further.
+
+    Args:
+        system: whose other parameters the sweeps keep.
+        response: table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
+        clearance, design: of peaks along `band`, over both forces; over kappa, then both forces.
+        band: arguments of `sweeps.grid.axis`, along sigma_e_hat.
+        observation, starts: how long, and from how many starts, the regime at an optimum is looked for.
+        seed: of the starts of the sweeps. cycles, settle: of their runs.
+
+    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball.
+    "summary": columns quantity, who, value, ... (see SPEC).
+    """
+    linear = linear_systems(system, (1.0, 1.0), band)
+    peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
+    clearance, design = (_peaks(system, table) for table in (clearance, design))
+    alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
+    again = {"band": band, "states": spread_starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
+    own = _lowest_again(system, clearance, **again)
+    restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
+    best = min(restitution, key=lambda place: place["value"])
+    optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
+    if len(alone):  # from rest only: there are no starts to draw again
+        (one_ball,) = _lowest(alone, 1)
+        optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
+
+    rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
+    rows += [
+        {"quantity": PEAK, "who": who, **_told(place), "regime": _regime(system, place, observation, several, seed)}
+        for who, (place, several) in optima.items()
+    ]
+    rows += _of_restitution(restitution)
+    rows += _strokes(system, linear, band)
+    rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
+    rows += _held_against(system, per_force(system, response), band)
+    rows += _decays(system, linear)
+    summary = pd.DataFrame(rows)
+    for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
+        summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
+    swept = pd.concat([clearance.assign(sweep="clearance"), design.assign(sweep="design")])
+    return {"csv": swept[["sweep", "kappa", "clearance", "ratio", "one_ball"]], "summary": summary}
+
+
+def _peaks(system, table):
+    """The table with peaks over f, f = epsilon f10_hat, and 1 / f."""
+    force = system.epsilon * table["f10_hat"]
+    kappa = table.get("kappa", system.kappa)
+    return table.assign(
+        clearance=1 / force, kappa=kappa, ratio=table["peak"] / force, one_ball=table["peak_one_ball"] / force
+    )
+
+
+def _lowest(table, number):
+    """The places of a sweep over the clearance with the lowest peaks, and the margin of the clearance of each."""
+    beside, places = table.sort_values("clearance").reset_index(drop=True), []
+    for here in beside["ratio"].nsmallest(number).index:
+        place = beside.loc[here].to_dict()
+        far = ~(beside["ratio"] <= NEARLY * place["ratio"]).to_numpy()
+        first, last = np.flatnonzero(np.r_[True, far[:here]])[-1], here + int(np.argmax(np.r_[far[here:], True])) - 1
+        margin = {"narrowest": beside["clearance"][first], "widest": beside["clearance"][last]}
+        places.append({**place, "swept": place["ratio"], **margin})
+    return places
+
+
+def _lowest_again(system, table, **again):
+    """The lowest of the FEW lowest peaks of a sweep, measured again."""
+    return min((_again(system, place, **again) for place in _lowest(table, FEW)), key=lambda place: place["value"])
+
+
+def _again(system, place, band, states, cycles, settle):
+    """A place with its peak measured again: value, spread, largest, per force, and sigma_e_hat where it is met."""
+    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
+    detunings = np.sort(np.ravel(axis(**band).values))
+    detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
+    found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
+    measured = {"value": found.value, "spread": found.error, "largest": found.largest}
+    measured = {name: value * place["clearance"] for name, value in measured.items()}
+    return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
+
+
+def _told(place):
+    return {name: place[name] for name in TOLD if name in place}
+
+
+def _regime(system, place, observation, number, seed):
+    """The regime that most starts end in at a place, at the frequency of its peak."""
+    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
+    names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
+    return names.most_common(1)[0][0]
+
+
+def _of_restitution(places):
+    rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
+    told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
+    return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in told)]
+
+
+def plateau(places):
+    """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest, and the least and the greatest
+    of these; nan if the first is not.
+    """
+    level = LEVEL * min(place["value"] for place in places)
+    on = list(takewhile(lambda place: place["value"] <= level, places))
+    peaks = [place["value"] for place in on]
+    return (on[-1]["kappa"], min(peaks), max(peaks)) if on else (float("nan"),) * 3
+
+
+def _strokes(system, linear, band):
+    """Yield the strokes of the absorbers in their boxes."""
+    for name in ("absorbers of the textbook", "best absorbers"):
+        stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
+        yield {"quantity": STROKE, "who": name, "value": stroke}
+
+
+def _held_against(system, response, band):
+    """At each pair of forces, of each reference: at how many frequencies boxes move less with balls, times how much."""
+    for pair, rows in response.groupby(FORCES, sort=False):
+        for name, one in linear_systems(system, pair, band).items():
+            times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])
+            measures = {"frequencies won": (times < 1).mean(), "least": times.min(), "greatest": times.max()}
+            place = dict(zip(FORCES, pair, strict=True))
+            yield from ({"quantity": q, "who": name, "value": v, **place} for q, v in measures.items())
+
+
+def _decays(system, linear):
+    """Yield the forcing periods that an impulse on box 1 is felt, with balls after the best impulse for them."""
+    times = [decay_time(system, impulse, fraction=LEFT) for impulse in IMPULSES]
+    found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=LEFT)[1]}
+    found |= {name: one.decay_time(1, LEFT) for name, one in linear.items()}
+    yield from ({"quantity": DECAY, "who": who, "value": time / system.period} for who, time in found.items())
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: peaks over the clearance at two restitution coefficients, between two levels."""
+    swept, peaks = tables["csv"], tables["summary"].query(f"quantity == '{PEAK}'").set_index("who")
+    figure = new_figure(SINGLE_COLUMN, 72.0)
+    axes = figure.add_subplot()
+    logarithmic(axes, "x", *swept["clearance"].agg(["min", "max"]))
+    logarithmic(axes, "y", 3.0, 80.0)
+    for name in ("without balls", "best absorbers"):
+        axes.axhline(peaks.loc[name, "value"], **LINES[name])
+    for who, sweep, face in ((BALLS, "clearance", BLACK), (BEST_KAPPA, "design", "white")):
+        best = peaks.loc[who]
+        rows = swept[(swept["sweep"] == sweep) & (swept["kappa"] == best["kappa"])]
+        axes.plot(
+            rows["clearance"], rows["ratio"], "o-", color=BLACK, markersize=3, linewidth=0.7, markerfacecolor=face
+        )
+        axes.plot(best["clearance"], best["value"], "*", color=BLACK, markersize=9, markerfacecolor=face, zorder=4)
+        below = {"textcoords": "offset points", "va": "top"}
+        axes.annotate(rf"balls, $\kappa = {best['kappa']:g}$", best[["clearance", "value"]], (0, -7), **below)
+    named = {"without balls": "without balls", "best absorbers": "best linear absorbers"}
+    for name, words in named.items():
+        place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
+        axes.annotate(words, (0.03, peaks.loc[name, "value"]), (0, 4), **place)
+    axes.set(xlabel="clearance over static deflection, $1/f$", ylabel="peak over static deflection, $|X_i|\\,/\\,f$")
+    return figure

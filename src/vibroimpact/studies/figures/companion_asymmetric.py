@@ -1,0 +1,291 @@
+"""Companion: the manifold with its asymmetric branch, and the exact asymmetric pairs followed to small epsilon."""
+
+from itertools import pairwise, product
+from string import ascii_lowercase
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import brentq
+
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
+from vibroimpact.studies.regimes import asymmetric_limit
+from vibroimpact.studies.regimes.classification import ASYMMETRIC
+from vibroimpact.studies.regimes.epsilon_limit import order
+from vibroimpact.studies.theory import branch
+from vibroimpact.studies.theory.asymmetric_points import fixed_points
+from vibroimpact.studies.theory.relaxation import lost_at, relax
+from vibroimpact.system.chapter import CASES
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
+
+SPEC = {
+    "title": "The asymmetric branch of the manifold",
+    "caption": "Motions whose balls take unequal time for their two flights. a: the manifold; where symmetry breaks, "
+        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch. Circles: fixed points of "
+        r"the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the cases. "
+        r"Then, per case, how unequal the flights of each exact pair of mirror images are as :math:`\varepsilon` falls "
+        "(:math:`v`: difference of the flight times over the period), down to the fixed point that it leads to; named "
+        r"is its verdict at the :math:`\varepsilon` of the case. The stable pair of the equal case, A3 in "
+        "`orbits.csv`, is the response of Fig. 10.8.",
+    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a green curve rises "
+        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon from diamonds, "
+        "named stable or unstable, to circles at epsilon 0; the lowest line crosses zero just before.",
+    "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
+        r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
+    "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
+    "columns": {
+        "series": {"meaning": "a piece of the manifold", "values": ["symmetric, left", "symmetric, stable",
+            "symmetric, right", "asymmetric, stable", "asymmetric, right"]},
+        "C, B": {"compared": "algebra"},
+    },
+    "tables": {
+        "modules": {
+            "file": "results/figures/companion_asymmetric.modules.csv",
+            "about": "Modules with unequal flights in the plane of `companion_asymmetric`: of fixed points and exact "
+                "orbits, one of each pair of mirror images.",
+            "columns": {
+                "case": {}, "series": {"meaning": "of what", "values": ["fixed point", "exact orbit"]},
+                "label": {"meaning": "label in `asymmetric_fixed_points.csv` or `orbits.csv`", "unit": "text"},
+                "module": {"meaning": "the module, 1 or 2", "unit": "number", "compared": "algebra"},
+                "C, B": {"compared": "roots"},
+            },
+        },
+        "pairs": {
+            "file": "results/figures/companion_asymmetric.pairs.csv",
+            "about": r"How unequal the flights of exact pairs are as $\varepsilon$ falls.",
+            "columns": {
+                "case": {}, "label": {"meaning": "label in `orbits.csv`", "unit": "text"},
+                "exact": {"meaning": r"verdict of the multipliers at the $\varepsilon$ of the case"},
+                "epsilon": {"compared": "algebra"},
+                "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
+                    "compared": "roots"},
+                "limit": {"meaning": "the same of the fixed point that the pair leads to; blank without one",
+                    "unit": "dimensionless", "compared": "roots"},
+            },
+        },
+        "points": {
+            "file": "results/asymmetric_fixed_points.csv",
+            "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
+                r"cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs that "
+                r"lead to them as $\varepsilon$ falls.",
+            "columns": {
+                "case": {}, "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
+                "squared1, squared2": {"meaning": "$v_i^2$, $v_i$ the difference of the two flight times of ball $i$ "
+                    "over the period, 0 where they are equal; below 0 no motion at leading order, but where the branch "
+                    "goes on beyond symmetry breaking", "unit": "dimensionless"},
+                "C1, C2, B1, B2, psi1, psi2": {},
+                "real": {"meaning": r"a motion at leading order, $v_i^2 \ge 0$", "unit": "true or false"},
+                "admissible": {"meaning": "one in which, at leading order, both balls stay between their walls",
+                    "unit": "true or false"},
+                "impact_map": {"meaning": "Masri's analysis for equal and unequal flights: the impact maps of both "
+                    r"modules, $B_i$ and $\phi_i$ held", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "slow_flow": {"meaning": "the real parts of all eigenvalues of the slow flow on this branch are "
+                    "negative", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "modulus": {"meaning": "largest modulus of the multipliers that impact maps and slow flow predict, "
+                    "over a forcing period", "unit": "dimensionless"},
+                "lost_at": {"meaning": "of a point that the slow flow calls stable: the factor of both forces, below "
+                    "1, at which its symmetric module sinks to the fold of the manifold; blank if there is none above "
+                    "a half", "unit": "dimensionless"},
+                "orbit": {"meaning": "label in `orbits.csv` of the exact orbit (one of two mirror images) that leads "
+                    "here; blank if there is none", "unit": "text"},
+                "distance": {"meaning": r"of that orbit, at the $\varepsilon$ of the case: norm of the difference in "
+                    "$C_1$, $C_2$, $v_1^2$, $v_2^2$ and the phases [radians] half-way between the impacts of each "
+                    "module", "unit": "dimensionless"},
+                "onset": {"meaning": r"the $\varepsilon$ at which the exact pair is born from a symmetric orbit; 0 if "
+                    r"it reaches $\varepsilon = 0$", "unit": "dimensionless"},
+                "order": {"meaning": r"the exponent $p$ of distance $\sim \varepsilon^p$, fitted to the smallest "
+                    r"$\varepsilon$", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless"},
+                "slow_error": {"meaning": "at `at_epsilon`: largest error of a predicted slow rate, "
+                    r"$\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$", "unit": "dimensionless"},
+                "fast_error": {"meaning": "at `at_epsilon`: largest error of a predicted fast multiplier",
+                    "unit": "dimensionless"},
+                "at_epsilon": {"meaning": r"the smallest $\varepsilon$ that the pair was followed to",
+                    "unit": "dimensionless"},
+            },
+        },
+        "relaxation": {
+            "file": "results/regimes/relaxation.csv",
+            "about": "The modulated response as the slow flow sees it, drift to the fold of the manifold and return at "
+                "$B = 1$ ([derivation](derivation.md), section 12), of every case, a row per module.",
+            "columns": {
+                "case, module": {},
+                "burst": {"meaning": "mean length of a stretch in resonance; blank if none ends",
+                    "unit": "forcing periods"},
+                "share": {"meaning": "part of the time in resonance", "unit": "share"},
+                "largest": {"meaning": "largest $B_i$", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
+_COLOUR = {"color": COLOURS[ASYMMETRIC]}
+PIECES = {
+    "symmetric, left": UNSTABLE,
+    "symmetric, stable": STABLE,
+    "symmetric, right": UNSTABLE,
+    "asymmetric, stable": STABLE | _COLOUR,
+    "asymmetric, right": UNSTABLE | _COLOUR,
+}
+POINT, ORBIT = "fixed point", "exact orbit"
+MARKS = {
+    POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
+    ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
+}
+SKEWED = 1e-3
+"""Flights of a module are unequal where its v^2 is above this."""
+_PHASES, _SPEEDS = (
+    [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
+)
+COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
+JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
+RELAXED = 400, 100
+"""Cycles that the slow flow is followed for, and that it is left to settle before."""
+COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
+
+
+def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fit_below: float, C_max: float) -> dict:
+    """The manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
+
+    Args:
+        systems: case -> system; orbits: `verdict_table.orbit_rows` of all cases.
+        kappa: of the manifold; cases of another are left out.
+        epsilon: ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
+        fit_below: the order in which the distance falls is fitted where epsilon is below this.
+        C_max: right end of the symmetric branch.
+
+    Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules" with unequal flights: case,
+    series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the larger
+    v^2), limit (that of the fixed point it leads to);
+    "points", a row per fixed point; and "relaxation", what the slow flow makes of balls that it loses, by module.
+    """
+    systems = {case: system for case, system in systems.items() if system.kappa == kappa}
+    modules, pairs, rows, relaxed = [], [], [], []
+    for case, system in systems.items():
+        points, here = fixed_points(system), orbits[orbits["case"] == case]
+        falling = np.sort(np.geomspace(*epsilon, values))[::-1]
+        ways = {
+            label: asymmetric_limit.follow(system, root, falling[falling < system.epsilon])
+            for label, root in _pairs(system, here)
+        }
+        ends = {label: asymmetric_limit.leads_to(way, points) for label, way in ways.items()}
+        for number, point in enumerate(points, start=1):
+            label = next((name for name, end in ends.items() if end is point), "")
+            rows.append(_row(system, case, f"U{number}", point, label, ways.get(label), fit_below))
+            modules += _in_plane(case, POINT, f"U{number}", point.C, point.B, point.squared)
+        for label, way in ways.items():
+            (verdict,) = here.loc[here["label"] == label, "exact"]
+            limit = np.nan if ends[label] is None else ends[label].squared[ends[label].asymmetric].max()
+            pairs += [(case, label, verdict, each.system.epsilon, each.place[2:4].max(), limit) for each in way]
+            modules += _in_plane(case, ORBIT, label, way[0].place[:2], way[0].box_amplitudes, way[0].place[2:4])
+        found = relax(system, *RELAXED)
+        relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
+    return {
+        "csv": _manifold(kappa, C_max),
+        "modules": pd.DataFrame(modules, columns=["case", "series", "label", "module", "C", "B"]),
+        "pairs": pd.DataFrame(pairs, columns=["case", "label", "exact", "epsilon", "squared", "limit"]),
+        "points": pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED]),
+        "relaxation": pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"]),
+    }
+
+
+def _manifold(kappa, C_max):
+    """Pieces of both branches, the asymmetric one up to where its B is that of the symmetric one at C_max."""
+    edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
+    r, end = rho(kappa), branch.period_doubling(kappa)
+    symmetric = [np.linspace(*ends, 101) for ends in pairwise(edges)]
+    last = brentq(lambda squared: branch.amplitudes(squared, kappa)[1] - B_of_C(C_max, r), 0.0, 1 - 1e-9)
+    squared = np.linspace(0, min(end, last), 101), np.linspace(min(end, last), last, 101)
+    places = [(C, B_of_C(C, r)) for C in symmetric] + [branch.amplitudes(x, kappa) for x in squared]
+    return pd.concat(
+        pd.DataFrame({"series": name, "C": C, "B": B}) for name, (C, B) in zip(PIECES, places, strict=True)
+    )
+
+
+def _pairs(system, orbits):
+    """One orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
+    rows = orbits[~orbits["symmetric"].astype(bool) & (orbits["C1"] > 0) & (orbits["C2"] > 0)]
+    one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
+    for _, row in one_each.iterrows():
+        speeds = row[_SPEEDS].to_numpy(float).reshape(2, 2)
+        yield row["label"], np.concatenate([row[_PHASES].to_numpy(float) * system.period, speeds.sum(axis=1)])
+
+
+def _in_plane(case, series, label, *places):
+    """Yield the modules whose flights are unequal; places: C, B and v^2, each (2,)."""
+    for module, C, B, squared in zip((1, 2), *places, strict=True):
+        if squared > SKEWED:
+            yield case, series, label, module, C, B
+
+
+def _row(system, case, name, point, label, way, fit_below):
+    kappa, slow_time = system.kappa, system.epsilon * system.period
+    slow = np.abs(np.exp(point.slow_eigenvalues * slow_time))
+    verdicts = [point.real, point.admissible(kappa), point.fast_verdict(kappa), point.slow_verdict()]
+    judged = [*verdicts, max(*slow, *np.abs(point.fast(kappa)))]
+    row = [case, name, *point.squared, *point.C, *point.B, *point.psi, *judged]
+    stable = point.slow_verdict() == "stable"
+    row = [*row, lost_at(system, point) if stable else np.nan]
+    if way is None:
+        return [*row, "", *[np.nan] * (len(COMPARED) - 2)]
+    distance = np.array([np.linalg.norm(asymmetric_limit.offset(station, point)) for station in way])
+    epsilon = np.array([station.system.epsilon for station in way])
+    small = epsilon < fit_below
+    fitted = order(epsilon[small], distance[small]) if np.count_nonzero(small) > 1 else (np.nan, np.nan)
+    last = asymmetric_limit.compare(way[-1], point)
+    slow_error = np.abs(last.rates - last.predicted).max()
+    fast_error = np.abs(last.multipliers - last.predicted_multipliers)[4:].max()
+    onset = asymmetric_limit.onset(way) if not point.real else 0.0
+    return [*row, label, distance[0], onset, *fitted, slow_error, fast_error, last.epsilon]
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
+    pairs = tables["pairs"]
+    cases = list(dict.fromkeys(pairs["case"]))
+    figure = new_figure(DOUBLE_COLUMN, 84.0)
+    left, *others = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
+    for axes in others[1:]:
+        axes.sharey(others[0])
+        axes.tick_params(labelleft=False)
+    heading(left, "a", "both branches of the manifold")
+    _draw_manifold(left, tables["csv"], tables["modules"])
+    for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
+        heading(axes, letter, f"exact pairs, {case} forces" if case in CASES else f"exact pairs, case {case}")
+        _draw_case(axes, pairs[pairs["case"] == case])
+    if cases:
+        others[0].set_ylabel("inequality of flights, $v^2$")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def _draw_manifold(axes, pieces, modules):
+    for series, style in PIECES.items():
+        piece = pieces[pieces["series"] == series]
+        axes.plot(piece["C"], piece["B"], **style)
+    for series, style in MARKS.items():
+        rows = modules[modules["series"] == series]
+        axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
+    end = pieces.iloc[-1]
+    beside = {"textcoords": "offset points", "ha": "right"}
+    axes.annotate("asymmetric", end[["C", "B"]], (-8, -8), **beside, **_COLOUR)
+    lowest = pieces[pieces["series"] == "symmetric, stable"].iloc[-1]
+    axes.annotate("symmetric", lowest[["C", "B"]], (-24, -24), **beside)
+    axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_i$", ylabel="$B_i$")
+
+
+def _draw_case(axes, pairs):
+    for (_, verdict), way in pairs.groupby(["label", "exact"], sort=False):
+        axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
+        start = way.iloc[0][["epsilon", "squared"]]
+        axes.plot(*start, clip_on=False, zorder=3, **MARKS[ORBIT])
+        axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")
+    ends = pairs.drop_duplicates("label")["limit"]
+    axes.plot(np.zeros(len(ends)), ends, clip_on=False, zorder=3, **MARKS[POINT])
+    axes.axhline(0, color=BLACK, linewidth=0.6)
+    axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
+    axes.margins(y=0.08)
+    axes.locator_params(axis="x", nbins=3)

@@ -1,0 +1,296 @@
+"""Companion: branches of 1:1 responses against the forcing, of the theory and exact, with simulated attractors."""
+
+from string import ascii_lowercase
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    HALO,
+    STABLE,
+    UNSTABLE,
+    heading,
+    new_figure,
+    styled,
+)
+from vibroimpact.frames import with_former_names
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
+from vibroimpact.studies.regimes import onset
+from vibroimpact.studies.regimes.branches import Path, branches
+from vibroimpact.studies.regimes.classification import APERIODIC, ASYMMETRIC, SYMMETRIC, UNSETTLED
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.studies.regimes.families import (
+    FAMILIES,
+    FOLD,
+    GRAZING,
+    HOPF,
+    MANIFOLD_FOLD,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    SPEED_ZERO,
+    SYMMETRY_BREAKING,
+    AsymmetricOrbits,
+    FixedPoints,
+    SymmetricOrbits,
+)
+from vibroimpact.studies.regimes.settling import Observation, settle
+
+SPEC = {
+    "title": "Branches of 1:1 responses and what attracts",
+    "caption": "Branches of 1:1 responses over the forcing, from the theory and exact: stable bold solid, unstable "
+        "dashed. Marked are their folds and ends, and where stability is lost; all other special points are in "
+        "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end.",
+    "alt": "Curves of the saw-tooth amplitude C2 over the forcing amplitude: theory and exact branches, stable bold "
+        "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both named, with marked special "
+        "points, thin vertical lines at the cases, and dots where simulations from several starts end.",
+    "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
+        "many starts, until it repeats",
+    "columns": {
+        "panel": {"meaning": "a letter for each path, in the order of the config"},
+        "series": {"meaning": "family of the branch", "values": ["symmetric orbit", "asymmetric orbit",
+            "fixed point"]},
+        "label": {"meaning": "what is special about the node, blank for others", "unit": "text"},
+        "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special points, "
+            "from 0", "unit": "number", "compared": "algebra"},
+        "p": {"compared": "roots"},
+        "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11)", "compared": "roots"},
+        "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, Masri's "
+            "analysis and the slow flow say so", "unit": "true or false"},
+        "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always True",
+            "unit": "true or false"},
+    },
+    "tables": {
+        "attractors": {
+            "file": "results/figures/companion_branches.attractors.csv",
+            "about": "Where simulations end along the paths of `companion_branches`, a row per start.",
+            "columns": {
+                "panel": {"meaning": "the path, as in `companion_branches`"},
+                "label": {"meaning": "the `regime`", "unit": "text", "compared": "outcomes"},
+                "p": {"compared": "algebra"},
+                "C1, C2": {"meaning": "$C_i$, (10.11), of half the ball's mean way per cycle", "compared": "sample"},
+            },
+        },
+        "cases": {
+            "file": "results/figures/companion_branches.cases.csv",
+            "about": "The cases on the paths of `companion_branches`.",
+            "columns": {
+                "panel": {"meaning": "the path, as in `companion_branches`"},
+                "case": {}, "p": {"compared": "algebra"},
+            },
+        },
+        "special_points": {
+            "file": "results/regimes/special_points.csv",
+            "about": "The special points of the branches in `companion_branches`.",
+            "columns": {
+                "path": {},
+                "family": {"meaning": "exact symmetric or asymmetric orbits, or fixed points of the theory",
+                    "unit": "text", "values": ["symmetric orbit", "asymmetric orbit", "fixed point"]},
+                "kind": {"meaning": "what happens there; of fixed points with the module, where only one is concerned",
+                    "unit": "text", "values": ["fold", "symmetry breaking", "period doubling", "Neimark-Sacker", "Hopf",
+                    "grazing", "speed zero", "fold of the SIM, module 1", "fold of the SIM, module 2",
+                    "symmetry breaking, module 1", "symmetry breaking, module 2"]},
+                "p, C1, C2": {"compared": "roots"},
+                "admissible": {"meaning": "the orbits on one side at least are motions of the system; of fixed points "
+                    "always True", "unit": "true or false"},
+            },
+        },
+        "onsets": {
+            "file": "results/regimes/modulation_onsets.csv",
+            "about": "Where modulated responses are along the paths of `companion_branches`, as the slow flow predicts "
+                "it and as its attractors show it ([derivation](derivation.md), section 12), two rows per path.",
+            "columns": {
+                "path": {},
+                "source": {"meaning": "slow flow: a ball goes in and out of resonance for good, by the picture of "
+                    "`relaxation.csv`. simulation: a start ends in a strongly modulated or chaotic response",
+                    "unit": "text", "values": ["slow flow", "simulation"]},
+                "first, last": {"meaning": "ends of the longest range of `p` in which that is so at every value, blank "
+                    "without one", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "of the ends: from one value of `p` to the next", "unit": "dimensionless"},
+                "agreement": {"meaning": "part of the values of `p` at which both say the same", "unit": "share"},
+                "who": {"meaning": "former name of `source`, until the next release", "unit": "text"},
+            },
+        },
+    },
+}  # fmt: skip
+
+ENDS = FOLD, GRAZING, SPEED_ZERO
+MARKERS = {
+    "fold": ("o", (FOLD,)),
+    "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
+    "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
+}
+"""Marked are ENDS wherever branches turn or end, of the other special points those that bound a stable piece."""
+_SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
+_SPECIAL |= {"zorder": 4, "clip_on": False}
+REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
+DOTS = {
+    REPEATING: {"linestyle": "none", "marker": "o", "markeredgewidth": 0, "markersize": 4.4, "color": "0.8"},
+    VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
+    PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
+}
+"""Looks of the regimes in which simulated starts end."""
+KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
+CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
+HUES = {
+    FixedPoints.name: BLACK,
+    SymmetricOrbits.name: COLOURS[SYMMETRIC],
+    AsymmetricOrbits.name: COLOURS[ASYMMETRIC],
+}
+NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
+"""Names of lines of exact orbits; those of the theory are named by their stability."""
+COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
+_NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
+
+
+def compute(
+    system,
+    paths: list[dict],
+    longest_step: float,
+    seeds: int,
+    attractors: dict,
+    observation: dict,
+    systems: dict,
+) -> dict:
+    """Branches along each path, their special points, and attractors from several starts.
+
+    Args:
+        paths: each with `along` (names of the parameters that move together) and `range` (low, high).
+        longest_step, seeds: of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
+        attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
+        observation: arguments of `regimes.settling.Observation`.
+        systems: case -> system; those on a path are marked.
+
+    Returns "csv", the nodes of the branches (columns panel, series, label, branch, piece, p, C1, C2, stable,
+    admissible), "attractors" (panel, label, p, and C1, C2 of half of the ball's mean path per cycle), "cases" (panel,
+    case, p), "special_points" (path, family, kind, p, C1, C2; a path without any has a row of the kind "none"), and
+    "onsets" (rows of `regimes.onset.onsets`).
+    """
+    nodes, attracting, cases, onsets = [], [], [], []
+    names = {panel: " ".join(settings["along"]) for panel, settings in zip(ascii_lowercase, paths, strict=False)}
+    for panel, settings in zip(names, paths, strict=True):
+        path, interval = Path(system, tuple(settings["along"])), settings["range"]
+        for family in FAMILIES.values():
+            found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
+            nodes += [part for number, branch in enumerate(found) for part in _pieces(panel, number, branch)]
+        ends = _attractors(panel, path, interval, observation, **attractors)
+        attracting.append(ends)
+        cases += [(panel, case, p) for case, p in _on(path, interval, systems)]
+        onsets += onset.onsets(path, np.unique(ends["p"]), ends["p"], ends["label"])
+    nodes = pd.concat(nodes, ignore_index=True) if nodes else pd.DataFrame(columns=COLUMNS)
+    return {
+        "csv": nodes,
+        "attractors": pd.concat(attracting, ignore_index=True),
+        "cases": pd.DataFrame(cases, columns=["panel", "case", "p"]),
+        "special_points": _special_points(nodes, names),
+        "onsets": with_former_names(pd.DataFrame(onsets, columns=onset.COLUMNS), onset.FORMER),
+    }
+
+
+def _special_points(nodes, names):
+    """Special points by path, in the order of the paths; a path without any has a row that says so."""
+    found = nodes[nodes["label"].ne("")].sort_values("admissible")
+    found = found.drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last").sort_index()
+    without = pd.DataFrame({"panel": [one for one in names if one not in set(found["panel"])], "label": "none"})
+    found = pd.concat([found, without] if len(found) else [without]).sort_values("panel", kind="stable")
+    found = found.assign(path=found["panel"].map(names)).rename(columns={"series": "family", "label": "kind"})
+    return found.reindex(columns=["path", "family", "kind", "p", "C1", "C2", "admissible"])
+
+
+def _on(path, interval, systems):
+    """Cases on a path, and where."""
+    places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
+    for case, p in places.items():
+        if interval[0] <= p <= interval[1] and path(p) == systems[case]:
+            yield case, p
+
+
+def _pieces(panel, number, branch):
+    """Yield the nodes of each piece of a branch."""
+    for piece, (inner, nodes) in enumerate(branch.pieces()):
+        amplitudes = np.array([node.amplitudes for node in nodes])
+        place = {"panel": panel, "series": branch.family.name, "label": [node.kind for node in nodes]}
+        place |= {"branch": number, "piece": piece, "p": [node.p for node in nodes]}
+        place |= {"C1": amplitudes[:, 0], "C2": amplitudes[:, 1]}
+        yield pd.DataFrame({**place, "stable": inner.stable, "admissible": inner.admissible})
+
+
+def _attractors(panel, path, interval, observation, values, starts, seed):
+    rows = []
+    for p in np.linspace(*interval, values):
+        regimes = settle(path(p), spread_starts(starts, seed), Observation(**observation))
+        rows += [(panel, regime.name, p, *regime.mean_amplitudes) for regime in regimes]
+    return pd.DataFrame(rows, columns=["panel", "label", "p", "C1", "C2"])
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: C_2 along each path; stable bold solid, unstable dashed, special points marked."""
+    nodes, attractors, cases = tables["csv"], tables["attractors"], tables["cases"]
+    panels = list(dict.fromkeys(attractors["panel"]))
+    figure = new_figure(DOUBLE_COLUMN, 118.0)
+    grid = figure.subplots(2, len(panels), sharex="col", sharey=True, squeeze=False)
+    for column, (panel, along) in enumerate(zip(panels, dict.fromkeys(tables["special_points"]["path"]), strict=True)):
+        mine, simulated = (table[table["panel"] == panel] for table in (nodes, attractors))
+        theory = mine["series"] == FixedPoints.name
+        grid[0, column].set(xlim=simulated["p"].agg(["min", "max"]), ylim=(0.0, 2.6))
+        _attractor_dots(grid[1, column], simulated)
+        _cases(*grid[:, column], cases[cases["panel"] == panel])
+        _branches(grid[0, column], mine[theory])
+        _branches(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
+        grid[1, column].set_xlabel(_axis(along))
+        for row, words in enumerate(("theory: fixed points", "exact 1:1 responses, and what attracts")):
+            heading(grid[row, column], ascii_lowercase[row * len(panels) + column], words)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("$C_2$")
+    drawn = {line.get_label(): line for axes in grid.flat for line in axes.lines if len(line.get_xdata())}
+    handles = {name: drawn[name] for name in (*DOTS, *MARKERS) if name in drawn}
+    figure.legend(handles.values(), handles, fontsize=9, columnspacing=1.0, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _cases(theory, exact, cases):
+    """Thin lines where the cases lie, with their names above the foot of the first panel."""
+    for case, p in cases[["case", "p"]].itertuples(index=False):
+        for axes in (theory, exact):
+            axes.axvline(p, **CASE)
+        place = {"xycoords": theory.get_xaxis_transform(), "textcoords": "offset points", "rotation": 90}
+        theory.annotate(case, (p, 0), (2, 3), **place)
+
+
+def _branches(axes, nodes):
+    """Lines of the pieces with their names, at the longest stable one or else the longest, and the marks on them."""
+    named = {}
+    for (family, stable, *_), piece in nodes.groupby(["series", "stable", "branch", "piece"], sort=False):
+        axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
+        name, length = NAMES.get(family, "stable" if stable else "unstable"), np.ptp(piece["p"].clip(*axes.get_xlim()))
+        named.setdefault(name, []).append((stable, length, piece))
+    for name, pieces in named.items():
+        *_, piece = max(pieces, key=lambda one: one[:2])
+        middle = piece.iloc[(piece["p"] - piece["p"].clip(*axes.get_xlim()).mean()).abs().argmin()]
+        above = name == NAMES[SymmetricOrbits.name]
+        beside = {"textcoords": "offset points", "ha": "center", "va": "bottom" if above else "top"}
+        offset, colour = (0, 3 if above else -4), HUES[middle["series"]]
+        axes.annotate(name, middle[["p", "C2"]], offset, color=colour, **beside, **HALO)
+    special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
+    for name, (marker, kinds) in MARKERS.items():
+        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some name the module, too
+        rows = rows[rows["stable"].eq(True) | (set(kinds) <= {*ENDS})]
+        rows = rows.drop_duplicates(["series", "branch", "p"])
+        axes.plot(rows["p"], rows["C2"], marker=marker, label=name, **_SPECIAL)
+
+
+def _attractor_dots(axes, attractors):
+    kinds = attractors["label"].map(lambda name: KINDS.get(name, REPEATING))
+    for kind, style in DOTS.items():
+        rows = attractors[kinds == kind]
+        axes.plot(rows["p"], rows["C2"], zorder=1, **style, label=kind)
+
+
+def _axis(along):
+    return (
+        "$" + " = ".join(_NAMES.get(name, r"\mathrm{" + name.replace("_", r"\_") + "}") for name in along.split()) + "$"
+    )

@@ -1,0 +1,393 @@
+"""Companion: the method from weak to strong coupling, two ways to lean, and the power that impacts take."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.exact.orbits.search import symmetric_orbit
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    STABLE,
+    heading,
+    new_figure,
+    styled,
+)
+from vibroimpact.studies.absorbers.references import tuned
+from vibroimpact.studies.absorbers.tuning import den_hartog
+from vibroimpact.studies.claims.coupling_checks import OBSERVED, SAME_POWER, SETTLED, errors
+from vibroimpact.studies.claims.verdict_grid import exact_orbits
+from vibroimpact.studies.regimes.basins import plane
+from vibroimpact.studies.regimes.classification import starts
+from vibroimpact.studies.regimes.coupling import (
+    OPPOSITE,
+    SAME,
+    STRAIGHT,
+    coupled,
+    impact_power,
+    lean,
+    leaning_orbits,
+    patterns,
+    shares,
+    stable_ranges,
+)
+from vibroimpact.studies.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
+from vibroimpact.studies.regimes.two_terms import amplitudes
+from vibroimpact.tables import curve, join, select
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
+
+SPEC = {
+    "title": "From weak to strong coupling",
+    "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
+        "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside "
+        "it (upright: in proportion). b: difference of the flight times of ball 1 over the period where both balls "
+        "lean, the same way or opposite ways, while that is stable; marks: how it ends. Modules tuned alike, forces "
+        "1.52 and 1.54. c: mean power of all impacts, over the square of both forces: exact symmetric orbits, the "
+        "stable leaning one, mean and standard deviation over starts; dotted: dampers of linear absorbers of the same "
+        "mass.",
+    "alt": "Three panels. First: errors near six per cent but for couplings from 1.4 to 2, and crosses there and near"
+        " 40. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
+        "and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of leaning.",
+    "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
+    "columns": {
+        "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
+        "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and where it was found; of "
+            "power: the motion"},
+        "case": {"meaning": "of error: the case of the config", "unit": "text"},
+        "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
+        "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
+            "unit": "dimensionless", "compared": "roots"},
+        "own_error": {"meaning": "largest error of $C_1$ or $C_2$ over its own exact one; blank without a motion",
+            "unit": "dimensionless", "compared": "roots"},
+        "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
+        "orbits": {"meaning": "number of symmetric motions of that case at that coupling", "unit": "dimensionless",
+            "compared": "algebra"},
+        "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
+        "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
+            "compared": "roots"},
+        "ends": {"meaning": "how the range in which the pattern is stable ends there", "unit": "text"},
+        "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
+        "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
+            "compared": {"all starts": "extremes", "others": "roots"}},
+        "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "free"},
+        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share", "compared": "free"},
+    },
+    "tables": {
+        "summary": {
+            "file": "results/regimes/coupling.csv",
+            "about": "Numbers of [strong coupling](coupling.md), by name.",
+            "columns": {
+                "quantity": {"meaning": "what was measured", "unit": "text"},
+                "value": {"meaning": "couplings, shares, ratios, numbers of points", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "standard error from the spread over starts, of a spread that of a normal "
+                    "distribution; 0 of motions that repeat", "unit": "dimensionless"},
+            },
+        },
+    },
+}  # fmt: skip
+
+STRONG = ("equal", "unequal")
+"""Cases that have points called stable."""
+WEAK = "weak"
+COUPLINGS = (0.0, 0.3, 1.0, 1.4, 1.5, 1.6, 1.7, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
+PROPORTION, HELD = "damper in proportion", "damper held"
+ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
+"""Where both balls lean: modules tuned alike, their impacts not in the same instant."""
+LIMITS = (0.5, 100.0)
+FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
+STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
+LONG = 10000
+"""Cycles of starts that are not on the leaning orbit after SETTLED: some are on long transients."""
+SIDE = 8
+WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
+SYMMETRIC, LEANING, ALL, LINEAR = "symmetric", "leaning", "all starts", "linear absorber"
+TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+"""Couplings at which patterns are looked for at the forces of the cases, too."""
+NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
+"""Couplings at which the second term of (10.7) is computed."""
+WELL = 5.0
+"""Coupling from which errors and missing motions are told apart from those of weaker coupling."""
+ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", STRAIGHT: "v"}
+"""Marks of how a stable range ends."""
+_END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
+
+
+def compute(systems: dict) -> dict:
+    """Return the errors over the coupling, the patterns of lean, and the power at the impacts.
+
+    Args:
+        systems: case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
+
+    Returns "csv": panel "error" (series damper in proportion, held: case, coupling, error, predicted, stable, orbits),
+    "lean" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread, leaning,
+    stable); and "summary".
+    """
+    equal = systems["equal"]
+    strong = {case: system for case, system in systems.items() if case in STRONG}
+    found = [_errors(strong, held) for held in (False, True)]
+    leans, watched = _patterns(equal.with_(**ALIKE))
+    power, lasting = _power(equal)
+    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(leans) | watched | _of_power(power) | lasting
+    tried = [coupled(system, value) for system in strong.values() for value in TRIED]
+    summary |= {
+        "searches at the forces of the cases": len(tried),
+        "patterns at the forces of the cases": sum(len(patterns(system)) for system in tried),
+    }
+    if WEAK in systems:
+        summary |= _of_weak(_errors({WEAK: systems[WEAK]}, held=False))
+    if "unequal" in systems:
+        summary |= _coexisting(systems["unequal"])
+    known = [value if isinstance(value, tuple) else (value, 0.0) for value in summary.values()]
+    rows = pd.DataFrame(known, columns=["value", "uncertainty"])
+    rows.insert(0, "quantity", list(summary))
+    return {"csv": join([*found, *leans, power]), "summary": rows}
+
+
+def _errors(systems, held):
+    rows = [
+        {"case": case, "coupling": value} | row
+        for case, system in systems.items()
+        for value in COUPLINGS
+        for row in errors(coupled(system, value, held))
+    ]
+    table = pd.DataFrame(rows, columns=["case", "coupling", "error", "own_error", "predicted", "exact", "orbits"])
+    columns = {
+        name: table[name].to_numpy() for name in ("case", "coupling", "error", "own_error", "predicted", "orbits")
+    }
+    return curve("error", HELD if held else PROPORTION, **columns, stable=table["exact"].to_numpy())
+
+
+def _two_terms(system):
+    """Return the largest error of C with the second term of (10.7), and the largest second term, by coupling."""
+    summary = {}
+    for value in NEXT_ORDER:
+        here = coupled(system, value)
+        points, roots = fixed_points(here), symmetric_solutions(here)
+        pairs = zip(points, exact_orbits(here, [point.C for point in points], roots), strict=True)
+        found = [(point.C, amplitudes(here, point), orbit.C) for point, orbit in pairs if orbit is not None]
+        if found:
+            leading, C, exact = np.array(found).swapaxes(0, 1)
+            error = np.abs(C - exact).max(axis=1) / exact.max(axis=1)
+            summary[f"largest error with two terms, coupling {value:g}"] = error.max()
+            summary[f"largest second term, coupling {value:g}"] = np.abs(C - leading).max() / here.epsilon
+    return summary
+
+
+def _patterns(system):
+    """Return the curves of all stable ranges, and the shares of starts that end on each pattern."""
+    curves = []
+    for name, start, found, (below, above) in stable_ranges(system, LIMITS):
+        ends = [below or None, *[None] * (len(found) - 2), above or None]
+        coupling, orbits = zip(*found, strict=True)
+        v = [abs(lean(orbit)[0]) for orbit in orbits]
+        curves.append(curve("lean", f"{name}, from {start:g}", coupling=coupling, v=v, stable=True, ends=ends))
+    shared = {}
+    for value in WATCHED:
+        here = coupled(system, value)
+        leaning = leaning_orbits(here)
+        if leaning:
+            ended = shares(leaning, plane(leaning[0].state, POINTS), ENOUGH)
+            shared |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
+    return curves, shared
+
+
+def _power(equal):
+    """Return the powers along the force, and how those starts did that settle late."""
+    rows, lasting, begun = [], {}, starts(STARTS, SEED)
+    for force in FORCES:
+        system = equal.with_(f10_hat=force, f20_hat=force)
+        unit = force**2
+        taken = impact_power(system, begun, CYCLES, SETTLED) / unit
+        leaning = leaning_orbits(system, both=False)[:1]
+        found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+        powers = [impact_power(system, [one.state], 1)[0] / unit for one in leaning]
+        on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
+        if leaning and not on_it.all():
+            late = ~on_it
+            lasting[f"leaning share after {SETTLED} cycles, force {force:g}"] = on_it.mean(), on_it.std() / STARTS**0.5
+            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLED) / unit
+            on_it = np.isclose(taken, powers[0], rtol=SAME_POWER)
+        for one in (one for one in found if one.admissible):
+            alone = impact_power(system, [one.state], 1)[0] / unit
+            rows.append((SYMMETRIC, force, alone, 0.0, 0.0, bool(one.stable)))
+        rows += [(LEANING, force, power, 0.0, on_it.mean(), True) for power in powers]
+        rows.append((ALL, force, taken.mean(), taken.std(), on_it.mean(), False))
+        rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
+        symmetric = [one for one in found if one.admissible]
+        if leaning and symmetric:
+            near = min(symmetric, key=lambda one: np.abs(one.C - leaning[0].C).max())
+            beside = impact_power(system, [near.state], 1)[0] / unit
+            lasting[f"leaning over symmetric, force {force:g}"] = powers[0] / beside
+    table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "leaning", "stable"])
+    table.insert(0, "panel", "power")
+    return table, lasting
+
+
+def _coexisting(system):
+    """Return the power of modulated starts over that of the leaning orbit, which attracts the others."""
+    leaning = leaning_orbits(system, both=False)[:1]
+    if not leaning:
+        return {}
+    alone = impact_power(system, [leaning[0].state], 1)[0]
+    taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLED) / alone
+    others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
+    if not len(others):
+        return {"leaning share, unequal forces": 1.0}
+    mean, spread, share = others.mean(), others.std(), len(others) / len(taken)
+    error = spread / len(others) ** 0.5
+    return {
+        "starts at unequal forces": len(taken),
+        "leaning share, unequal forces": 1 - share,
+        "modulated over leaning, unequal forces": (mean, error),
+        "spread over leaning, unequal forces": (spread, error / 2**0.5),
+        "all starts over leaning, unequal forces": (taken.mean(), share * error),
+    }
+
+
+def _damper_power(system):
+    """Return the mean power in the dampers of linear absorbers of the balls' mass, tuned by the textbook."""
+    tuning = den_hartog(system)
+    damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
+    strokes = tuned(system, tuning).strokes(system.Omega)
+    return float(damping @ strokes**2 * system.Omega**2 / 2)
+
+
+def _of_errors(tables):
+    summary = {}
+    for name, table in zip((PROPORTION, HELD), tables, strict=True):
+        known, missing = table.dropna(subset="error"), table[table["error"].isna()]["coupling"]
+        at_ours = table[table["coupling"] == 1.0]["error"]
+        beyond = known[known["coupling"] >= WELL]
+        summary |= {
+            f"points, {name}": len(table),
+            f"motions, {name}": table.groupby(["case", "coupling"])["orbits"].first().sum(),
+            f"largest error, {name}": known["error"].max(),
+            f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
+            f"largest error at coupling 1, {name}": at_ours.max(),
+            f"least of the largest errors, {name}": known.groupby("coupling")["error"].max().min(),
+            f"largest error over its own C, coupling 1, {name}": table[table["coupling"] == 1.0]["own_error"].max(),
+            f"largest error over its own C, coupling 100, {name}": table[table["coupling"] == 100.0]["own_error"].max(),
+            f"without a motion, {name}": len(missing),
+            f"without a motion, from coupling {WELL:g}, {name}": int((missing >= WELL).sum()),
+            f"called stable, {name}": int(table["predicted"].sum()),
+            f"called stable and unstable, {name}": int((table["predicted"] & ~table["stable"]).sum()),
+            f"called unstable and stable, {name}": int((~table["predicted"] & table["stable"]).sum()),
+        }
+    return summary
+
+
+def _of_weak(table):
+    missing = table[table["error"].isna()]["coupling"]
+    return {
+        "points, case weak": len(table),
+        "without a motion, case weak": len(missing),
+        "without a motion, case weak, from coupling": missing.min(),
+    }
+
+
+def _of_patterns(curves):
+    summary = {}
+    for part in curves:
+        series = part["series"].iloc[0]
+        summary |= {
+            f"{series}: stable from": part["coupling"].min(),
+            f"{series}: stable up to": part["coupling"].max(),
+        }
+    return summary
+
+
+def _of_power(table):
+    summary = {}
+    for force, rows in table.groupby("force"):
+        by = dict(list(rows.groupby("series")))
+        mean, spread = by[ALL]["power"].iloc[0], by[ALL]["spread"].iloc[0]
+        error, linear = spread / STARTS**0.5, by[LINEAR]["power"].iloc[0]
+        summary[f"starts over linear, force {force:g}"] = mean / linear, error / linear
+        summary[f"leaning share, force {force:g}"] = by[ALL]["leaning"].iloc[0]
+        if len(by.get(SYMMETRIC, ())) == 1:
+            only = by[SYMMETRIC]["power"].iloc[0]
+            summary[f"starts over symmetric, force {force:g}"] = mean / only, error / only
+            summary[f"spread over symmetric, force {force:g}"] = spread / only, error / only / 2**0.5
+    return summary
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the table "csv" of `compute`: errors, patterns of lean, power."""
+    table = tables["csv"]
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    grid = figure.subplots(1, 3)
+    heads = "error of leading order", "where both balls lean", "power at the impacts"
+    for axes, letter, words in zip(grid, "abc", heads, strict=True):
+        heading(axes, letter, words)
+    _draw_errors(grid[0], table)
+    _draw_leans(grid[1], table[table["panel"] == "lean"])
+    _draw_power(grid[2], table)
+    return figure
+
+
+def _draw_errors(axes, table):
+    looks = {PROPORTION: ("o", BLACK, 3.2), HELD: ("s", "white", 3.8)}
+    look = {"color": BLACK, "markeredgewidth": 0.7, "linestyle": "none"}
+    for name, (marker, face, size) in looks.items():
+        rows = select(table, "error", name)
+        axes.plot(
+            rows["coupling"], 100 * rows["error"], marker, markerfacecolor=face, markersize=size, label=name, **look
+        )
+        missing = rows[rows["error"].isna()]["coupling"]
+        cross, label = ("+", None) if name == PROPORTION else ("x", "no exact motion")
+        above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
+        axes.plot(missing, np.ones(len(missing)), cross, markersize=5, label=label, **look, **above)
+    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 16))
+    axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
+    axes.set_xlim(-0.15, 150)
+    axes.legend(loc="lower left", fontsize=8)
+
+
+def _draw_leans(axes, table):
+    table = table.reindex(columns=["series", "coupling", "v", "ends"])  # no balls may lean
+    for series, rows in table.groupby("series", sort=False):
+        axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(SAME) else GREY})
+    for end, marker in ENDS.items():
+        rows = table[table["ends"] == end]
+        if len(rows):
+            axes.plot(rows["coupling"], rows["v"], marker=marker, label=end, zorder=3, **_END)
+    beside = {"textcoords": "offset points", "fontsize": 8.5}
+    for name, near, look in (
+        (SAME, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
+        (OPPOSITE, 3.0, {"xytext": (6, -8), "ha": "left", "color": GREY}),
+    ):
+        rows = table[table["series"].str.startswith(name)]
+        if len(rows):
+            place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
+            axes.annotate(name, place[["coupling", "v"]], **beside, **look)
+    axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
+    axes.set(ylabel="inequality of flights, $|v_1|$", ylim=(0, 0.6))
+    if table["ends"].notna().any():
+        axes.legend(loc="upper left", fontsize=8, handlelength=0.8)
+
+
+def _draw_power(axes, table):
+    marks = {
+        SYMMETRIC: {"marker": "o", "markerfacecolor": "white", "markersize": 3.6},
+        LEANING: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.4},
+    }
+    for name, look in marks.items():
+        rows = select(table, "power", name)
+        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=name, **look)
+    rows = select(table, "power", ALL)
+    axes.errorbar(
+        rows["force"], 100 * rows["power"], 100 * rows["spread"], color=GREY, capsize=2, linewidth=1.2, label=ALL
+    )
+    rows = select(table, "power", LINEAR)
+    axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label=LINEAR)
+    axes.set(
+        xlabel=r"force $\hat f_{10} = \hat f_{20}$",
+        ylabel=r"power / $\hat f_{10}^2$, in $10^{-2}$",
+        ylim=(1, 6),
+        xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),
+    )
+    axes.legend(fontsize=8)

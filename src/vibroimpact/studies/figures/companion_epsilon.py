@@ -1,0 +1,158 @@
+"""Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
+
+from contextlib import suppress
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
+from vibroimpact.studies.regimes.epsilon_limit import NoOrbit, compare, first_order, order
+from vibroimpact.tables import curve, join
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
+
+SPEC = {
+    "title": "How the error of the theory falls with epsilon",
+    "caption": r"The largest error of leading-order theory over the fixed points of the three cases, against exact "
+        r"orbits, as :math:`\varepsilon` falls: of amplitudes and phases, also with the term of first order added "
+        "(grey), of the slow flow's rates, and of the fast multipliers. Triangles: slopes 1 and 2.",
+    "alt": "Errors of the theory over epsilon on logarithmic axes: three straight lines of slope 1, for fast "
+        "multipliers, slow rates, and amplitudes and phases; a fourth, grey, falls twice as steeply.",
+    "method": "fixed points and exact symmetric responses at every epsilon",
+    "columns": {
+        "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted slow rate "
+            "or fast multiplier; two terms: distance with the term of first order added to the fixed point",
+            "values": ["distance", "slow", "fast", "two terms"]},
+        "series": {"meaning": "case and label of the fixed point"},
+        "epsilon": {"compared": "algebra"},
+        "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact phases "
+            r"[radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over the slow "
+            r"multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - \mu_0\rvert$ "
+            r"over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless", "compared": "logarithm"},
+    },
+    "tables": {
+        "orders": {
+            "file": "results/regimes/epsilon_orders.csv",
+            "about": r"Orders $p$ of error $\sim \varepsilon^p$ in `companion_epsilon`, fitted to its smallest "
+                r"$\varepsilon$.",
+            "columns": {
+                "case": {}, "label": {"meaning": "label of the fixed point", "unit": "text"},
+                "panel": {"meaning": "the error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
+                    "distance", "slow", "fast", "two terms"]},
+                "order": {"meaning": "the exponent $p$, by least squares on the logarithms", "unit": "dimensionless",
+                    "compared": "exponent"},
+                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless", "compared": "exponent"},
+            },
+        },
+    },
+}  # fmt: skip
+
+TWO_TERMS = "two terms"
+PANELS = ("distance", "slow", "fast")
+LOOKS = {
+    "fast": ("fast multipliers", {"color": BLACK, "marker": "^", "markerfacecolor": "white"}),
+    "slow": ("rates of the slow multipliers", {"color": BLACK, "marker": "s", "markerfacecolor": "white"}),
+    "distance": ("amplitudes and phases", {"color": BLACK, "marker": "o"}),
+    TWO_TERMS: ("the same, first-order term added", {"color": GREY, "marker": "D"}),
+}
+"""Names and looks of the errors that are drawn."""
+SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
+"""Triangles: slope, and how many times the error of a curve they stand above it."""
+_STEP = 2e-4
+
+
+def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
+    """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
+
+    Args:
+        systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
+        fit_below: the orders are fitted where epsilon is below this.
+        mixed: `case` and `label` of a point that is left out, where fast and slow multipliers cannot be told apart.
+
+    Returns "csv": columns panel (one of PANELS, or "two terms": as "distance", the term of first order added to the
+    fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order, uncertainty.
+
+    Raises:
+        ValueError: the case of `mixed` has no fixed point of its label.
+    """
+    epsilon = np.geomspace(*epsilon, values)
+    curves, orders = [], []
+    points = {case: _by_label(system) for case, system in systems.items()}
+    if mixed and mixed["label"] not in (known := points[mixed["case"]]):
+        what = f"the case {mixed['case']!r} has no fixed point {mixed['label']!r}, it has {', '.join(known) or 'none'}"
+        raise ValueError(f"mixed.label: {what}; null leaves the entry out")
+    for case, system in systems.items():
+        for label, point in points[case].items():
+            if {"case": case, "label": label} == mixed:
+                continue
+            found = list(_compared(system, point, epsilon))
+            for panel, errors in zip(
+                [*PANELS, TWO_TERMS], [*_errors(found), _two_terms(system, point, found)], strict=True
+            ):
+                reached = np.array([c.epsilon for c in found])
+                curves.append(curve(panel, f"{case}, {label}", epsilon=reached, error=errors))
+                small = (reached < fit_below) & np.isfinite(errors)
+                if np.count_nonzero(small) > 1:
+                    slope, uncertainty = order(reached[small], errors[small])
+                    named = {"panel": panel, "order": slope, "uncertainty": uncertainty}
+                    orders.append({"case": case, "label": label, **named})
+    nothing = pd.DataFrame(columns=["panel", "series", "epsilon", "error"])
+    columns = ["case", "label", "panel", "order", "uncertainty"]
+    return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
+
+
+def _by_label(system):
+    """The fixed points by their labels, in ascending order."""
+    points = fixed_points(system)
+    return dict(sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]))
+
+
+def _compared(system, point, epsilon):
+    """Comparisons at every epsilon at which there is an orbit."""
+    for value in epsilon:
+        with suppress(NoOrbit):
+            yield compare(system.with_(epsilon=value), point)
+
+
+def _errors(found):
+    distance = np.array([c.distance for c in found])
+    slow = np.array([np.abs(c.rates - c.predicted).max() for c in found])
+    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found])
+    return distance, slow, fast
+
+
+def _two_terms(system, point, found):
+    """Distances with the term of first order added; nan where there is no orbit to take it from."""
+    added = np.full(4, np.nan)
+    with suppress(NoOrbit):
+        added = first_order(system, point, _STEP)
+    return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the table "csv" of `compute`: the largest of each error over all fixed points, a triangle of slope 1."""
+    table = tables["csv"]
+    figure = new_figure(DOUBLE_COLUMN, 92.0)
+    axes = figure.add_subplot()
+    axes.set(xscale="log", yscale="log", xlabel=r"$\varepsilon$", ylabel="largest error over all fixed points")
+    for panel, (name, look) in LOOKS.items():
+        largest = table[table["panel"] == panel].groupby("epsilon")["error"].max().dropna()
+        if len(largest):
+            axes.plot(largest.index, largest, label=name, markersize=3.6, linewidth=0.8, **look)
+            middle = largest.index[len(largest) // 2]
+            beside = {"xytext": (-3, 5), "ha": "right"} if panel != "distance" else {"xytext": (4, -12)}
+            axes.annotate(name, (middle, largest[middle]), textcoords="offset points", **beside)
+            if panel in SLOPES:
+                _slope(axes, largest.index[-1], largest.iloc[-1], *SLOPES[panel])
+    axes.margins(y=0.12)
+    return figure
+
+
+def _slope(axes, epsilon, error, slope, times):
+    """A triangle of a slope, beside a curve that ends here, as plots of convergence have it."""
+    x = epsilon * np.array([0.05, 0.5])
+    y = error * times * (x / epsilon) ** slope
+    axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))
+    axes.annotate(f"slope {slope}", (x[1], np.sqrt(y.prod())), (4, 0), textcoords="offset points", va="center")

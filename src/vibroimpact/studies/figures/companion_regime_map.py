@@ -1,0 +1,208 @@
+"""Companion: which regime starts end in over both forcing amplitudes, with the theory's borders drawn over it."""
+
+from functools import cache
+from textwrap import fill
+
+import numpy as np
+import pandas as pd
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+from scipy import ndimage
+
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS, key, paint
+from vibroimpact.studies.regimes.classification import REGIMES, UNSETTLED
+from vibroimpact.studies.sweeps.observations import FROM_REST, fixed_point_counts
+
+SPEC = {
+    "title": "Map of regimes over both forcing amplitudes",
+    "caption": "Over the plane of both forcing amplitudes the regime that most of several starts end in, with a stroke "
+        "where others coexist. Started from rest, which is not counted, a ball may stay idle. Line: where the theory's "
+        "number of stable fixed points changes; crosses: the cases.",
+    "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
+        "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
+        "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
+        "stable fixed point; chaos has an island below.",
+    "method": "the points of a sweep, with the cases; borders of the theory by bisection",
+    "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
+        "observe": ["regimes", "fixed_points"]}},
+    "columns": {
+        "label": {"meaning": "regime that the start from rest ends in", "unit": "text", "compared": "cells of a map"},
+        "f10_hat, f20_hat": {"compared": "algebra"},
+        "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text",
+            "compared": "cells of a map"},
+        "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
+            "compared": "cells of a map"},
+        "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball idle, "
+        "no impacts, unsettled": {"compared": "cells of a map"},
+        "fixed_points, stable_points": {"compared": "counts of a map"},
+    },
+    "tables": {
+        "cases": {
+            "file": "results/figures/companion_regime_map.cases.csv",
+            "about": "The cases of the config in the plane of `companion_regime_map`.",
+            "columns": {"case": {}, "f10_hat, f20_hat": {"compared": "algebra"}},
+        },
+        "borders": {
+            "file": "results/figures/companion_regime_map.borders.csv",
+            "about": "Lines in the plane of `companion_regime_map` on which the theory's counts change, in straight "
+                "pieces.",
+            "columns": {
+                "series": {"meaning": "the count that changes", "values": ["fixed points", "stable points"]},
+                "piece": {"meaning": "number of the piece of the line, from 1 on, whose two ends are two rows",
+                    "unit": "number", "compared": "algebra"},
+                "f10_hat, f20_hat": {"compared": "roots"},
+            },
+        },
+    },
+}  # fmt: skip
+
+BORDERS = ("fixed points", STABLE_POINTS := "stable points")
+HALVINGS = 4
+"""Halvings between two cells with different counts: the border is found to 1/32 of their distance."""
+TOGETHER = "coexisting"
+NAMED_FROM = 20
+"""A patch of so many cells or more bears the name of its regime; the key has the regimes without one."""
+_BORDER = {"color": BLACK, "linewidth": 1.4}
+_CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
+_STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
+TICKS = 4
+"""At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
+
+
+def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
+    """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
+
+    Args:
+        system: of the sweep. systems: case -> system; those that differ from it in the forcing amplitudes alone are
+            marked.
+        starts: of each point, the first of them rest.
+
+    Returns "csv", a row per cell: columns label (regime from rest), f10_hat, f20_hat, the regime that most starts other
+    than rest end in, and how many regimes they do, the share of each regime, fixed_points, stable_points; "cases":
+    case, f10_hat, f20_hat; "borders" of the theory's counts: series, piece, f10_hat, f20_hat.
+    """
+    cells = table.rename(columns={FROM_REST: "label"})
+    cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
+    forces = {case: {"f10_hat": one.f10_hat, "f20_hat": one.f20_hat} for case, one in systems.items()}
+    marks = [{"case": case, **at} for case, at in forces.items() if systems[case] == system.with_(**at)]
+    pieces = [(series, *piece) for series in BORDERS for piece in _border(system, cells, series)]
+    return {
+        "csv": cells[["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]],
+        "cases": pd.DataFrame(marks, columns=["case", "f10_hat", "f20_hat"]),
+        "borders": pd.DataFrame(pieces, columns=["series", "piece", "f10_hat", "f20_hat"]),
+    }
+
+
+def _dominant(cells, starts):
+    """Return, for each cell, the regime of most starts other than rest, and the number of regimes they settle in."""
+    counts = cells[[*REGIMES]].to_numpy(float) * starts
+    if starts > 1:
+        counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
+    counts = np.where(np.isnan(counts), -1.0, counts.round())
+    names = np.where(counts.max(axis=1) >= 0, np.array(REGIMES)[counts.argmax(axis=1)], None)
+    settled = [number for number, name in enumerate(REGIMES) if name != UNSETTLED]
+    return names, np.where(counts.max(axis=1) >= 0, (counts[:, settled] > 0).sum(axis=1), np.nan)
+
+
+def _border(system, cells, series):
+    """Yield number, f10_hat and f20_hat of both ends of each piece of the lines where a count of the theory changes.
+
+    Their ends are found by halving.
+    """
+    which, square = list(BORDERS).index(series), _square(cells, series.replace(" ", "_"))
+
+    @cache
+    def count(f10, f20):
+        return fixed_point_counts(system.with_(f10_hat=f10, f20_hat=f20))[which]
+
+    @cache
+    def crossing(first, second):
+        (a, start), (b, _) = first, second
+        low, high = np.array(a), np.array(b)
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if count(*middle) == start else (low, middle)
+        return tuple((low + high) / 2)
+
+    pieces = (piece for corners in _squares(cells, square) for piece in _pieces(corners, crossing))
+    for number, ends in enumerate(pieces, start=1):
+        yield from ((number, *end) for end in ends)
+
+
+def _squares(cells, square):
+    """Return the centres of every four neighbouring cells, in order round the square, each with its count; gaps left
+    out.
+    """
+    x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
+    for i, j in np.ndindex(len(y) - 1, len(x) - 1):
+        around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+        if not np.isnan([square[place] for place in around]).any():
+            yield [((float(x[n]), float(y[m])), square[m, n]) for m, n in around]
+
+
+def _pieces(corners, crossing):
+    """The border within a square: from side to side, or from each side to the middle where three or four parts meet."""
+    sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
+    ends = [crossing(first, second) for first, second in sides]
+    if len(ends) == 2:
+        return [ends]
+    middle = tuple(np.mean(ends, axis=0)) if ends else None
+    return [[end, middle] for end in ends]
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: a colour for each regime, a stroke where several coexist; the theory's border."""
+    cells, cases, borders = (tables[name] for name in ("csv", "cases", "borders"))
+    regimes = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
+    figure = new_figure(SINGLE_COLUMN, 103.0)
+    axes = figure.add_subplot()
+    occurring = paint(axes, regimes)
+    together = cells[cells[TOGETHER] > 1]
+    axes.plot(together["f10_hat"], together["f20_hat"], **_STROKES)
+    pieces = borders[borders["series"] == STABLE_POINTS][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
+    axes.add_collection(LineCollection(pieces, **_BORDER))
+    axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
+    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
+    for case, *place in cases.itertuples(index=False):
+        axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", bbox=paper)
+    unnamed = [name for name in occurring if not _name(axes, regimes, name)]
+    f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
+    axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(TICKS))
+    heading(axes, words="where most starts end")
+    handles = {"others coexist": Line2D([], [], **_STROKES), "theory's border": Line2D([], [], **_BORDER)}
+    handles |= {fill(name, 26): handle for name, handle in key(unnamed).items()}
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
+    return figure
+
+
+def _name(axes, regimes, name):
+    """Write the name of a regime on its largest patch, where this is widest; return True if it is large enough."""
+    patches, _ = ndimage.label(regimes.eq(name))
+    sizes = np.bincount(patches.ravel())[1:]
+    if not len(sizes) or sizes.max() < NAMED_FROM:
+        return False
+    depth = ndimage.distance_transform_edt(np.pad(patches == sizes.argmax() + 1, 1))
+    i, j = np.unravel_index(depth.argmax(), depth.shape)
+    dark = np.dot(to_rgb(COLOURS[name]), (0.3, 0.59, 0.11)) < 0.5
+    place = regimes.columns[j - 1], regimes.index[i - 1]
+    behind = {"facecolor": COLOURS[name], "edgecolor": "none", "pad": 1.0}  # of the lines that cross it
+    axes.text(*place, name, ha="center", va="center", color="white" if dark else BLACK, bbox=behind)
+    return True
+
+
+def _ends(centres):
+    """Outer edges of a row of cells, free of the rounding that decides whether a tick at the end is seen."""
+    half = 0.5 * (centres[1] - centres[0])
+    return np.round([centres[0] - half, centres[-1] + half], 12)
+
+
+def _square(cells, column):
+    """Values on the grid, f20_hat along the first axis."""
+    return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)

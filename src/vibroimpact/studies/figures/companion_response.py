@@ -1,0 +1,258 @@
+"""Companion: how far the boxes move with balls, over the frequency of the forcing and over its amplitude.
+
+All is per force: |X_i| / f of the box that moves more, f the larger force.
+"""
+
+from functools import lru_cache
+from string import ascii_lowercase
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LIGHT_GREY,
+    heading,
+    new_figure,
+    side_by_side,
+    styled,
+)
+from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.studies.figures.sweep import SYMBOLS
+from vibroimpact.studies.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
+from vibroimpact.studies.regimes.one_to_one import by_exact_orbits, by_theory
+from vibroimpact.studies.sweeps.grid import axis
+
+SPEC = {
+    "title": "How far the boxes move with balls",
+    "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, :math:`f` the larger "
+        r"of the forces :math:`\varepsilon\hat f_{i0}`. a to c: over the frequency, forces on both boxes and on one; "
+        "d: over the force. Dots: balls, the largest of three starts, filled where most of them repeat; grey: between "
+        "5 % and 95 % of the cycles; lines: linear systems in closed form, named in d.",
+    "alt": "Four panels. a to c: response over the detuning; a high resonance peak without balls, dots and a grey band "
+        "of the balls below it near resonance and above it beside it, a flat line of the best absorbers below nearly "
+        "all dots. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
+        "slowly.",
+    "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
+    "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
+        "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
+    "columns": {
+        "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency", "force"]},
+        "label": {"meaning": "the `regime` that most starts end in", "unit": "text", "compared": "few outcomes"},
+        "f10_hat, f20_hat": {"compared": "algebra"},
+        "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
+        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of all starts",
+            "unit": "dimensionless", "compared": "extremes"},
+        "low, high": {"meaning": "amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of the cycles",
+            "unit": "dimensionless", "compared": "extremes"},
+        "impact_share": {"compared": "extremes"},
+    },
+    "tables": {
+        "linear": {
+            "file": "results/figures/companion_response.linear.csv",
+            "about": "The linear systems beside the balls of `companion_response`.",
+            "columns": {
+                "panel": {"meaning": "over the frequency, or over the force", "values": ["frequency", "force"]},
+                "series": {"meaning": "the linear system", "values": ["without balls", "balls fixed",
+                    "absorbers of the textbook", "best absorbers"]},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"$\lvert X_i\rvert/f$ of the box that moves more", "unit": "dimensionless",
+                    "compared": {"best absorbers": "trajectory", "others": "algebra"}},
+            },
+        },
+        "one_to_one": {
+            "file": "results/figures/companion_response.one_to_one.csv",
+            "about": "The symmetric 1:1 responses where the sweeps of `companion_response` have been.",
+            "columns": {
+                "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency",
+                    "force"]},
+                "series": {"meaning": "by the theory, or exact", "values": ["theory", "symmetric orbits"]},
+                "f10_hat, f20_hat": {"compared": "algebra"},
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
+                    "compared": "algebra"},
+                "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more",
+                    "unit": "dimensionless", "compared": "roots"},
+                "impact_share": {"compared": "roots"},
+                "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
+                    "analysis and the slow flow say so", "unit": "true or false"},
+            },
+        },
+        "shares": {
+            "file": "results/impact_shares.csv",
+            "about": "What impacts take of the work of the forces, over the frequencies of `companion_response`.",
+            "columns": {
+                "source": {"meaning": "balls, as simulated, or the symmetric 1:1 responses by the theory or exact, "
+                    "stable or not", "unit": "text", "values": ["balls", "theory", "symmetric orbits"]},
+                "f10_hat, f20_hat": {},
+                "points": {"meaning": "how many frequencies, or responses at all of them, there are", "unit": "number"},
+                "least, middle, greatest": {"meaning": "the least share, the median, and the greatest", "unit": "share"
+                    },
+            },
+        },
+    },
+}  # fmt: skip
+
+FORCES = ["f10_hat", "f20_hat"]
+PLACE = [*FORCES, "sigma_e_hat"]
+OF_BALLS = ["label", *PLACE, "ratio", "low", "high", "impact_share"]
+ONE_TO_ONE = {"theory": by_theory, "symmetric orbits": by_exact_orbits}
+LINES = {
+    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
+    "best absorbers": {"color": BLACK, "linestyle": "-", "linewidth": 0.9},
+}
+"""The linear systems that are drawn."""
+_DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
+DOTS = {"balls, largest, repeating": _DOTS, "balls, largest, modulated": {**_DOTS, "markerfacecolor": "white"}}
+BAND = "balls, 90 % of the cycles"
+LEAST, MOST = 0.8, 1.3
+"""Lower end of the axis of displacement per force, and margin above the highest line."""
+LINE_POINTS = 451
+
+
+def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
+    """Return results of the sweeps with balls, per force, beside theory, exact orbits, and linear systems.
+
+    Args:
+        system: whose other parameters the sweeps keep.
+        frequency: table of a sweep over sigma_e_hat, then both forces; force: over both forces, which are equal. Of
+            regimes, amplitudes, envelopes and energy.
+        band: arguments of `sweeps.grid.axis`, along sigma_e_hat, over which the best absorbers are tuned.
+
+    Returns "csv", the balls: columns panel ("frequency" or "force"), label (the regime of most starts), f10_hat,
+    f20_hat, sigma_e_hat, ratio (X / f), low and high (its envelope), impact_share. "linear", the linear systems: panel,
+    series, the place, ratio. "one_to_one", symmetric responses: panel, series, the place, ratio, impact_share, stable.
+    "shares": what impacts take of the work over the frequency, columns source, f10_hat, f20_hat, points, least, middle,
+    greatest.
+    """
+    sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
+    balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])
+    linear = [
+        _linear(system, "frequency", pair, np.linspace(*rows["sigma_e_hat"].agg(["min", "max"]), LINE_POINTS), band)
+        for pair, rows in frequency.groupby(FORCES, sort=False)
+    ]
+    for pair in force[FORCES].iloc[[0, -1]].itertuples(index=False, name=None):
+        linear.append(_linear(system, "force", pair, np.array([system.sigma_e_hat]), band))
+    one_to_one = pd.concat(
+        _one_to_one(system, name, series, table) for name, table in sweeps.items() for series in ONE_TO_ONE
+    )
+    return {
+        "csv": balls[["panel", *OF_BALLS]],
+        "linear": pd.concat(linear).sort_values(["panel", "series"], kind="stable"),
+        "one_to_one": one_to_one,
+        "shares": _shares(balls, one_to_one),
+    }
+
+
+def _linear(system, panel, pair, detunings, band):
+    """Rows of all linear systems at a pair of forces."""
+    place = {"panel": panel, **dict(zip(FORCES, pair, strict=True)), "sigma_e_hat": detunings}
+    rows = [
+        pd.DataFrame({**place, "series": name, "ratio": ratios(system, one, detunings)})
+        for name, one in linear_systems(system, pair, band).items()
+    ]
+    return pd.concat(rows)[["panel", "series", *PLACE, "ratio"]]
+
+
+def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
+    """The table of a sweep of amplitudes, envelopes and regimes with ratio, low and high, over f, and label."""
+    force = system.epsilon * table[FORCES].max(axis=1)
+    boxes = table[["high_X1", "high_X2"]].to_numpy().argmax(axis=1)
+    low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
+    largest = table[["largest_X1", "largest_X2"]].max(axis=1)
+    return table.assign(
+        ratio=largest / force, low=low / force, high=high / force, label=table[list(REGIMES)].idxmax(axis=1)
+    )
+
+
+def linear_systems(system, pair, band: dict) -> dict:
+    """Return the linear systems for comparison, by name, at forces in this proportion, the larger of them 1."""
+    f10, f20 = (float(value / max(pair)) for value in pair)
+    return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
+
+
+_compared = lru_cache(compared)  # tuned once for all forces in a proportion
+
+
+def frequencies(system, band: dict) -> tuple[float, float]:
+    """The ends of a band of detunings, as frequencies."""
+    values = axis(**band).values
+    return tuple(1.0 + system.epsilon * float(np.ravel(end)[0]) for end in (values[0], values[-1]))
+
+
+def ratios(system, linear, detunings):
+    """The larger |X_i| / f of a linear system whose larger force is 1."""
+    return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
+
+
+def _one_to_one(system, panel, series, table):
+    """All 1:1 responses where the sweep has been."""
+    rows = []
+    for place in table[PLACE].to_dict("records"):
+        force = system.epsilon * max(place[name] for name in FORCES)
+        for found in ONE_TO_ONE[series](system.with_(**place)):
+            measures = {"ratio": found.largest.max() / force, "impact_share": found.impact_share}
+            rows.append({"panel": panel, "series": series, **place, **measures, "stable": found.stable})
+    return pd.DataFrame(rows, columns=["panel", "series", *PLACE, "ratio", "impact_share", "stable"])
+
+
+def _shares(balls, one_to_one):
+    """Shares of the impacts over the frequency: least, median and greatest by source and forces."""
+    known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
+    shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
+    found = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
+    return found.rename(columns={"series": "source"})
+
+
+@styled
+def draw(tables: dict) -> Figure:
+    """Draw the tables of `compute`: a panel for each pair of forces over the frequency, and one over the force."""
+    balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
+    pairs = list(balls["frequency"].groupby(FORCES, sort=False))
+    columns, rows = side_by_side(len(pairs) + 1, most=2)
+    figure = new_figure(DOUBLE_COLUMN, 72.0 * rows + 10.0)
+    panels = [*figure.subplots(rows, columns, squeeze=False, sharey=True).flat]
+    for axes, letter, (pair, mine) in zip(panels, ascii_lowercase, pairs, strict=False):
+        lines = linear["frequency"]
+        _draw_panel(axes, mine, lines[(lines[FORCES].to_numpy() == pair).all(axis=1)], "sigma_e_hat")
+        heading(axes, letter, f"forces {pair[0]:g} and {pair[1]:g}")
+        axes.set_xlabel(SYMBOLS["sigma_e_hat"])
+    last = panels[len(pairs)]
+    _draw_panel(last, balls["force"], linear["force"], "f10_hat")
+    heading(last, ascii_lowercase[len(pairs)], f"detuning {balls['force']['sigma_e_hat'].iloc[0]:g}")
+    logarithmic(last, "x")
+    last.set_xlabel(r"$\hat f_{10} = \hat f_{20}$")
+    for axes in panels[len(pairs) + 1 :]:
+        axes.set_axis_off()
+    without = tables["linear"].query("series == 'without balls'")["ratio"].max()
+    logarithmic(last, "y", LEAST, MOST * without)
+    for axes in panels[: len(pairs) + 1 : columns]:
+        axes.set_ylabel("largest $|X_i|\\,/\\,f$")
+    figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
+    return figure
+
+
+def _draw_panel(axes, balls, linear, x):
+    axes.fill_between(balls[x], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
+    for name, look in LINES.items():
+        line = linear[linear["series"] == name]
+        axes.plot(line[x], line["ratio"], label=name, **look)
+    repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
+    for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
+        axes.plot(balls[x][shown], balls["ratio"][shown], label=name, **look)
+
+
+def logarithmic(axes, side: str, *ends: float) -> None:
+    """A logarithmic axis whose ends, if given, do not depend on what was simulated."""
+    axes.set(**{f"{side}scale": "log"})
+    axis = getattr(axes, f"{side}axis")
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+    if ends:
+        axes.set(**{f"{side}lim": ends})

@@ -1,0 +1,61 @@
+"""Companion on stability: what four criteria say of every fixed point of each case."""
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.accuracy.verdict_table import FORMER
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.frames import with_former_names
+from vibroimpact.system.verdict import STABLE, UNSTABLE
+
+SPEC = {
+    "title": "Four criteria side by side",
+    "caption": "What four criteria say of the fixed points of all cases: (10.26) as printed, Masri's analysis as "
+        "derived, the slow flow, and the multipliers of the exact orbit that continues the point. Filled: stable; "
+        "hollow: unstable.",
+    "alt": "A matrix of dots: a row per fixed point, a column per criterion, filled where the criterion says stable. "
+        "The last column, that of the exact orbits, is hollow throughout.",
+    "method": "verdicts as computed",
+    "columns": {
+        "panel": {"meaning": "the case"}, "label": {"meaning": "label of the fixed point", "unit": "text"},
+        "C1, C2": {"compared": "roots"}, "printed_10_26, fast, slow, exact, masri_derived, slow_flow, floquet": {},
+    },
+}  # fmt: skip
+
+CRITERIA = {
+    "printed_10_26": "(10.26)",
+    "fast": "impacts,\nas derived",
+    "slow": "slow flow",
+    "exact": "exact\norbit",
+}
+"""The columns of the published table, and what the figure calls them."""
+FACES = {STABLE: BLACK, UNSTABLE: "white"}
+ROW, HEAD = 6.0, 22.0
+"""Heights in mm."""
+
+
+def compute(points: pd.DataFrame) -> pd.DataFrame:
+    """The verdicts on all fixed points: columns panel (the case), label, C1, C2, one per criterion, former names last.
+
+    points: columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
+    """
+    table = points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
+    return with_former_names(table, FORMER)
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: a row of dots per fixed point, filled where a criterion says stable."""
+    figure = new_figure(SINGLE_COLUMN, HEAD + ROW * max(len(table), 1))
+    axes = figure.add_subplot()
+    for x, criterion in enumerate(CRITERIA):
+        for y, verdict in enumerate(table[criterion]):
+            axes.plot(x, y, "o", color=BLACK, markersize=7, markerfacecolor=FACES.get(verdict, GREY))
+    axes.set_yticks(
+        range(len(table)), [f"{case} ({label})" for case, label in zip(table["panel"], table["label"], strict=True)]
+    )
+    axes.set_xticks(range(len(CRITERIA)), CRITERIA.values())
+    axes.tick_params(length=0, labeltop=True, labelbottom=False, labelsize=9)
+    axes.set(xlim=(-0.5, len(CRITERIA) - 0.5), ylim=(max(len(table), 1) - 0.5, -0.5))
+    figure.suptitle("filled: stable, hollow: unstable", fontsize=9)
+    return figure

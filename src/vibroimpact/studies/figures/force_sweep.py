@@ -1,0 +1,144 @@
+"""Fixed points along the manifold as the forcing of the second module changes."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import linear_sum_assignment
+
+from vibroimpact.accuracy.verdict_table import NO_ORBIT
+from vibroimpact.exact.orbits.floquet import floquet
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.figures.plotting.manifold import branches
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.studies.claims.verdict_grid import exact_orbits
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
+from vibroimpact.studies.regimes.classification import ASYMMETRIC
+from vibroimpact.studies.regimes.followed import followed
+from vibroimpact.system.verdict import STABLE
+from vibroimpact.tables import join
+from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
+
+SPEC = {
+    "title": "Fixed points over the second force",
+    "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`, with the letters that the "
+        "chapter would give them. Broad: exact asymmetric orbits, which belong to no fixed point, darker where they "
+        "are stable.",
+    "alt": "Two panels with C1 and C2 of every fixed point over f20, one line per point, filled markers where both "
+        "time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad dots "
+        "for the asymmetric orbits.",
+    "method": "fixed points and exact orbits at every value of the force",
+    "file": "results/force_sweep/force_sweep.csv",
+    "on_demand": "make report",
+    "columns": {
+        "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
+        "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value grows",
+            "unit": "number"},
+        "C1, B1, C2, B2": {},
+        "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
+        "printed_10_26, fast, slow, theory, exact, masri_derived, slow_flow, floquet": {},
+        "fast_and_slow": {"meaning": "former name of `theory`, until the next release", "unit": "text"},
+    },
+}  # fmt: skip
+
+LINES = [(BLACK, "-"), (BLACK, (0, (4.5, 1.5))), (GREY, "-"), (GREY, (0, (4.5, 1.5)))]
+"""Colour and line of each track."""
+MARKS = {
+    "theory: stable on both time scales": {"markerfacecolor": BLACK, "markersize": 3.6},
+    "theory: not": {"markerfacecolor": "white", "markersize": 3.6},
+    "exact orbit: stable": {"markerfacecolor": "none", "markersize": 7.0},
+}
+PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
+NAMED_FROM = 5
+"""Letters stand in the middle of so many values, or more, at which they stay the same."""
+EVERY = 6
+"""Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
+PAIR = 0
+"""Track of the asymmetric orbits, which belong to no fixed point."""
+VERDICTS = (*CRITERIA, EXACT)
+
+
+def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
+    """All fixed points at each value of a parameter, followed from value to value, and the manifold.
+
+    Args:
+        systems: value of the parameter (ascending) -> system; kappa is the same in all of them.
+        C_max: the manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
+
+    Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
+    C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
+    both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "orbits": a
+    row per multiplier of each exact orbit, columns value, track (that of its fixed point; PAIR of the stable asymmetric
+    orbits and what becomes of them), C1, C2, exact, real, imag; "manifold": columns series, C, B as in figure 10.4.
+    """
+    rows, last, tracks = [], np.empty((0, 2)), 0
+    names, multipliers = [], []
+    for value, system in systems.items():
+        points = fixed_points(system)
+        now = np.array([point.C for point in points]).reshape(-1, 2)
+        names, tracks = _continued(names, last, now, tracks)
+        last = now
+        exact = exact_orbits(system, now, symmetric_solutions(system)) if points else ()
+        for track, point, label, orbit in zip(names, points, labels(system, points), exact, strict=True):
+            says = of_fixed_point(system, point)
+            row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
+            row |= {"B2": point.B[1], "label": label, **says}
+            rows.append(row | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
+            multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
+    for value, orbit in followed(systems):
+        multipliers += _multipliers(value, PAIR, orbit)
+    points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
+    end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
+    kappa = next(iter(systems.values())).kappa
+    orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", EXACT, "real", "imag"])
+    return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
+
+
+def _multipliers(value, track, orbit):
+    place = value, track, *orbit.C, floquet(orbit)
+    return [(*place, multiplier.real, multiplier.imag) for multiplier in orbit.multipliers]
+
+
+def _continued(names, last, now, tracks):
+    """The track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
+    gaps = np.linalg.norm(last[:, None] - now[None], axis=2)
+    found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
+    fresh = [new for new in range(len(now)) if new not in found]
+    found |= {new: tracks + number for number, new in enumerate(fresh, start=1)}
+    return [found[new] for new in range(len(now))], tracks + len(fresh)
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """Draw C_1 and C_2 of each track over the second force, and the exact asymmetric orbits."""
+    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    points, orbits = tables["points"], tables["orbits"]
+    pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
+    for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
+        stable = pair[EXACT] == STABLE
+        for (name, colour), shown in zip(PAIRS.items(), (stable, ~stable), strict=True):
+            dots = {"linestyle": "none", "marker": "o", "markersize": 3.5, "color": colour, "label": name}
+            axes.plot(pair["value"][shown], pair[f"C{module}"][shown], **dots)
+        for track, rows in points.groupby("track"):
+            _draw_track(axes, rows, f"C{module}", *LINES[(track - 1) % len(LINES)])
+        axes.set(xlabel=r"$\hat f_{20}$", ylabel=f"$C_{module}$")
+        if len(points):
+            axes.set_xlim(points["value"].min(), points["value"].max())
+        heading(axes, letter, f"module {module}")
+    handles = dict(zip(*reversed(figure.axes[0].get_legend_handles_labels()), strict=True))
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=3, fontsize=9)
+    return figure
+
+
+def _draw_track(axes, rows, C, colour, line):
+    axes.plot(rows["value"], rows[C], color=colour, linestyle=line)
+    for _, same in rows.groupby((rows["label"] != rows["label"].shift()).cumsum()):
+        if len(same) >= NAMED_FROM:
+            middle = same.iloc[len(same) // 2]
+            axes.annotate(middle["label"], middle[["value", C]], (0, 5), textcoords="offset points", ha="center")
+    marked = rows.iloc[::EVERY]
+    theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
+    for (name, style), shown in zip(MARKS.items(), (theory, ~theory, exact), strict=True):
+        if shown.any():
+            dots = {"linestyle": "none", "marker": "o", "color": BLACK, "label": name}
+            axes.plot(marked["value"][shown], marked[C][shown], **dots, **style)

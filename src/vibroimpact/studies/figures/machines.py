@@ -1,0 +1,202 @@
+"""Machines in kilograms, newtons and metres: how far they swing over the frequency, and how a box and its ball move."""
+
+from itertools import cycle
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.system import PhysicalSystem
+
+SPEC = {
+    "title": "Machines in kilograms, newtons and metres",
+    "caption": "Two machines on springs, in SI units. a: the largest displacement of the box that swings more over the "
+        "frequency, from rest, without balls, with balls at several clearances :math:`L`, and with the best linear "
+        "absorbers of the mass of the balls. b: box 1 and its ball over the time, from rest.",
+    "alt": "Two panels. a: largest displacement in millimetres over frequency in hertz: a tall resonance without "
+        "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: box "
+        "1 swings up from rest until its wall strikes the ball, which then flies from wall to wall; dots mark the "
+        "impacts.",
+    "own": {
+        "title": "Machines in kilograms, newtons and metres",
+        "caption": "Two machines on springs, in SI units. a: the largest displacement over the frequency, from rest, "
+            "of linear systems and with balls at several clearances :math:`L`. b: box 1 and its ball over the time, "
+            "from rest.",
+        "alt": "Two panels: the largest displacement in millimetres over the frequency in hertz, a line for each "
+            "linear system and each clearance; and the displacements of box 1 and of its ball over the time, with dots "
+            "at impacts.",
+    },
+    "equations": [r"\tau = \omega_{10} t, \quad \omega_{10}^2 = k_1/M, \quad X_i = x_i/L, \quad \varepsilon = m/M, "
+        r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
+    "method": "direct integration of (10.1) from rest; linear systems in closed form",
+    "columns": {
+        "series": {"meaning": "the linear systems, and each clearance", "unit": "text"},
+        "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz", "compared": "algebra"},
+        "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
+            "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
+    },
+    "tables": {
+        "motion": {
+            "file": "results/figures/machines.motion.csv",
+            "about": "Box 1 of `machines` and its ball from rest.",
+            "columns": {
+                "L": {"meaning": "clearance $L$", "unit": "metres", "compared": "algebra"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
+                    "compared": "algebra"},
+                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+                "box, ball": {"meaning": "displacement $x_1$ or $y_1$", "unit": "millimetres",
+                    "compared": "trajectory"},
+                "at_wall": {"meaning": "the ball meets a wall then", "unit": "true or false"},
+            },
+        },
+        "summary": {
+            "file": "results/figures/machines.summary.csv",
+            "about": "The machines at each clearance, at the frequency at which the boxes swing most.",
+            "columns": {
+                "L": {"meaning": "clearance $L$", "unit": "metres"},
+                "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz"},
+                "power": {"meaning": "mean power of the forces", "unit": "watts"},
+                "share": {"meaning": "what impacts take of it", "unit": "share"},
+                "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres"},
+                "force": {"meaning": "$F_{10}$ that the clearance suits as the best of them suits the force of the "
+                    "machines", "unit": "newtons"},
+            },
+        },
+    },
+}  # fmt: skip
+
+MM = 1000.0
+"""Millimetres in a metre."""
+LINES = {
+    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
+    "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
+}
+MARKERS = "o^sDvP"
+BOX, BALL = {"color": GREY, "linewidth": 1.6}, {"color": BLACK, "linewidth": 0.7}
+WALLS = {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4}
+FINE, PER_CYCLE = 301, 30
+
+
+def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
+    """Largest displacements of the boxes from rest, at clearances and of linear systems, and a motion in time.
+
+    Args:
+        plant: arguments of PhysicalSystem but for L, omega1 and omega2, in SI units.
+        clearances: L [m]. frequencies: range [Hz] and number of values.
+        cycles, settle: forcing periods that are simulated, and of these left out.
+        shown: clearance L [m], frequency [Hz] and cycles of the motion.
+
+    Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
+    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets one); "summary": at
+    each clearance L [m] the worst frequency [Hz], there swing [mm], power [W], the share of it that impacts take, and
+    the force F10 [N] that it suits as the best suits that of the plant: a clearance counts over the force alone.
+    """
+    hertz = np.linspace(*frequencies["range"], frequencies["values"])
+    curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
+    rows = []
+    for L in clearances:
+        machines = [_machines(plant, L, one) for one in hertz]
+        runs = ensemble([one.dimensionless() for one in machines], np.zeros(8), cycles, settle=settle, energy=True)
+        swing = MM * L * runs["largest"].max(axis=1)
+        curves.append(pd.DataFrame({"series": f"L = {MM * L:g} mm", "frequency": hertz, "swing": swing}))
+        worst = int(swing.argmax())
+        rows.append(_at_worst(machines[worst], runs["energy"][worst], cycles - settle) | {"swing": swing[worst]})
+    summary = pd.DataFrame(rows)
+    summary.insert(0, "L", clearances)
+    summary["force"] = plant["F10"] * summary["L"] / summary["L"][summary["swing"].idxmin()]
+    place = {name: shown[name] for name in ("L", "frequency")}
+    motion = _motion(_machines(plant, *place.values()), shown["cycles"])
+    return {"csv": pd.concat(curves), "motion": pd.DataFrame({**place, **motion}), "summary": summary}
+
+
+def _machines(plant, L, hertz):
+    return PhysicalSystem(**plant, L=L, omega1=2 * np.pi * hertz, omega2=2 * np.pi * hertz)
+
+
+def _linear(machine, band):
+    """Curves of the linear systems over the band [Hz]; what is dimensionless does not depend on L but for the unit."""
+    unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
+    linear = compared(machine.dimensionless(), tuple(band / unit))
+    for name in LINES:
+        swing = MM * machine.L * linear[name].amplitudes(fine / unit).max(axis=1)
+        yield pd.DataFrame({"series": name, "frequency": fine, "swing": swing})
+
+
+def _at_worst(machine, energy, cycles):
+    """Frequency [Hz], the power of the forces [W] and the share of it that impacts take."""
+    joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
+    work, impacts = energy["work"].sum(), energy["impacts"].sum()
+    return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
+
+
+def _motion(machine, cycles):
+    """Columns of the motion of box 1 and its ball from rest."""
+    system = machine.dimensionless()
+    tau = np.arange(cycles * PER_CYCLE) / PER_CYCLE * system.period
+    run = simulate(system, np.zeros(8), cycles, sample_times=tau)
+    hits = run.events[run.events["module"] == 1]
+    times, places = np.concatenate([tau, hits["tau"]]), np.concatenate([run.samples, hits["state"]])
+    order = np.argsort(times, kind="stable")
+    box, ball = MM * machine.L * places[order, :2].T
+    return {"time": times[order] / machine.omega10, "box": box, "ball": ball, "at_wall": order >= len(tau)}
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """Draw the tables of `compute`: swings over the frequency, a motion over the time."""
+    swings, shown = dict(iter(tables["csv"].groupby("series", sort=False))), tables["motion"]
+    figure = new_figure(DOUBLE_COLUMN, 66.0)
+    response, motion = figure.subplots(1, 2)
+    for name, look in LINES.items():
+        response.plot(swings[name]["frequency"], swings[name]["swing"], **look)
+    with_balls = {name: line for name, line in swings.items() if name not in LINES}
+    for line, marker in zip(with_balls.values(), cycle(MARKERS)):
+        look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
+        response.plot(line["frequency"], line["swing"], markevery=max(1, len(line) // 16), **look)
+    response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm")
+    response.set_ylim(0.0, 1.08 * tables["csv"]["swing"].max())
+    _name_linear(response, *(swings[name] for name in LINES))
+    _name_peaks(response, with_balls)
+    motion.plot(shown["time"], shown["box"], label="box 1", **BOX)
+    motion.plot(shown["time"], shown["ball"], label="its ball", **BALL)
+    walls = shown[shown["at_wall"]]
+    motion.plot(walls["time"], walls["ball"], label="ball at a wall", **WALLS)
+    motion.set(xlabel="time, s", ylabel="displacement, mm")
+    L, hertz = shown[["L", "frequency"]].iloc[0]
+    best = min(with_balls, key=lambda name: with_balls[name]["swing"].max())
+    heading(response, "a", f"lowest peak with balls: {_clearance(best)}")
+    heading(motion, "b", f"motion at $L = {MM * L:g}$ mm, {hertz:g} Hz")
+    motion.legend(loc="lower left", fontsize=9)
+    return figure
+
+
+def _name_linear(axes, without, best):
+    """Name the linear systems: the first on its falling flank, the second below the middle of its line."""
+    high = without[without["swing"] >= 0.75 * without["swing"].max()]
+    beside = {"textcoords": "offset points"}
+    axes.annotate("without balls", high[["frequency", "swing"]].iloc[-1], (5, 0), color=GREY, **beside)
+    middle = best[["frequency", "swing"]].iloc[len(best) // 2]
+    axes.annotate("best absorbers", middle, (0, -3), va="top", ha="center", **beside)
+
+
+def _name_peaks(axes, with_balls):
+    """Write each clearance beside the peak of its curve, on its free side; peaks in one place share a name."""
+    peaks = {}
+    for name, line in with_balls.items():
+        at = line.loc[line["swing"].idxmax()]
+        peaks.setdefault((at["frequency"], round(at["swing"], 1)), []).append(_clearance(name))
+    low, high = axes.get_xlim()
+    for place, names in peaks.items():
+        along = (place[0] - low) / (high - low)
+        leftwards = 0.2 < along < 0.45 or along > 0.8
+        side = {"xytext": (-8, 1), "ha": "right"} if leftwards else {"xytext": (4, 1)}
+        axes.annotate(", ".join(names), place, textcoords="offset points", **side)
+
+
+def _clearance(name):
+    """The name of a series, "L = 5 mm", as it is printed."""
+    return f"${name.removesuffix(' mm')}$ mm"

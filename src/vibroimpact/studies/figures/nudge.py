@@ -1,0 +1,96 @@
+"""A predicted motion nudged by a millionth: how fast it is left, and the motion that it ends in."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.frames import to_frame
+from vibroimpact.studies.claims.verdict_grid import exact_orbits
+from vibroimpact.studies.figures import animation
+from vibroimpact.system.state import NAMES
+from vibroimpact.system.verdict import STABLE
+from vibroimpact.theory.criteria import PRINTED, of_fixed_point
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
+
+SPEC = {
+    "title": "A nudge of a millionth",
+    "caption": "Exact motion that the chapter calls stable, with ball 2 moved by a millionth of the half-clearance. "
+        "(a) Distance from the predicted motion, once per forcing period; line: growth by its largest multiplier. "
+        "(b) Length of each flight of ball 2 in forcing periods; the prediction is one half.",
+    "alt": "Left: the distance from the predicted motion climbs along a straight line on a logarithmic axis, then "
+        "stays large. Right: the flights, at first equal, split into long and short ones for good.",
+    "method": "the exact orbit of the fixed point, and a simulation that starts beside it",
+}  # fmt: skip
+
+PUSH, CYCLES, PER_CYCLE = 1e-6, 40, 40
+"""Displacement of ball 2, length of the run in forcing periods, samples in each."""
+BALL = "Y2"
+COLUMNS = {
+    "motion": ["t", *animation.COORDINATES],
+    "impacts": ["t", "module", "wall"],
+    "distance": ["t", "distance"],
+    "flights": ["t", "length"],
+    "orbit": ["label", "multiplier"],
+}
+
+
+def compute(system) -> dict:
+    """Follow the most unstable of the exact orbits that belong to fixed points called stable by (10.26), nudged.
+
+    Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, of the state from
+    that of the orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods);
+    "orbit": label, multiplier (largest modulus). There are no rows where no such orbit is unstable.
+    """
+    label, orbit = _called_stable(system)
+    if orbit is None:
+        return {name: pd.DataFrame(columns=columns) for name, columns in COLUMNS.items()}
+    start = orbit.state + PUSH * (np.array(NAMES) == BALL)
+    times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
+    run = simulate(system, start, CYCLES, sample_times=times * system.period)
+    samples = pd.DataFrame(run.samples, columns=NAMES).assign(tau=times * system.period)
+    shown = animation.compute(samples, to_frame(run), system.period, CYCLES)
+    ends = shown["impacts"].query("module == 2")["t"].to_numpy()
+    away = np.linalg.norm(run.samples[::PER_CYCLE] - orbit.state, axis=1)
+    rows = {
+        "distance": np.column_stack([times[::PER_CYCLE], away]),
+        "flights": np.column_stack([ends[1:], np.diff(ends)]),
+        "orbit": [[label, abs(orbit.multipliers[0])]],
+    }
+    return shown | {name: pd.DataFrame(found, columns=COLUMNS[name]) for name, found in rows.items()}
+
+
+def _called_stable(system):
+    """Label and orbit of the most unstable motion that (10.26) calls stable; None where there is none."""
+    points = fixed_points(system)
+    orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
+    found = [
+        (point.label, orbit)
+        for point, orbit in zip(points, orbits, strict=True)
+        if orbit is not None and of_fixed_point(system, point)[PRINTED] == STABLE
+        if orbit.admissible and abs(orbit.multipliers[0]) > 1
+    ]
+    return max(found, key=lambda one: abs(one[1].multipliers[0]), default=(None, None))
+
+
+@styled
+def draw(tables: dict[str, pd.DataFrame]) -> Figure:
+    """Draw the tables of `compute`: distance on a logarithmic axis with the line of the multiplier; flights."""
+    figure = new_figure(DOUBLE_COLUMN, 62.0)
+    left, right = figure.subplots(1, 2)
+    distance, flights = tables["distance"], tables["flights"]
+    for multiplier in tables["orbit"]["multiplier"]:
+        t = np.array([0.0, -np.log(PUSH) / np.log(multiplier)])
+        left.plot(t, PUSH * multiplier**t, color=GREY, linewidth=1.0)
+        left.text(t[1] / 2 + 1, PUSH**0.5, f"times {multiplier:.2f}\nper period", ha="left", va="top", fontsize=8)
+    left.plot(distance["t"], distance["distance"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
+    left.set(yscale="log", ylim=(PUSH / 3, 3), xlabel="forcing periods", ylabel="distance from the prediction")
+    right.axhline(0.5, color=GREY, linewidth=1.0)
+    right.plot(flights["t"], flights["length"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
+    right.set(ylim=(0.2, 0.8), xlabel="forcing periods", ylabel="flights of ball 2, in periods")
+    for axes, letter in ((left, "a"), (right, "b")):
+        axes.set_xlim(0, CYCLES)
+        heading(axes, letter)
+    return figure

@@ -1,0 +1,1 @@
+"""Parts that several figures of the studies share."""

@@ -1,0 +1,408 @@
+"""The design of a ball absorber for one machine in SI units: clearance, restitution and response.
+
+The machine is a mass on a spring and a damper, driven by F sin(2 pi f t) over a band of frequencies f. Candidates are
+compared by their peak: the largest displacement over the band, from rest and from other starts. A peak that is seen
+from a few starts is at most the true one, and the lowest of many such peaks is lower still. So the best few are
+measured again, from more starts, after longer, and beside: with a little more and a little less clearance. The design
+is the one of them whose peak is lowest where its neighbourhood is worst. All that is told of it, in text, table and
+picture, is of one grid of frequencies and one window of time.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.studies.absorbers.peaks import finished
+from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
+from vibroimpact.studies.absorbers.tuning import best
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.system import PhysicalSystem
+from vibroimpact.system.arguments import instance, pair, reals
+from vibroimpact.system.extras import need
+from vibroimpact.system.progress import counted
+from vibroimpact.system.state import IMPACT, RELEASE, STICK
+
+RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
+"""Restitution coefficients that are tried if none is asked for: a damped pair of steels has some 0.6."""
+AROUND, LESS, COARSE = 4, 8, 8
+"""Clearances that are tried: from so many times less than F / k M / m to so many times more, but from the amplitude
+without ball over LESS at most, and up to that amplitude; number of clearances."""
+DIGITS = 3
+"""Significant digits of a clearance that is tried: what is printed is what was measured."""
+FEW = 3
+"""The best of those tried, which are measured again."""
+PER_WIDTH, LEAST, MOST = 6, 41, 801
+"""Frequencies in a half-power width of the resonance without ball; in the band at least, at most."""
+TRIED, AGAIN = 3, 6
+"""Starts that candidates are compared by, at every other frequency; starts that the best few are measured from."""
+SETTLED, LONGEST = 5, 2000
+"""Time constants of the machine before it is watched; forcing periods of those at most."""
+SHORT, LONG = 100, 600
+"""Forcing periods for which candidates are watched; before the best few are, at least: some transients are chaotic."""
+WATCHED = 300
+"""Forcing periods for which the best few are watched."""
+NEAR, FRAGILE = 0.02, 1.1
+"""The neighbourhood: so much more and less clearance; a peak so many times as high in it makes a design fragile."""
+LATER = 1000
+"""Forcing periods after these, for which the largest motion at a frequency is followed: is it a transient?"""
+CURVES = {
+    "without_m": ("without ball", {"color": "0.55", "linewidth": 1.6}),
+    "with_m": ("with the ball, settled", {"color": "black", "linewidth": 1.2}),
+    "settling_m": ("while it settles from rest", {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 0.9}),
+    "absorber_m": ("best linear absorber", {"color": "black", "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
+}
+"""Lines of the picture of a design: columns of its response, with labels and looks."""
+OFF = (0.8, 1.2)
+"""Clearances of the sensitivity, over that of the design."""
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes [m].
+
+    machine: the chosen one, with its mass of the ball `m` [kg], clearance `L` [m], half of the play, and restitution
+        coefficient `kappa`.
+    peak: largest displacement over the band [m] once the motion has settled: in the last `window[1]` forcing periods,
+        after `window[0]`. It is the largest `with_m` of `response`.
+    near: least and greatest peak with 2 % less, the same and 2 % more clearance [m].
+    settling: largest displacement before that window, from rest [m].
+    without: peak without ball [m]. fixed: with the ball fixed in the box [m]. absorber: of the best linear absorber of
+        the mass of the ball [m]; absorber_stroke: how far that moves to each side [m].
+    off: peaks at 0.8 and 1.2 times the clearance [m].
+    natural: natural frequency of the machine without ball [Hz]. static: static deflection [m].
+    candidates: a row per pair tried: clearance_m, restitution, peak_m as few starts see it; of the best few again_m,
+        measured as `peak`, and near_m, the greatest of `near` (else nan). The chosen one has the least near_m.
+    masses: a row per mass of the ball, if there are several: mass_kg, clearance_m, restitution, peak_m, near_m,
+        absorber_m.
+    response: a row per frequency: frequency_Hz; displacement without ball, with it (the largest of all starts in the
+        window), while it settles from rest, and with the absorber [m]; then of the motion with the ball that is the
+        largest, in the same window: impacts_per_s, the mean impact_speed_m_s of the ball against the wall, the mean
+        impulse_Ns of an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall; last
+        its displacement in the 1000 periods after the window, later_m, which is less if it was a transient.
+    """
+
+    machine: PhysicalSystem
+    peak: float
+    near: tuple[float, float]
+    settling: float
+    without: float
+    fixed: float
+    absorber: float
+    absorber_stroke: float
+    off: tuple[float, float]
+    natural: float
+    static: float
+    window: tuple[int, int]
+    candidates: list[dict]
+    response: list[dict]
+    masses: list[dict] = field(default_factory=list)
+
+    def __str__(self):
+        machine, worst = self.machine, max(self.response, key=lambda row: row["with_m"])
+        hardest = max(self.response, key=lambda row: row["impact_speed_m_s"])
+        narrow, wide = map(_mm, self.off)
+        verdict = f"{1 - self.peak / self.without:.0%} less" if self.peak < self.without else "no less"
+        settled = "" if self._settled(worst) else " (not settled where it is largest, see below)"
+        waited, watched = self.window
+        return "\n".join([
+            f"natural frequency {self.natural:.4g} Hz, static deflection {_mm(self.static)}",
+            *self._of_masses(),
+            f"clearance {1000 * machine.L:.10g} mm to each side, restitution {machine.kappa:g}",
+            f"largest displacement {_mm(self.peak)} once settled{settled}: {verdict} than {_mm(self.without)} without "
+            "ball",
+            f"  {_mm(self.near[0])} to {_mm(self.near[1])} with clearances within {NEAR:.0%} of it",
+            f"  {_mm(self.settling)} while it settles from rest",
+            f"  ball fixed in its box {_mm(self.fixed)}",
+            f"  best linear absorber of its mass {_mm(self.absorber)}, which needs {_mm(self.absorber_stroke)} to each "
+            "side",
+            f"  with 20 % less clearance {narrow}, with 20 % more {wide}",
+            f"at {worst['frequency_Hz']:.4g} Hz, where it is largest: {worst['impacts_per_s']:.3g} impacts/s of "
+            f"{worst['impulse_Ns']:.3g} N s each, {worst['impulse_Ns_per_s']:.3g} N s per second, at rest on a wall "
+            f"for {worst['sticking']:.0%} of the time",
+            f"hardest impacts {hardest['impact_speed_m_s']:.3g} m/s (mean at {hardest['frequency_Hz']:.4g} Hz)",
+            f"Settled: in {watched} periods of the force after {waited}, the largest of {AGAIN} starts.",
+            *self._warnings(),
+            "The walls are rigid, so an impact has an impulse but no finite force.",
+        ])  # fmt: skip
+
+    def plot(self):
+        """A Matplotlib Figure of the displacements in `response` over the frequency.
+
+        Raises:
+            ModuleNotFoundError: Matplotlib is missing; the extra `figures` brings it.
+        """
+        need("figures", "matplotlib")
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(4.8, 3.2), layout="constrained")
+        axes = figure.add_subplot(xlabel="frequency of the force, Hz", ylabel="largest displacement, mm")
+        hertz = [row["frequency_Hz"] for row in self.response]
+        for name, (label, look) in CURVES.items():
+            axes.plot(hertz, [1000 * row[name] for row in self.response], label=label, **look)
+        axes.set_ylim(bottom=0)
+        axes.margins(x=0)
+        axes.legend(frameon=False)
+        return figure
+
+    def _of_masses(self):
+        for row in self.masses:
+            ball = f"clearance {1000 * row['clearance_m']:.10g} mm, restitution {row['restitution']:g}"
+            yield (
+                f"with {row['mass_kg']:.4g} kg {_mm(row['peak_m'])} ({ball}), "
+                f"best linear absorber {_mm(row['absorber_m'])}"
+            )
+        if self.masses:
+            yield f"the lowest, with {self.machine.m:.4g} kg:"
+
+    def _settled(self, row):
+        return self.peak <= FRAGILE * row["later_m"]
+
+    def _warnings(self):
+        """A line on each thing to know before the design is built."""
+        machine, first, last = self.machine, self.response[0]["frequency_Hz"], self.response[-1]["frequency_Hz"]
+        for name, value in (("restitution", machine.kappa), ("clearance_m", machine.L)):
+            tried = sorted({row[name] for row in self.candidates})
+            if len(tried) > 1 and value in (tried[0], tried[-1]):
+                end = "least" if value == tried[0] else "greatest"
+                yield f"The {name.removesuffix('_m')} is the {end} of those tried; one beyond it may serve better."
+        worst = max(self.response, key=lambda row: row["with_m"])
+        if not self._settled(worst):
+            later = f"{_mm(worst['later_m'])} in the {LATER} periods after them"
+            yield f"At {worst['frequency_Hz']:.4g} Hz that motion had not settled: it is at most {later}."
+        if self.near[1] > FRAGILE * self.peak:
+            more = self.near[1] / self.peak - 1
+            yield f"Fragile: with clearances within {NEAR:.0%} of it the peak is up to {more:.0%} higher."
+        if not first <= self.natural <= last:
+            yield f"No resonance without ball lies in the band from {first:.4g} to {last:.4g} Hz."
+        if machine.m > machine.M:
+            yield f"The ball of {machine.m:.4g} kg is heavier than its machine of {machine.M:.4g} kg."
+
+
+def design(
+    machine: PhysicalSystem,
+    band: tuple[float, float],
+    clearances: Sequence[float] | None = None,
+    restitutions: Sequence[float] = RESTITUTIONS,
+    progress: bool = True,
+    masses: Sequence[float] | None = None,
+) -> Design:
+    """Return the clearance and restitution with the lowest peak over a band, and their response.
+
+    A machine and its mirror image (the force -F) have the same answer, to the last digit.
+
+    Args:
+        machine: one machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency do not count.
+        band: first and last frequency of the force [Hz].
+        clearances: those to choose from [m]; by default 8 about F / k M / m, from 1/4 to 4 times this, none above the
+            amplitude without ball (a box that swings less than its clearance never meets a ball at rest), then others
+            beside the best.
+        restitutions: those to choose from, each between 0 and 1.
+        progress: count the candidates on standard error, if that is a terminal.
+        masses: those of the ball to choose from [kg], each with a design of its own; by default that of the machine.
+
+    Raises:
+        ValueError: an argument is malformed; the machine is not alone, or has no damper or no force.
+        ArithmeticError: a run could not be finished.
+    """
+    instance("machine", machine, PhysicalSystem)
+    restitutions = _choices("restitutions", restitutions, 1.0)
+    clearances = clearances if clearances is None else _choices("clearances", clearances, math.inf)
+    masses = [machine.m] if masses is None else _choices("masses", masses, math.inf)
+    found = [_designed(_Study(replace(machine, m=m), band), clearances, restitutions, progress) for m in masses]
+    chosen = min(found, key=lambda one: (one.near[1], one.peak))
+    return replace(chosen, masses=[_of_mass(one) for one in found]) if len(found) > 1 else chosen
+
+
+def _choices(name, values, end) -> list[float]:
+    """The values in ascending order, each above 0 and below an end."""
+    given = np.unique(reals(name, values)).tolist()
+    if not given or not 0 < given[0] <= given[-1] < end:
+        upper = f" and below {end:g}" if end < math.inf else ""
+        raise ValueError(f"{name}: {given}; needs one or more numbers above 0{upper}")
+    return given
+
+
+def _of_mass(found) -> dict:
+    """The row of `Design.masses`."""
+    machine = found.machine
+    return {
+        "mass_kg": machine.m, "clearance_m": machine.L, "restitution": machine.kappa, "peak_m": found.peak,
+        "near_m": found.near[1], "absorber_m": found.absorber,
+    }  # fmt: skip
+
+
+def _designed(study, clearances, restitutions, progress) -> Design:
+    """The design for one mass of the ball."""
+    widest = study.linear(without_balls)
+    if clearances is None:
+        scale = study.static * study.machine.M / study.machine.m
+        coarse = np.geomspace(min(scale / AROUND, widest / LESS), min(AROUND * scale, widest), COARSE)
+        rows = study.tried([(_rounded(L), kappa) for kappa in restitutions for L in coarse], progress)
+        third = np.cbrt(coarse[1] / coarse[0])
+        beside = [(row["clearance_m"] * f, row["restitution"]) for row in _best(rows) for f in (1 / third, third)]
+        rows += study.tried([(_rounded(L), kappa) for L, kappa in beside], progress)
+    else:
+        rows = study.tried([(L, kappa) for kappa in restitutions for L in clearances], progress)
+    finalists = []
+    for row in counted(_best(rows), "design: measured again", progress):
+        machine = replace(study.machine, L=row["clearance_m"], kappa=row["restitution"])
+        measured, *beside = (study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR))
+        peaks = [measured.peak, *(one.peak for one in beside)]
+        row |= {"again_m": measured.peak, "near_m": max(peaks)}
+        finalists.append((max(peaks), measured.peak, min(peaks), measured))
+    highest, _, lowest, measured = min(finalists, key=lambda one: one[:2])
+    absorber = tuned(study.system, best(study.system, study.band))
+    return Design(
+        machine=replace(measured.machine, F10=study.given.F10),
+        peak=measured.peak,
+        near=(lowest, highest),
+        settling=float(measured.settling.max()),
+        without=widest,
+        fixed=study.linear(fixed_balls),
+        absorber=study.machine.L * absorber.peak(study.band),
+        absorber_stroke=study.machine.L * absorber.stroke(study.band),
+        off=tuple(study.measured(measured.machine, factor).peak for factor in OFF),
+        natural=study.hertz,
+        static=study.static,
+        window=(study.wait, WATCHED),
+        candidates=rows,
+        response=study.response(measured, absorber),
+    )
+
+
+def _best(rows) -> list[dict]:
+    """The FEW rows with the lowest peaks."""
+    return sorted(rows, key=lambda row: row["peak_m"])[:FEW]
+
+
+def _rounded(clearance) -> float:
+    return float(f"{clearance:.{DIGITS}g}")
+
+
+def _mm(metres) -> str:
+    return f"{1000 * metres:.3g} mm"
+
+
+@dataclass(frozen=True, eq=False)
+class _Measured:
+    """A machine with its ball at n frequencies, watched from m starts once it has settled.
+
+    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states, finals: (n, m, 8), where it
+    begins and ends.
+    """
+
+    machine: PhysicalSystem
+    systems: list
+    largest: np.ndarray
+    settling: np.ndarray
+    states: np.ndarray
+    finals: np.ndarray
+
+    @property
+    def peak(self) -> float:
+        return float(self.largest.max())
+
+
+class _Study:
+    """A machine over a band: frequencies, lengths of runs and starts."""
+
+    def __init__(self, machine, band):
+        low, high = pair("band", band)
+        if not 0 < low < high:
+            raise ValueError(f"band: ({low}, {high}) Hz; needs 0 < low < high")
+        if machine.k12 or machine.c12 or machine.F20:
+            raise ValueError("machine: it is coupled to another one, or that is driven; see PhysicalSystem.single")
+        if not machine.c1 or not machine.F10:
+            raise ValueError("machine: needs a damper c above 0 and a force F other than 0")
+        # With -F all signs change; from the same starts that would be another sample of the same motions.
+        self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0)
+        self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
+        self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
+        ratio = machine.c1 / (2 * machine.M * machine.omega10)
+        width = 2 * ratio * self.hertz
+        self.frequencies = np.linspace(low, high, min(max(LEAST, math.ceil(PER_WIDTH * (high - low) / width)), MOST))
+        self.settle = min(math.ceil(SETTLED / (2 * math.pi * ratio)), LONGEST)
+        self.wait = max(self.settle, LONG)
+
+    def linear(self, reference) -> float:
+        """The peak of a linear system in place of the machine [m]."""
+        return self.machine.L * reference(self.system).peak(self.band)
+
+    def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
+        """A row per pair of clearance and restitution, with the peak from few starts."""
+        rows, states = [], _starts(TRIED, 1)
+        for L, kappa in counted(pairs, "design: tried", progress):
+            systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
+            runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
+            height = L * float(runs["largest"][..., 0].max())
+            rows.append(
+                {"clearance_m": L, "restitution": kappa, "peak_m": height, "again_m": math.nan, "near_m": math.nan}
+            )
+        return rows
+
+    def measured(self, machine, factor: float) -> _Measured:
+        """Response of a machine with a multiple of its clearance, from many starts."""
+        machine = replace(machine, L=factor * machine.L)
+        systems = self._systems(machine)
+        each = np.array(systems)[:, None]
+        before = finished(ensemble(each, _starts(AGAIN, 2), self.wait))
+        settled = finished(ensemble(each, before["final"], WATCHED))
+        largest, settling = (machine.L * runs["largest"][..., 0] for runs in (settled, before))
+        return _Measured(machine, systems, largest, settling[:, 0], before["final"], settled["final"])
+
+    def response(self, measured, absorber) -> list[dict]:
+        """The rows of `Design.response`."""
+        without, with_absorber = (
+            self.machine.L * linear.amplitudes(self.frequencies / self.hertz)[:, 0]
+            for linear in (without_balls(self.system), absorber)
+        )
+        rows, worst = [], measured.largest.argmax(axis=1)
+        later = finished(ensemble(measured.systems, measured.finals[range(len(worst)), worst], LATER))
+        for k, start in enumerate(worst):
+            row = {"frequency_Hz": self.frequencies[k], "without_m": without[k], "with_m": measured.largest[k, start]}
+            row |= {"settling_m": measured.settling[k], "absorber_m": with_absorber[k]}
+            run = simulate(measured.systems[k], measured.states[k, start], WATCHED)
+            row |= _impacts(measured.machine, run) | {"later_m": measured.machine.L * later["largest"][k, 0]}
+            rows.append({name: float(value) for name, value in row.items()})
+        return rows
+
+    def _systems(self, machine):
+        omegas = (2 * math.pi * self.frequencies).tolist()
+        return [replace(machine, omega1=omega, omega2=omega).dimensionless() for omega in omegas]
+
+
+def _starts(count, seed):
+    """Rest, and other starts of machine 1, evenly spread; machine 2 rests, which nothing drives."""
+    states = spread_starts(count, seed)
+    states[:, [2, 3, 6, 7]] = 0.0
+    return states
+
+
+def _impacts(machine, run) -> dict:
+    """Speeds and impulses of the impacts of ball 1 in a run, in SI units, and its share of time on a wall."""
+    events = run.events[run.events["module"] == 1]
+    states = events["state"][events["kind"] == IMPACT]
+    seconds = run.cycles * run.system.period / machine.omega10
+    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # before the impact
+    impulses = machine.m / (1 + run.system.epsilon) * (1 + machine.kappa) * speeds
+    rests, spans = _at_rest(events, run), run.cycles * run.system.period
+    return {
+        "impacts_per_s": len(states) / seconds,
+        "impact_speed_m_s": float(speeds.mean()) if len(speeds) else 0.0,
+        "impulse_Ns": float(impulses.mean()) if len(impulses) else 0.0,
+        "impulse_Ns_per_s": float(impulses.sum()) / seconds,
+        "sticking": rests / spans,
+    }
+
+
+def _at_rest(events, run):
+    """Time tau between each stick and its release, or the ends of the run."""
+    changes = events[np.isin(events["kind"], (STICK, RELEASE))]
+    times, sticks = changes["tau"], changes["kind"] == STICK
+    ends = np.append(times[1:], run.tau0 + run.cycles * run.system.period)
+    first = times[0] - run.tau0 if len(changes) and not sticks[0] else 0.0
+    return float((ends - times)[sticks].sum() + first)

@@ -1,0 +1,1 @@
+"""Studies in one call, as `import vibroimpact` offers them."""

@@ -1,0 +1,123 @@
+"""Attractors and their basins on a line or a plane of starts, in one call."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.exact.engine.simulation import checked_state
+from vibroimpact.studies.regimes.attractors import OPEN, Attractor
+from vibroimpact.studies.regimes.attractors import attractors as told_apart
+from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance, reals
+from vibroimpact.system.state import NAMES
+
+_PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
+"""Coordinates of starts, and their places in the state; W_i = X_i - Y_i moves ball i."""
+
+
+@dataclass(frozen=True, eq=False)
+class Basins:
+    """Attractors that starts end in, and the label of each start.
+
+    labels: integers in the shape of the starts, from 1, in the order in which attractors are met; -1 where a start has
+        not settled (as in Attractors.jl).
+    attractors: Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
+    shares: part of the starts by label, in all 1.
+    axes: values of the coordinates that were moved, by name; none if the starts were listed.
+    """
+
+    labels: np.ndarray
+    attractors: dict[int, Attractor]
+    shares: dict[int, float]
+    axes: dict[str, np.ndarray]
+
+    def rows(self, number: int = 0) -> list[dict]:
+        """A row per start: its moved coordinates, or its number, its label and the regime."""
+        grid = np.meshgrid(*self.axes.values(), indexing="ij") if self.axes else [np.arange(len(self.labels))]
+        columns = dict(zip(self.axes or ["start"], (values.ravel().tolist() for values in grid), strict=True))
+        labels = self.labels.ravel().tolist()
+        regimes = ["unsettled" if label == OPEN else self.attractors[label].regime for label in labels]
+        every = columns | {"label": labels, "regime": regimes}
+        return [dict(zip(every, values, strict=True)) for values in zip(*every.values(), strict=True)]
+
+
+def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
+    """The attractors that starts end in, with a label and the share of each.
+
+    >>> from vibroimpact import starts
+    >>> found = attractors(system, starts(6, seed=1))
+    >>> [found.attractors[label].regime for label in found.shares]
+    ['asymmetric', 'asymmetric']
+
+    Args:
+        states: (n, 8) starts at tau = 0.
+        observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
+            until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
+            never meet a wall (docs/howto.md).
+        progress: count the starts on standard error, if that is a terminal.
+
+    Raises:
+        ValueError: an argument is malformed.
+        ArithmeticError: a run could not be finished.
+    """
+    states = reals("states", states)
+    if states.ndim != 2 or states.shape[1] != 8 or not len(states):
+        raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
+    return _basins(system, states, states.shape[:1], {}, observation, progress)
+
+
+def basins(
+    system: System,
+    axes: Mapping[str, Iterable[float]],
+    state=(0.0,) * 8,
+    observation: Observation | None = None,
+    progress: bool = True,
+) -> Basins:
+    """Basins of attraction on a plane (or line) of starts: labels, attractors and shares as Attractors.jl has them.
+
+    >>> W = np.linspace(-0.8, 0.8, 3)
+    >>> found = basins(system, {"W1": W, "W2": W})
+    >>> found.labels.shape, sum(found.shares.values())
+    ((3, 3), 1.0)
+
+    Args:
+        axes: values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2,
+            where W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
+        state: (8,) start at tau = 0, which gives the other coordinates; by default at rest.
+        observation, progress: as for `attractors`.
+
+    Returns:
+        `Basins`, with labels in the shape of the axes. `to_frame([found])` is a table, a row per start.
+
+    Raises:
+        ValueError: an argument is malformed, or a ball would start beyond a wall.
+        ArithmeticError: a run could not be finished.
+    """
+    if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
+        raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")
+    for name in axes:
+        if name not in _PLACES:
+            raise ValueError(f"axes: {name!r} is none of {', '.join(_PLACES)}")
+    axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
+    grid = np.meshgrid(*axes.values(), indexing="ij")
+    states = np.tile(checked_state(state), (grid[0].size, 1))
+    for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_PLACES[pair[0]])):
+        first, *ball = _PLACES[name]
+        states[:, ball or first] = (states[:, [first]] - values.reshape(-1, 1)) if ball else values.ravel()
+    return _basins(system, states, grid[0].shape, axes, observation, progress)
+
+
+def _basins(system, states, shape, axes, observation, progress):
+    instance("system", system, System)
+    observation = instance("observation", Observation() if observation is None else observation, Observation)
+    for row, state in enumerate(states):
+        try:
+            checked_state(state)
+        except ValueError as error:
+            raise ValueError(f"start {row}: {error}") from None
+    labels, found = told_apart(settle(system, states, observation, progress))
+    shares = {int(label): float(np.mean(labels == label)) for label in np.unique(labels)}
+    shares = dict(sorted(shares.items(), key=lambda item: -item[1]))
+    return Basins(labels.reshape(shape), dict(enumerate(found, start=1)), shares, axes)

@@ -1,0 +1,82 @@
+"""Name motions that do not repeat: by Lyapunov exponent, time in resonance, and recurrence."""
+
+import numpy as np
+
+from vibroimpact.exact.engine.simulation import Run, simulate
+from vibroimpact.exact.measures.modulation import bursts_in
+from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
+from vibroimpact.studies.regimes.lyapunov import Exponent, largest_exponent
+
+CERTAIN = 3.0
+"""Standard errors that count as the uncertainty of an exponent."""
+RESOLVED = 0.02
+"""Smallest exponent, per forcing period, that is told from growth with a power of time."""
+RECURRENT = 0.1
+"""A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
+RESONANT = (0.1, 0.9)
+"""Part of the time that a module spends in bursts: below, it is not in resonance; above, it is always."""
+DISCARDED = 1
+"""Blocks before those that count."""
+LONGER = 10
+"""Factor by which the second estimate of an exponent is longer, where the first leaves its sign open."""
+
+POSITIVE, ZERO, OPEN = "positive", "zero", "open"
+NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
+
+NAMES = {
+    (POSITIVE, AT_TIMES): STRONGLY_MODULATED,
+    (POSITIVE, ALWAYS): CHAOTIC,
+    (POSITIVE, NEVER): HOPPING,
+    (ZERO, AT_TIMES): QUASI_PERIODIC,
+    (ZERO, ALWAYS): QUASI_PERIODIC,
+    (ZERO, NEVER): QUASI_PERIODIC,
+}
+"""(sign of the largest exponent, when a module is in resonance) -> name; what is not listed is unsettled."""
+
+
+def name_aperiodic(run: Run, blocks: int, block: int) -> str:
+    """Name of a motion that does not repeat, from a run over whole cycles and the motion after it.
+
+    Args:
+        blocks, block: of the exponent, so many blocks of so many cycles.
+    """
+    found = sign(largest_exponent(run.system, run.final, blocks, block, DISCARDED))
+    if found != POSITIVE:
+        found = sign(largest_exponent(run.system, run.final, blocks, LONGER * block, DISCARDED))
+    if found == ZERO and not recurs(run.system, run.final, LONGER * blocks * block):
+        return UNSETTLED
+    return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
+
+
+def sign(exponent: Exponent) -> str:
+    """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
+    reach = CERTAIN * exponent.error
+    if exponent.mean - reach > RESOLVED:
+        return POSITIVE
+    return ZERO if abs(exponent.mean) <= reach <= RESOLVED else OPEN
+
+
+def resonance(shares) -> str:
+    """NEVER, AT_TIMES or ALWAYS, from the part of the time that each module is in resonance, shape (2,).
+
+    A module that comes and goes decides.
+    """
+    low, high = RESONANT
+    shares = np.asarray(shares)
+    if ((low <= shares) & (shares <= high)).any():
+        return AT_TIMES
+    return ALWAYS if (shares > high).any() else NEVER
+
+
+def resonant_shares(run: Run) -> np.ndarray:
+    """Part of the time that each module is in bursts of resonance, shape (2,)."""
+    resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
+    return resonant / (run.cycles * run.system.period)
+
+
+def recurs(system, state, cycles: int) -> bool:
+    """Return True if a motion comes near its start in the second half of some cycles; a decaying one does not."""
+    states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
+    extent = np.ptp(states, axis=0)
+    away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)
+    return bool(away.max(axis=1).min() <= RECURRENT)

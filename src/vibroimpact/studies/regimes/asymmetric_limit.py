@@ -1,0 +1,101 @@
+"""Exact asymmetric orbits followed to small epsilon, and the fixed points of the slow flow that they lead to.
+
+Places are compared in C, in v^2 and in the phase half-way between both impacts, [rad], of each module: unlike v and the
+impact phases themselves these stay smooth in epsilon where a pair is born from a symmetric orbit, v = 0.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.search import asymmetric_orbit
+from vibroimpact.exact.orbits.symmetric import wrapped
+from vibroimpact.studies.regimes.epsilon_limit import Comparison, paired
+from vibroimpact.studies.regimes.families import AsymmetricOrbits, flight_fractions
+from vibroimpact.system.matrices import dynamic_stiffness
+
+_BORN = 1e-6  # v^2 below which an orbit is symmetric to Newton's accuracy
+_NEAR = 0.01
+_THROUGH = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Station:
+    """An exact orbit at one epsilon: the system and the root (6,) of the asymmetric equations."""
+
+    system: object
+    root: np.ndarray
+
+    @property
+    def place(self) -> np.ndarray:
+        """C_1, C_2, v_1^2, v_2^2 and both middle phases [rad], shape (6,)."""
+        u = flight_fractions(self.system, self.root)
+        middle = self.system.Omega * (self.root[:4:2] + u * self.system.period / 2)
+        return np.concatenate([AsymmetricOrbits.amplitudes(self.system, self.root), (1 - 2 * u) ** 2, middle])
+
+    @property
+    def box_amplitudes(self) -> np.ndarray:
+        """B_1, B_2 of the first harmonic of U_i = X_i + epsilon Y_i, shape (2,): forces and kicks through the boxes."""
+        system, turns = self.system, np.exp(-1j * self.system.Omega * self.root[:4].reshape(2, 2))
+        kicks = 2j / system.period * self.root[4:] * (turns[:, 0] - turns[:, 1])
+        boxes = np.linalg.solve(dynamic_stiffness(system), system.forcing - system.epsilon * kicks)
+        return np.abs(boxes - system.epsilon * kicks / system.Omega**2)
+
+
+def follow(system, root, values) -> list[Station]:
+    """The orbit of a root (6,) of the asymmetric equations at each epsilon of `values`, which fall from the system's.
+
+    The way ends early where the orbit merges with a symmetric one or Newton's method loses it.
+    """
+    stations = [Station(system, np.asarray(root, dtype=float))]
+    for epsilon in values:
+        last, slower = stations[-1], system.with_(epsilon=epsilon)
+        start = np.concatenate([last.root[:4] * slower.period / last.system.period, last.root[4:]])
+        found = newton(AsymmetricConditions(slower), start[None], reach=0.1)
+        if not len(found) or max(Station(slower, found[0]).place[2:4]) < _BORN:
+            break
+        stations.append(Station(slower, np.concatenate([wrapped(found[0, :4], slower.period), found[0, 4:]])))
+    return stations
+
+
+def offset(station, point) -> np.ndarray:
+    """Orbit minus fixed point, shape (6,)."""
+    difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
+    difference[4:] = np.angle(np.exp(1j * difference[4:]))
+    return difference
+
+
+def leads_to(stations, points):
+    """The fixed point where an orbit's way ends at epsilon = 0, by a line through its last two stations, or None.
+
+    It leads nowhere if the orbit turns round at a fold, or if there are no two stations.
+    """
+    if len(stations) < 2:
+        return None
+    last, before = stations[-1], stations[-2]
+    reach = last.system.epsilon / (before.system.epsilon - last.system.epsilon)
+    errors = [np.linalg.norm((1 + reach) * offset(last, p) - reach * offset(before, p)) for p in points]
+    return points[int(np.argmin(errors))] if errors and min(errors) < _NEAR else None
+
+
+def onset(stations) -> float:
+    """The epsilon at which an orbit whose v^2 falls to 0 is born, else 0.
+
+    Epsilon at v^2 = 0 of the polynomial in v^2 through the last stations, `_THROUGH` of them at most. A line through
+    two has three right digits where stations are a fifth apart.
+    """
+    last = stations[-_THROUGH:]
+    epsilon, skew = (
+        np.array(part) for part in zip(*((s.system.epsilon, s.place[2:4].max()) for s in last), strict=True)
+    )
+    weights = [np.prod(np.delete(skew, k) / (np.delete(skew, k) - skew[k])) for k in range(len(last))]
+    return max(0.0, float(epsilon @ weights))
+
+
+def compare(station, point) -> Comparison:
+    """Places and multipliers of an orbit against those of a fixed point."""
+    system = station.system
+    exact = asymmetric_orbit(system, station.root).multipliers
+    return paired(system, offset(station, point), exact, point.slow_eigenvalues, point.fast(system.kappa))

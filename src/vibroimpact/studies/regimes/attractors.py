@@ -1,0 +1,60 @@
+"""Tell the attractors apart that several starts end in."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.studies.regimes.classification import UNSETTLED, Regime
+
+OPEN = -1
+"""Label of a start that has not settled, as in Attractors.jl."""
+_SAME, _SAME_IDLE = 1e-6, 1e-4
+"""Largest difference of displacements of one motion: known to rounding; with a ball at rest only to its decay."""
+
+
+@dataclass(frozen=True, eq=False)
+class Attractor:
+    """A motion that starts end in.
+
+    regime: its name, one of `regimes.classification.REGIMES`. cycles: forcing periods after which it repeats, or None.
+    states: (k, 8), its stroboscopic section: all `cycles` points, or, where it does not repeat, those of a window.
+    """
+
+    regime: str
+    cycles: int | None
+    states: np.ndarray
+
+
+def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
+    """Labels of the attractor of each start, counted from 1 in the order in which they are met; OPEN if unsettled.
+
+    Periodic motions are one attractor if their displacements agree, at some shift by whole periods; mirror images are
+    two. Motions that do not repeat are told apart by their regime only. A ball at rest may rest anywhere: its place
+    does not count.
+    """
+    labels, known = np.full(len(regimes), OPEN), []
+    for k, regime in enumerate(regimes):
+        if regime.name == UNSETTLED:
+            continue
+        place = next((n for n, one in enumerate(known) if _same(one, regime)), len(known))
+        known[place:] = known[place:] or [regime]
+        labels[k] = place + 1
+    return labels, [Attractor(one.name, one.repeats, one.run.samples[::2][: one.repeats]) for one in known]
+
+
+def _same(one, other):
+    """True if two regimes are one attractor."""
+    moving = _moving(one)
+    if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
+        return False
+    if one.repeats is None:
+        return True
+    ours, theirs = (regime.run.samples[: 2 * one.repeats, moving] for regime in (one, other))
+    gaps = [np.abs(np.roll(ours, 2 * shift, axis=0) - theirs).max() for shift in range(one.repeats)]
+    return min(gaps) < (_SAME if len(moving) == 4 else _SAME_IDLE)
+
+
+def _moving(regime):
+    """Columns of the displacements, without those of balls at rest."""
+    samples = regime.run.samples
+    return np.array([k for k in range(4) if k in (0, 2) or samples[:, 4 + k].any()])

@@ -1,0 +1,33 @@
+"""Basins of coexisting regimes on a plane of starts: the positions of both balls in their cavities."""
+
+import numpy as np
+
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.studies.regimes.classification import ASYMMETRIC
+from vibroimpact.studies.regimes.midpoint_grid import centres
+from vibroimpact.studies.regimes.settling import Observation, settle
+
+MIRRORED = "asymmetric, mirrored"
+
+
+def stable_response(system):
+    """The stable asymmetric orbit with the largest flight time from wall +1 of ball 1; None if there is none."""
+    stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
+    return min(stable, key=lambda orbit: orbit.ball_speeds[0, 0] / orbit.ball_speeds[0].sum(), default=None)
+
+
+def plane(state, points: int) -> np.ndarray:
+    """Starts (points^2, 8): boxes and all velocities as in `state` (8,), the balls anywhere in their cavities.
+
+    W_1 = X_1 - Y_1 and W_2 take the middles of so many equal parts of (-1, 1), W_2 fastest.
+    """
+    W1, W2 = (W.ravel() for W in np.meshgrid(*[centres((-1.0, 1.0), points)] * 2, indexing="ij"))
+    states = np.tile(np.asarray(state, dtype=float), (points**2, 1))
+    states[:, 1], states[:, 3] = states[:, 0] - W1, states[:, 2] - W2
+    return states
+
+
+def ends(system, states, observation: Observation) -> list[str]:
+    """Regime that each start ends in; MIRRORED is an asymmetric response with negative flight asymmetry."""
+    regimes = settle(system, states, observation)
+    return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry < 0 else one.name for one in regimes]

@@ -1,0 +1,163 @@
+"""The ways in which both balls may lean, from weak to strong coupling, and the power that impacts take.
+
+A ball leans if its two flights take unequal time; v is the difference of the flight times over the period. Both balls
+may lean the same way or opposite ways, each with a mirror image (docs/derivation.md, section 15).
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import ensemble, finals
+from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.studies.regimes.families import (
+    FOLD,
+    GRAZING,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    AsymmetricOrbits,
+    flight_fractions,
+)
+
+SAME, OPPOSITE = "the same way", "opposite ways"
+STRAIGHT = "a ball no longer leans"
+SOUGHT = (1.0, 14.0, 30.0)
+"""Couplings at which stable orbits of each pattern are looked for."""
+LEANING = 0.05
+"""|v| of both modules from which both lean."""
+STEP, SHARP = 0.1, 3e-5
+"""Longest and shortest step in the logarithm of the coupling."""
+_HARMONICS = 2 * np.arange(1, 200)
+_NEAR = 0.01
+_SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
+
+
+def coupled(system, alpha12_hat: float, held: bool = False):
+    """Return the system with another coupling spring, and its damper in proportion or held as it is."""
+    scale = 1.0 if held or not system.alpha12_hat else alpha12_hat / system.alpha12_hat
+    return system.with_(alpha12_hat=alpha12_hat, gamma12_hat=system.gamma12_hat * scale)
+
+
+def lean(orbit) -> np.ndarray:
+    """v_1, v_2 of an orbit, shape (2,): time from wall -1 to +1 less that from +1 to -1, over the period."""
+    plus, minus = orbit.ball_speeds.T
+    return (plus - minus) / (plus + minus)
+
+
+def pattern(orbit) -> str | None:
+    """SAME or OPPOSITE, or None if a ball does not lean."""
+    v = lean(orbit)
+    return None if not _both_lean(v) else SAME if v.prod() > 0 else OPPOSITE
+
+
+def _both_lean(v):
+    return np.abs(v).min() >= LEANING
+
+
+def patterns(system) -> dict[str, np.ndarray]:
+    """Return the root (6,) of a stable orbit of each pattern, one of two mirror images."""
+    leaning = [root for root in AsymmetricOrbits.roots(system) if _both_lean(1 - 2 * flight_fractions(system, root))]
+    roots = [(root, AsymmetricOrbits.member(system, root)) for root in leaning]
+    stable = [(root, one) for root, one in roots if one.admissible and AsymmetricOrbits.stable(system, one)]
+    return {name: root for root, one in stable if (name := pattern(one)) and lean(one)[0] > 0}
+
+
+def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
+    """Yield each pattern found at SOUGHT with the couplings over which it is stable, its damper in proportion.
+
+    Args:
+        limits: least and largest alpha12_hat.
+
+    Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
+    Neimark-Sacker, a period doubling, grazing, STRAIGHT; "" at a limit.
+    """
+    seen = []
+    for start in SOUGHT:
+        here = coupled(system, start)
+        for name, root in patterns(here).items():
+            if any(name == other and low <= start <= high for other, low, high in seen):
+                continue
+            below, above = (list(_followed(system, root, start, name, limit)) for limit in limits)
+            found = [*below[::-1], (start, AsymmetricOrbits.member(here, root)), *above]
+            low, high = found[0], found[-1]
+            seen.append((name, low[0], high[0]))
+            yield name, start, found, tuple("" if at in limits else _end(orbit) for at, orbit in (low, high))
+
+
+def _followed(system, root, value, name, limit):
+    """Couplings towards a limit, each with its Orbit, while the pattern stays and is stable."""
+    way, step = np.sign(limit - value), STEP
+    while step > SHARP and value != limit:
+        reached = value * np.exp(way * step)
+        reached = limit if way * (reached - limit) >= 0 else float(reached)
+        found = newton(AsymmetricConditions(coupled(system, reached)), root[None])
+        if len(found) and np.abs(found[0] - root).max() < _SAME_BRANCH:
+            orbit = AsymmetricOrbits.member(coupled(system, reached), found[0])
+            if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and pattern(orbit) == name:
+                root, value, step = found[0], reached, min(STEP, 2 * step)
+                yield value, orbit
+                continue
+        step /= 2
+
+
+def _end(orbit):
+    """How a pattern ends, from its last stable orbit."""
+    mu = orbit.multipliers[0]
+    if np.abs(lean(orbit)).min() < LEANING + _AT_THE_END:
+        return STRAIGHT
+    if orbit.excursion > 1 - _AT_THE_END:
+        return GRAZING
+    if abs(mu.imag) > _AT_THE_END:
+        return NEIMARK_SACKER
+    return FOLD if mu.real > 0 else PERIOD_DOUBLING
+
+
+def splitting(system, root) -> np.ndarray:
+    """Return what tells the patterns apart, to leading order: root (6,) minus that with ball 2 mirrored, aligned.
+
+    Only even harmonics of the coupling do: they change their sign where one of the modules is mirrored. Both roots are
+    taken with the phases of ball 2 where they are after mirroring (`mirrored`). Twice the inverse Jacobian of the exact
+    conditions, times the even harmonics that cross the coupling.
+    """
+    conditions = AsymmetricConditions(system)
+    times, strengths = root[:4].reshape(2, 2), root[4:]
+    u = flight_fractions(system, root)
+    middle = times[:, 0] + u * system.period / 2
+    n = _HARMONICS * system.Omega
+    link = system.alpha12 + 1j * n * system.gamma12
+    through = link / ((n**2 - 1) * (n**2 - 1 - 2 * link))
+    defect = np.zeros(6)
+    for i, j in ((0, 1), (1, 0)):
+        kicks = 4 * system.epsilon * strengths[j] / system.period * np.sin(n * u[j] * system.period / 2)
+        waves = -1j * kicks * through * np.exp(1j * n * (times[i][:, None] - middle[j]))
+        place, speed = waves.sum(axis=1).real, (1j * n * waves).sum(axis=1).real
+        defect[2 * i : 2 * i + 2], defect[4 + i] = (1 + system.kappa) * speed, place[0] - place[1]
+    return -2 * np.linalg.solve(conditions(root[None])[1][0], defect)
+
+
+def mirrored(system, root) -> np.ndarray:
+    """Return a root (6,) with ball 2 mirrored: its walls change roles half a period later."""
+    return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
+
+
+def leaning_orbits(system, both: bool = True) -> list:
+    """Return the stable asymmetric orbits of a system; those alone whose balls both lean, or all."""
+    found = [one for one in orbits(system) if not one.symmetric and one.admissible and one.stable]
+    return [one for one in found if pattern(one) or not both]
+
+
+def shares(leaning, states, cycles: int) -> dict[str, float]:
+    """Return the part of the starts (n, 8) that ends on each pattern among stable orbits after so many cycles."""
+    ends = finals(leaning[0].system, states, cycles)
+    near = {name: np.zeros(len(ends), bool) for name in (SAME, OPPOSITE)}
+    for orbit in leaning:
+        near[pattern(orbit)] |= np.abs(ends - orbit.state).max(axis=1) < _NEAR
+    return {name: float(reached.mean()) for name, reached in near.items()}
+
+
+def impact_power(system, states, cycles: int, settle: int = 0) -> np.ndarray:
+    """Return the mean power that all impacts take, of each start (n, 8), shape (n,), in M L^2 omega_10^3."""
+    runs = ensemble(system, states, cycles, settle=settle, energy=True)
+    return runs["energy"]["impacts"].sum(axis=-1) / ((cycles - settle) * system.period)

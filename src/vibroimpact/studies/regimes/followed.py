@@ -1,0 +1,66 @@
+"""Follow stable asymmetric orbits as a parameter moves from value to value."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.studies.regimes.branches import same_root
+from vibroimpact.studies.regimes.families import AsymmetricOrbits
+
+SEARCHED = (0.25, 0.5, 0.75)
+"""Orbits are sought at the values these parts of the way along the list."""
+NEAR = 0.1
+"""Within this of the root at the last value is that at the next: the same branch, by steps as short as a slider's."""
+
+
+def followed(systems: dict) -> Iterator[tuple[float, object]]:
+    """Value and Orbit of every motion on the branches of the stable asymmetric orbits, one of two mirror images.
+
+    What is sought at a few values is followed to both sides by Newton's method, to where a branch folds, the orbit
+    leaves the walls or becomes symmetric. Branches without a stable orbit at one of those values are missed.
+
+    Args:
+        systems: value of the parameter (ascending) -> system.
+    """
+    values, found = list(systems), {value: [] for value in systems}
+    for part in SEARCHED:
+        middle = int(part * (len(values) - 1))
+        system = systems[values[middle]]
+        for x in _stable(system):
+            if not _known(x, [root for root, _ in found[values[middle]]], system):
+                for direction in (values[middle:], values[:middle][::-1]):
+                    for value, root, orbit in _along(direction, systems, x):
+                        found[value].append((root, orbit))
+    for value, there in found.items():
+        yield from ((value, orbit) for _, orbit in there)
+
+
+def _stable(system):
+    """Roots of motions that are stable, one of two mirror images."""
+    stable = []
+    for x in AsymmetricOrbits.roots(system):
+        orbit = AsymmetricOrbits.member(system, x)
+        if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and not _known(x, stable, system):
+            stable.append(x)
+    return stable
+
+
+def _known(x, roots, system):
+    """True if a root or its mirror image is among others."""
+    images = AsymmetricOrbits.images(system, x)
+    return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
+
+
+def _along(values, systems, x):
+    """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
+    for value in values:
+        found = newton(AsymmetricConditions(systems[value]), x[None])
+        if not len(found) or np.abs(found[0] - x).max() > NEAR:
+            return
+        x = found[0]
+        orbit = AsymmetricOrbits.member(systems[value], x)
+        if not orbit.admissible:
+            return
+        yield value, x, orbit

@@ -1,0 +1,64 @@
+"""Lyapunov spectra of motions, as rows of a table."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.exact.measures.modulation import mean_and_error
+from vibroimpact.studies.regimes.lyapunov import SIZE, Spectrum, spectrum
+
+DIMENSION, SUM, CONTRACTION = "Kaplan-Yorke dimension", "sum of exponents", "contraction"
+DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
+
+
+class Watched(NamedTuple):
+    """Spectrum of a motion without the cycles in which both balls stick at once; bootstrap errors of its exponents,
+    (8,), and of its dimension; how many cycles were left out."""
+
+    spectrum: Spectrum
+    errors: np.ndarray
+    dimension_error: float
+    double_sticks: int
+
+
+def watch(system, states, cycles: int, block: int) -> list[Watched]:
+    """Watch each motion over so many cycles after ten blocks of them; the blocks are those of the bootstrap, which
+    needs two."""
+    found, block = [], max(1, min(block, cycles // 2))
+    for state in states:
+        one = spectrum(system, state, cycles, 10 * block)
+        single = one.without_double_sticks()
+        found.append(Watched(single, *single.errors(block), one.double_sticks))
+    return found
+
+
+def rows(key: dict, found) -> list[dict]:
+    """Rows of the table for motions of one regime: mean, standard error over them, mean bootstrap error of one.
+
+    Sum and contraction are of the cycles in which no ball sticks. Double sticks are counted over all motions.
+    """
+    columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(SIZE)}
+    columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
+    columns[SUM] = [(_free(one, one.growth.sum(axis=1)), np.nan) for one, *_ in found]
+    columns[CONTRACTION] = [(_free(one, one.contraction), np.nan) for one, *_ in found]
+    values = {name: _summary(*zip(*column, strict=True)) for name, column in columns.items()}
+    values[DOUBLE] = _rate(sum(one.double_sticks for one in found), sum(len(one.spectrum.growth) for one in found))
+    return [{**key, "starts": len(found), "quantity": name, **summary} for name, summary in values.items()]
+
+
+def _rate(count, others):
+    """Rate of rare events with the standard error of their number, which is that of one event where none was met."""
+    scale = OF_CYCLES / (count + others)
+    return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
+
+
+def _free(one, values):
+    """Mean over the cycles in which no ball sticks."""
+    return values[one.stuck == 0].mean()
+
+
+def _summary(values, errors):
+    if -np.inf in values:
+        return {"mean": -np.inf, "uncertainty": np.nan, "bootstrap": np.nan}
+    mean, error, _ = mean_and_error(values)
+    return {"mean": mean, "uncertainty": error, "bootstrap": float(np.mean(errors))}

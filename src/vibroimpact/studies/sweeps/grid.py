@@ -1,0 +1,93 @@
+"""The grid of a sweep: the values that parameters move through, alone or together, and the systems there."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from vibroimpact.studies.regimes.midpoint_grid import centres
+from vibroimpact.system import System
+
+LINEAR, LOGARITHMIC = "linear", "logarithmic"
+SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
+"""Spacings of the values of an axis between its ends."""
+LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
+"""Steps that, taken again and again modulo 1, spread evenly over a line, over a square (Roberts 2018)."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Parameters that move together through values, all dimensionless; a value is that of all, or has one for each."""
+
+    along: tuple[str, ...]
+    values: tuple[float | tuple[float, ...], ...]
+
+    def place(self, value) -> dict[str, float]:
+        """The value of each parameter, by name, at one of the values."""
+        return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
+
+
+def axis(
+    along: Sequence[str],
+    range=None,
+    values: int | None = None,
+    scale: str = LINEAR,
+    listed=None,
+    cells: int | None = None,
+    tuples=None,
+) -> Axis:
+    """The axis of `values` values from one end of a range to the other, both included, or of the middles of so many
+    equal `cells` of it, or of those listed; or through `tuples`, a value for each parameter.
+
+    Args:
+        along: names of parameters of System. scale: one of SPACED, of values.
+    """
+    if tuples is not None:
+        return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))
+    if listed is None:
+        listed = centres(range, cells) if cells else SPACED[scale](*range, values)
+    return Axis(tuple(along), tuple(float(value) for value in listed))
+
+
+class Grid:
+    """The points of a sweep, numbered from 0, those of the last axis fastest.
+
+    Args:
+        system: whose other parameters are kept. axes: one or two.
+    """
+
+    def __init__(self, system: System, axes: Sequence[Axis]):
+        self.base, self.axes = system, tuple(axes)
+        self.shape = tuple(len(axis.values) for axis in self.axes)
+
+    def __len__(self):
+        return math.prod(self.shape)
+
+    def place(self, number: int) -> dict[str, float]:
+        """The value of every parameter that moves, by name, at a point."""
+        places = np.unravel_index(number, self.shape)
+        at = zip(self.axes, places, strict=True)
+        return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
+
+    def system(self, number: int) -> System:
+        """The system at a point.
+
+        Raises:
+            ValueError: there is none; it says where.
+        """
+        place = self.place(number)
+        try:
+            return self.base.with_(**place)
+        except ValueError as error:
+            where = ", ".join(f"{name} = {value:.6g}" for name, value in place.items())
+            raise ValueError(f"at {where}: {error}") from None
+
+    def tile(self, number: int, tiles: int) -> range:
+        """Points of a tile, counted from 1: every tiles-th, so that all take about the same time."""
+        return range(number - 1, len(self), tiles)
+
+    def spread(self, most: int) -> list[int]:
+        """At most a number of different points, spread evenly over the grid."""
+        steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
+        return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})

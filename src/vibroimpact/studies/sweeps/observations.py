@@ -1,0 +1,129 @@
+"""Observations of a sweep at a point: each is one function from a system to the numbers of its columns."""
+
+import numpy as np
+
+from vibroimpact.exact.engine.ensemble import ensemble, finals
+from vibroimpact.exact.engine.event_loop import FINISHED
+from vibroimpact.exact.measures.modulation import PER_CYCLE, cycle_amplitudes, sampled
+from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.studies.absorbers.peaks import by_cycle, peak_of
+from vibroimpact.studies.regimes.classification import REGIMES
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.studies.regimes.families import FixedPoints
+from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.spec import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Spec
+
+FROM_REST = "from_rest"
+AMPLITUDE_COLUMNS = (
+    *("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2"),
+    "unfinished",
+)
+COLUMNS = {
+    REGIMES_OF: (*REGIMES, FROM_REST),
+    AMPLITUDES: AMPLITUDE_COLUMNS,
+    ENVELOPES: ("low_X1", "low_X2", "high_X1", "high_X2"),
+    PEAKS: ("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"),
+    ENERGY: ("impact_share", "starts_without_impacts"),
+    FIXED_POINTS: ("fixed_points", "stable_points"),
+    ORBITS: ("orbits", "stable_orbits"),
+}
+"""The columns of each observation, in their order."""
+LOW, HIGH = 0.05, 0.95
+"""An envelope leaves out so much of the cycles below, and above."""
+
+
+def observed(system, spec: Spec) -> dict:
+    """The columns of all observations at one point.
+
+    Raises:
+        ArithmeticError, RuntimeError, ValueError: one of them cannot be had there.
+    """
+    states = spread_starts(spec.starts, spec.seed) if spec.runs else None
+    row = {}
+    for name in spec.observe:
+        row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, spec), strict=True)
+    return row
+
+
+def _regimes(system, states, spec):
+    """Shares of the starts, and where the first of them, rest, ends."""
+    names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
+    return *(names.count(name) / len(names) for name in REGIMES), names[0]
+
+
+def _amplitudes(system, states, spec):
+    """Over all starts the largest |X_i|, the root mean square of X_i and the mean speed of the balls."""
+    runs = ensemble(system, states, spec.cycles, settle=spec.settle)
+    done = runs[runs["status"] == FINISHED]
+    if not len(done):
+        return *[np.nan] * (len(AMPLITUDE_COLUMNS) - 1), len(runs)
+    rms = np.sqrt(done["mean_square"].mean(axis=0))
+    return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
+
+
+def _envelopes(system, states, spec):
+    """Parts LOW and HIGH of the cycles of all starts have an amplitude of X_i, cycle by cycle, below these."""
+    cycles = spec.cycles - spec.settle
+    runs = [sampled(system, state, cycles).samples for state in finals(system, states, spec.settle)]
+    found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
+    return tuple(float(np.quantile(amplitudes, part)) for part in (LOW, HIGH) for amplitudes in found)
+
+
+def _peaks(system, states, spec):
+    """Along the band: the highest peak of all starts (`absorbers.peaks`), the largest root mean square of both boxes,
+    where the peak is met, as the value of the first parameter, and the peak with one ball (`_one_ball`).
+    """
+    band = Grid(system, [axis(**spec.band)])
+    systems = np.array([band.system(number) for number in range(len(band))])
+    runs = by_cycle(systems, states, spec.cycles, spec.settle)
+    if runs.unfinished == len(systems) * len(states):
+        return np.nan, np.nan, np.nan, np.nan, runs.unfinished
+    peaks = peak_of(runs.largest)
+    at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
+    return np.nanmax(peaks), runs.rms, at, _one_ball(runs), runs.unfinished
+
+
+def _one_ball(runs):
+    """The peak of runs from rest, if the same one ball is still there in all of them; else nan.
+
+    A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
+    """
+    still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
+    return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
+
+
+def _energy(system, states, spec):
+    """Share of the impacts in the work of the forces, over starts with impacts; number of starts without.
+
+    A start whose balls rest is another motion, without impacts: its work is in no share.
+    """
+    runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
+    done = runs[runs["status"] == FINISHED]
+    hits = done["impacts"].any(axis=1)
+    energy = done["energy"][hits]
+    work = energy["work"].sum()
+    return energy["impacts"].sum() / work if work else np.nan, np.count_nonzero(~hits)
+
+
+def fixed_point_counts(system) -> tuple[int, int]:
+    """Number of fixed points of the theory, and of those that it calls stable."""
+    points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
+    return len(points), sum(FixedPoints.stable(system, point) for point in points)
+
+
+def _orbits(system, states, spec):
+    """Number of 1:1 orbits that are motions of the system, and of those with all multipliers inside the circle."""
+    found = [orbit for orbit in orbits(system) if orbit.admissible]
+    return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
+
+
+OBSERVATIONS = {
+    REGIMES_OF: _regimes,
+    AMPLITUDES: _amplitudes,
+    ENVELOPES: _envelopes,
+    PEAKS: _peaks,
+    ENERGY: _energy,
+    FIXED_POINTS: lambda system, states, spec: fixed_point_counts(system),
+    ORBITS: _orbits,
+}

@@ -1,0 +1,21 @@
+"""The request of a sweep as plain data that jobs hand on: parameters, axes and observations."""
+
+from collections.abc import Mapping
+
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.spec import Spec
+from vibroimpact.system import System
+
+
+def parsed(request: Mapping) -> tuple[Grid, Spec]:
+    """The grid and the observations there.
+
+    Args:
+        request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of
+            `spec.Spec`.
+
+    Raises:
+        ValueError: the parameters are not those of a system.
+    """
+    grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
+    return grid, Spec(**request["spec"])

@@ -1,0 +1,30 @@
+"""The table of a sweep: names of its columns, and a row per point."""
+
+from collections.abc import Iterable, Iterator
+
+from vibroimpact.studies.sweeps.grid import Grid
+from vibroimpact.studies.sweeps.observations import COLUMNS, observed
+from vibroimpact.studies.sweeps.spec import FAILED, POINT, Spec
+
+
+def columns(grid: Grid, spec: Spec) -> list[str]:
+    """Names of the columns, in their order."""
+    moved = [name for axis in grid.axes for name in axis.along]
+    return [POINT, *moved, *(column for name in spec.observe for column in COLUMNS[name]), FAILED]
+
+
+def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
+    """A row for each of some points.
+
+    A point where something cannot be computed is left blank and says why: it does not cost the others.
+
+    Raises:
+        ValueError: a point has no system.
+    """
+    for number in numbers:
+        row = {POINT: number, **grid.place(number)}
+        system = grid.system(number)
+        try:
+            yield {**row, **observed(system, spec), FAILED: ""}
+        except (ArithmeticError, RuntimeError, ValueError) as error:
+            yield {**row, FAILED: " ".join(str(error).split())}

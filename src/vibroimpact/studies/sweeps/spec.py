@@ -1,0 +1,36 @@
+"""The observations that a sweep makes at every point, and their settings; loads without the engine."""
+
+from dataclasses import dataclass
+
+from vibroimpact.studies.sweeps.grid import axis
+
+REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS, ENERGY = "regimes", "amplitudes", "envelopes", "peaks", "energy"
+FIXED_POINTS, ORBITS = "fixed_points", "orbits"
+SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES, ENERGY)
+"""Observations that simulate, from every start; PEAKS does, too, all along its band."""
+POINT, FAILED = "point", "failed"
+"""Columns of every table: the number of the point, and why it could not be observed, "" if it could."""
+
+
+@dataclass(frozen=True)
+class Spec:
+    """Observations at every point.
+
+    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
+    amplitudes are observed, forcing periods; those before `settle` are left out. band: arguments of `grid.axis`, of the
+    parameters that peaks are sought along. observation: those of `regimes.settling.Observation`.
+    """
+
+    observe: tuple[str, ...]
+    starts: int = 1
+    seed: int = 0
+    cycles: int = 0
+    settle: int = 0
+    band: dict | None = None
+    observation: dict | None = None
+
+    @property
+    def runs(self) -> int:
+        """Starts that are simulated at a point, for each observation anew."""
+        along_band = len(axis(**self.band).values) if PEAKS in self.observe else 0
+        return self.starts * (along_band + sum(name in SIMULATED for name in self.observe))

@@ -1,0 +1,200 @@
+"""All fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
+
+As for symmetric ones (docs/derivation.md, section 5) the balance is linear in w_i = u_i / beta_i and its coefficients
+depend on the chart parameters x_i alone, here over compact squares: |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2. That
+none is missed is proved by `theory.completeness_proof`, not here.
+
+v^2 < 0 is kept too: no motion at leading order, but where the branch goes on beyond symmetry breaking. A motion next to
+it exists once terms of order epsilon carry v^2 above 0.
+"""
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigvals
+
+from vibroimpact.studies.theory import branch
+from vibroimpact.studies.theory.branch import ASYMMETRIC, LARGE, SMALL, Chart, charts
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance
+from vibroimpact.system.representation import Representation, brief
+from vibroimpact.system.verdict import all_stable, verdict
+from vibroimpact.theory import masri
+from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
+from vibroimpact.theory.manifold import stays_within_walls
+from vibroimpact.theory.slow_flow import descending, impedances, pencil
+
+PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
+_STARTS = 20  # along each edge of the square
+_STEPS = 40
+_REACH = 0.25
+_OUTSIDE = 1.5  # beyond this a start is given up
+_SETTLED, _STALLED = 1e-12, 1e-8  # the second where all steps are used up: next to a double zero
+_SAME = 1e-7
+_ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AsymmetricPoint(Representation):
+    """A fixed point with unequal flights of one module or both; it stands for its mirror images, too.
+
+    Attributes:
+        charts: the chart of each module.
+        x: its parameter there, shape (2,).
+        asymmetric: whether each module is on the asymmetric branch, shape (2,).
+        squared: v^2 of each module, shape (2,), v the difference of its flights over the period; 0 where symmetric.
+        C, B, psi, slow_eigenvalues: as of a FixedPoint.
+        middle: phase of U half-way from the impact with W = +1 to the next one [rad], shape (2,).
+    """
+
+    charts: tuple[str, str]
+    x: np.ndarray
+    asymmetric: np.ndarray
+    squared: np.ndarray
+    C: np.ndarray
+    B: np.ndarray
+    psi: np.ndarray
+    middle: np.ndarray
+    slow_eigenvalues: np.ndarray
+
+    def fast(self, kappa) -> np.ndarray:
+        """Multipliers, shape (4,), of the impact maps of both modules over a cycle, B and phi held."""
+        return np.concatenate([one[1] for one in self._modules(kappa)])
+
+    def fast_verdict(self, kappa) -> str:
+        """ "stable", "unstable" or "undecided" by the impact maps of both modules; unstable with a v^2 below 0."""
+        return all_stable(one[0] for one in self._modules(kappa))
+
+    def _modules(self, kappa):
+        for skewed, C, squared in zip(self.asymmetric, self.C, self.squared, strict=True):
+            theory, x = (branch, squared) if skewed else (masri, C)
+            yield theory.stable(x, kappa), theory.multipliers(x, kappa)
+
+    def slow_verdict(self) -> str:
+        """ "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
+        values = self.slow_eigenvalues
+        return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
+
+    def admissible(self, kappa) -> bool:
+        """True if it is a motion at leading order and both balls stay between their walls."""
+        modules = zip(self.asymmetric, self.C, self.squared, strict=True)
+        return self.real and all(
+            branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
+            for skewed, C, squared in modules
+        )
+
+    @property
+    def real(self) -> bool:
+        """True if it is a motion at leading order: no v^2 below 0."""
+        return bool((self.squared >= 0).all())
+
+    def _shown(self):
+        numbers = {name: brief(getattr(self, name)) for name in ("squared", "C", "B", "psi")}
+        return {**numbers, "slow_eigenvalues": f"real parts up to {brief(self.slow_eigenvalues.real.max())}"}
+
+
+class Balance:
+    """The two conditions on (x_1, x_2) in one pair of charts."""
+
+    def __init__(self, system, one: Chart, two: Chart):
+        e, self.K = impedances(system)
+        f1, f2, total = system.f10_hat, system.f20_hat, (system.f10_hat + system.f20_hat) * self.K
+        q1, q2 = e[0] * one.z + one.n, e[1] * two.z + two.n
+        n1, n2 = f1 * q2 + total * two.z, f2 * q1 + total * one.z
+        sides = (q1, 0), (q2, 1), (one.z, 0), (two.z, 1), (n1, 1), (n2, 0), (one.beta, 0), (two.beta, 1)
+        self._functions = [(function, function.deriv(), side) for function, side in sides]
+
+    def __call__(self, x):
+        """Residuals (n, 2) and Jacobians (n, 2, 2) at x, shape (n, 2)."""
+        q1, q2, z1, z2, n1, n2, b1, b2 = (
+            np.array([f(x[:, side]), (1 - side) * slope(x[:, side]), side * slope(x[:, side])])
+            for f, slope, side in self._functions
+        )
+        size = _size(_product(q1, q2) + self.K * (_product(z1, q2) + _product(q1, z2)))
+        residual, *slopes = np.stack([size - _size(_product(b1, n1)), size - _size(_product(b2, n2))], axis=-1)
+        return residual, np.stack(slopes, axis=-1)
+
+    def phasors(self, x):
+        """b_i = B_i exp(-i psi_i), shape (2,)."""
+        q1, q2, z1, z2, n1, n2, _, _ = (f(x[side]) for f, _, side in self._functions)
+        return np.array([z1 * n1, z2 * n2]) / (q1 * q2 + self.K * (z1 * q2 + q1 * z2))
+
+
+def _product(one, other):
+    """Return the product of two functions of (x_1, x_2), each with its derivatives, (3, n)."""
+    return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
+
+
+def _size(function):
+    """Modulus squared of a function with its derivatives, (3, n)."""
+    return (function[0].conj() * function).real * np.array([[1], [2], [2]])
+
+
+def fixed_points(system: System) -> list[AsymmetricPoint]:
+    """All fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1; also those with v^2 in [-1, 0).
+
+    Raises:
+        ValueError: system is not a System, or as `symmetric_points.search`.
+    """
+    return [point for point in search(system) if (point.C >= 0).all()]
+
+
+def search(system: System) -> list[AsymmetricPoint]:
+    """The same for any real C_i.
+
+    Raises:
+        ValueError: as `fixed_points`.
+    """
+    refuse_free_motion(instance("system", system, System))
+    if system.modules != (1, 2):
+        return []
+    found = [_point(system, pair, x) for pair in PAIRS for x in _zeros(balance(system, pair))]
+    return sorted(found, key=lambda point: tuple(point.C))
+
+
+def balance(system, pair) -> Balance:
+    """The Balance of a pair of charts, by their names."""
+    known = charts(system.kappa)
+    return Balance(system, known[pair[0]], known[pair[1]])
+
+
+def _zeros(conditions):
+    """Zeros in the square |x_i| <= 1, shape (n, 2)."""
+    ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
+    x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
+    settled = [np.empty((0, 2))]
+    for limit in [_SETTLED] * (_STEPS - 1) + [_STALLED]:
+        residual, jacobian = conditions(x)
+        regular = np.abs(np.linalg.det(jacobian)) > 0
+        step = np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
+        size = np.abs(step).max(axis=1)
+        x = x[regular] - step * np.minimum(1.0, _REACH / np.maximum(size, _REACH))[:, None]
+        done, near = size < limit, (np.abs(x) < _OUTSIDE).all(axis=1)
+        settled.append(x[done & (np.abs(x) <= 1).all(axis=1)])
+        x = x[~done & near]
+    distinct = np.empty((0, 2))
+    for zero in np.concatenate(settled):
+        if not (np.abs(distinct - zero).max(axis=1) < _SAME).any():
+            distinct = np.vstack([distinct, zero])
+    return distinct
+
+
+def _point(system, pair, x):
+    known = charts(system.kappa)
+    places = [(known[name], value) for name, value in zip(pair, x, strict=True)]
+    psi = -np.angle(balance(system, pair).phasors(x))
+    C = np.array([chart.amplitudes(value)[0] for chart, value in places])
+    B, ball, B_x, ball_x = np.transpose([chart.ball(value) for chart, value in places])
+    asymmetric = np.array([name == ASYMMETRIC for name in pair])
+    return AsymmetricPoint(
+        charts=pair,
+        x=x,
+        asymmetric=asymmetric,
+        squared=np.where(asymmetric, x, 0.0),
+        C=C,
+        B=B.real,
+        psi=psi,
+        middle=np.angle([-chart.z(value) / chart.beta(value) for chart, value in places]),
+        slow_eigenvalues=descending(eigvals(*pencil(system, psi, B.real, ball, B_x.real, ball_x))),
+    )

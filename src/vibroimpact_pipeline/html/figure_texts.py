@@ -1,0 +1,55 @@
+"""Title, caption, alternative text, equations and tables of each figure."""
+
+import re
+from collections.abc import Callable
+
+from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact_pipeline.cases import title_of
+from vibroimpact_pipeline.data_dictionary import read
+from vibroimpact_pipeline.specs import case_parameters, spec_of, specs
+from vibroimpact_pipeline.studies.chapter import CASE_OF
+
+SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
+"""Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""
+
+
+def figure_texts(root, config: dict) -> dict[str, dict]:
+    """Return the SPEC of every figure, animation and control by name, worded for a config; see `words`."""
+    known, data = read(root)
+    texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
+    scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
+    for figure, scene in scenes.items():
+        case = scene.get("case")
+        known_case = case in config["cases"]
+        named = scene | ({"case": title_of(config, case)} if known_case else {})
+        texts[figure] = words(figure, named, case_parameters(config, case) if known_case else config["system"])
+    return texts | data["captions"]
+
+
+def words(figure: str, scene: dict, parameters: dict) -> dict:
+    """Return the SPEC of a figure with its placeholders filled, such as {f10_hat} of its case.
+
+    A figure of the chapter that shows other parameters than there has the words for figures of one's own.
+
+    Args:
+        scene: its entry in the config. parameters: of the system that it shows, as far as it has one.
+    """
+    known = specs()
+    spec = spec_of(figure, scene, known) if figure in known or "notebook" in scene else known["animation"]
+    heading = ""
+    if figure.startswith("fig10_"):
+        heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
+        if figure in CASE_OF and parameters != PARAMETERS | CASES[CASE_OF[figure]]:
+            spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
+    said = {name: _filled(spec[name], scene | parameters, as_is) for name, as_is in SAID.items()}
+    return spec | said | {"title": heading + said["title"]}
+
+
+def _filled(text, known, as_is: Callable[[str], str]):
+    """Return the text with known {name} replaced; other braces belong to formulas."""
+
+    def value(name):
+        given = known.get(name[1], name[0])
+        return as_is(given) if isinstance(given, str) and name[1] in known else str(given)
+
+    return re.sub(r"\{(\w+)\}", value, text)

@@ -1,0 +1,1 @@
+"""The pipeline of the studies: their config, claims and report."""

@@ -1,0 +1,1 @@
+"""Sections of config/studies.yaml."""

@@ -1,0 +1,184 @@
+"""The site by Sphinx, and its article as PDF by pandoc and Typst; nothing is fetched."""
+
+import io
+import re
+import shutil
+from html import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pypandoc
+import typst
+import yaml
+from docutils import nodes
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import docutils_namespace
+
+import vibroimpact
+from vibroimpact_pipeline.html.mathematics import STYLE, mathml
+from vibroimpact_pipeline.html.policy import policy
+from vibroimpact_pipeline.studies.report.pages import anchor
+
+ARTICLE = "findings"
+NOTICE = (
+    "This build has other parameters than the chapter. Its figures and tables are its own; claims were not judged, "
+    "and what documents, findings and errata say is about the chapter's parameters. What differs: "
+)
+THEME_SCRIPT = '\n      document.body.dataset.theme = localStorage.getItem("theme") || "auto";\n    '
+"""The one script that the theme has within its pages."""
+EQUATION = re.compile(r"\((10\.\d+)\)")
+NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
+"""Where the number of an equation is not explained."""
+OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
+"""A warning that is not about a docstring, nor about a name that is shown where it is imported, too."""
+SPHINX = {
+    "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
+    "myst_enable_extensions": ["dollarmath"],
+    "myst_disable_syntax": ["html_block", "html_inline"],  # what looks like HTML is text
+    "myst_heading_anchors": 4,
+    "myst_url_schemes": {"beside": "{{path}}"},  # of files that the site has already
+    "html_math_renderer": "mathml",
+    "html_theme": "furo",
+    "html_css_files": ["mathematics.css", "style.css", "play.css"],
+    "html_js_files": [("scroll.js", {"defer": "defer"})],
+    "html_show_search_summary": False,  # its text is fetched, which no browser does from a disk
+    "html_show_sourcelink": False,
+    "html_copy_source": False,
+    "html_use_index": False,
+    "html_domain_indices": False,
+    "html_permalinks": False,
+    "default_role": "literal",
+    "smartquotes": False,  # texts from elsewhere are shown as they are
+    "autodoc_member_order": "bysource",
+    "python_use_unqualified_type_names": True,
+}
+
+
+def write(folder, root, pages, built: str, departures=()) -> None:
+    """Write the site and the PDF into a folder that has figures, data and notebooks already.
+
+    Args:
+        folder: of the site. root: the checkout. pages: a `Pages`. built: what the pages are built from.
+        departures: where the config departs from the chapter's parameters, a line each; every page then says so.
+
+    Raises:
+        RuntimeError: Sphinx has a warning on a page of the report; docstrings may have some.
+    """
+    notice = NOTICE + "; ".join(departures) if departures else ""
+    write_site(Path(folder), Path(root), pages, built, notice)
+    write_article(Path(folder), Path(root), pages, built, notice)
+
+
+def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
+    """Write all documents, the pages of report/pages, and a page for each part of the library."""
+    settings, told = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
+    with TemporaryDirectory() as scratch:
+        scratch, static = Path(scratch), Path(scratch) / "static"
+        for path in (root / "docs").glob("*.*"):
+            shutil.copy(path, scratch)
+        for name in pages.names:
+            (scratch / f"{name}.md").touch()
+        (scratch / "figures").symlink_to(folder.resolve() / "figures")
+        shutil.copytree(root / "report/live", static)
+        (static / "mathematics.css").write_text(STYLE, encoding="utf-8")
+        write_library(scratch / "api", settings["left_out"])
+        options = SPHINX | {
+            "project": settings["title"],
+            "html_title": settings["title"],
+            "html_static_path": [str(static)],
+            "templates_path": [str(root / "report/templates")],
+            "html_context": {"built": escape(built)},
+            "html_theme_options": {"announcement": escape(notice), "top_of_page_buttons": []},
+        }
+        with docutils_namespace():
+            app = Sphinx(
+                scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=told, parallel=2
+            )
+            app.connect("source-read", lambda app, name, source: fill(pages, name, source))
+            app.connect("doctree-read", lambda app, tree: explain(app.env.docname, tree, settings["equations"]))
+            app.build()
+    if of_pages := [line for line in told.getvalue().splitlines() if OF_PAGE.search(line)]:
+        raise RuntimeError(f"Sphinx: {of_pages[0]}")
+
+
+def write_library(folder: Path, left_out) -> None:
+    """Write a source for Sphinx for each part of the library, but for modules that match a pattern."""
+    library, parts = Path(vibroimpact.__file__).parent, {}
+    for path in sorted(library.rglob("*.py")):
+        name = ".".join(path.relative_to(library.parent).with_suffix("").parts).removesuffix(".__init__")
+        if not any(re.fullmatch(pattern, name) for pattern in left_out):
+            parts.setdefault(".".join(name.split(".")[:2]), []).append(name)
+    folder.mkdir()
+    for part, names in parts.items():
+        sections = (
+            f"{name}\n{('-' if n else '=') * len(name)}\n\n.. automodule:: {name}\n   :members:\n"
+            for n, name in enumerate(names)
+        )
+        (folder / f"{part}.rst").write_text("\n".join(sections), encoding="utf-8")
+
+
+def fill(pages, name: str, source: list[str]) -> None:
+    """Fill a page from results as Sphinx reads it."""
+    if name in pages.names:
+        source[0] = pages.filled(name)
+    elif not name.startswith("api/"):
+        source[0] = pages.with_numbers(source[0])
+
+
+def explain(page: str, tree, equations: dict) -> None:
+    """Explain numbers of equations of the chapter and let the search find them; name the rows of claims."""
+    named = set()
+    for text in list(tree.findall(nodes.Text)):
+        if not isinstance(text.parent, NAMES) and EQUATION.search(text):
+            parts = EQUATION.split(text)
+            named |= set(parts[1::2])
+            text.parent.replace(
+                text,
+                [
+                    nodes.abbreviation("", f"({part})", explanation=equations[part]) if n % 2 else nodes.Text(part)
+                    for n, part in enumerate(parts)
+                ],
+            )
+    tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
+    if page == "claims":
+        for row in (row for body in tree.findall(nodes.tbody) for row in body.findall(nodes.row)):
+            row["ids"].append(f"claim-{anchor(row[0].astext())}")
+
+
+def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
+    """Write the findings as PDF; links lead to the pages beside it."""
+    text = pages.with_numbers((root / f"docs/{ARTICLE}.md").read_text(encoding="utf-8") + pages.plates(), paper=True)
+    told = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
+    options = ["--standalone", "--shift-heading-level-by=-1", "--variable=papersize=a4", "--variable=fontsize=10pt"]
+    options += [f"--metadata={name}={value}" for name, value in told.items()]
+    text = re.sub(r"\]\((\w+)\.md", r"](\1.html", text)
+    source = pypandoc.convert_text(text, "typst", "markdown+gfm_auto_identifiers-fancy_lists", options)
+    source = "#set figure(numbering: none)\n" + source  # the captions of the chapter's have their own numbers
+    typst.compile(source.encode(), output=folder / f"{ARTICLE}.pdf", root=folder, ignore_system_fonts=True)
+
+
+def setup(app) -> dict:
+    """Register the extension with Sphinx: formulas as MathML, bars in docstrings as they are, the policy of a page."""
+    app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
+    app.connect("autodoc-process-docstring", _with_bars)
+    app.connect("html-page-context", _with_policy)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def _inline(writer, node):
+    writer.body.append(mathml(node.astext(), display=False))
+    raise nodes.SkipNode
+
+
+def _display(writer, node):
+    writer.body.append(mathml(node.astext(), display=True))
+    raise nodes.SkipNode
+
+
+def _with_bars(app, what, name, obj, options, lines):
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def _with_policy(app, page, template, context, tree):
+    context["metatags"] = (context.get("metatags") or "") + policy(THEME_SCRIPT)

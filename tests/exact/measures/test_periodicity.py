@@ -1,0 +1,88 @@
+"""Recognition of motions whose period, symmetry and impacts are known because they are made up."""
+
+import numpy as np
+import pytest
+
+from vibroimpact.exact.measures.periodicity import (
+    distance_after,
+    impacts_per_cycle,
+    mirror_distance,
+    repeats_after,
+    samples_per_cycle,
+)
+
+PERIOD, PER_CYCLE = 2 * np.pi / 1.02, 24
+
+
+def times(cycles):
+    return 6000 + np.arange(cycles * PER_CYCLE + 1) / PER_CYCLE * PERIOD
+
+
+def waves(cycles, *amplitudes):
+    """Sum of amplitudes[n - 1] sin(2 pi t / (n T)): subharmonics, two columns with different phases."""
+    phase = 2 * np.pi * np.arange(cycles * PER_CYCLE + 1) / PER_CYCLE
+    return sum(
+        amplitude * np.stack([np.sin(phase / n), np.cos(phase / n)], axis=1)
+        for n, amplitude in enumerate(amplitudes, start=1)
+    )
+
+
+@pytest.mark.parametrize(
+    "tau",
+    [times(10) ** 1.001, times(10) * 1.01, times(10)[: PER_CYCLE - 2], times(1)[:1], times(2)[::-1]],
+    ids=["uneven", "incommensurate", "too short", "single", "backwards"],
+)
+def test_times_that_do_not_divide_the_period_are_refused(tau):
+    with pytest.raises(ValueError, match="tau"):
+        samples_per_cycle(tau, PERIOD)
+
+
+@pytest.mark.parametrize(("amplitudes", "period"), [((1.0,), 1), ((1, 0.1), 2), ((1, 0, 0.1), 3), ((1, 0.1, 0.1), 6)])
+def test_period_is_the_smallest_that_fits(amplitudes, period):
+    assert repeats_after(waves(12, *amplitudes), PER_CYCLE, 1e-9) == period
+
+
+def test_a_drifting_motion_does_not_repeat():
+    drifting = waves(12, 1.0) * np.linspace(1, 1.01, 12 * PER_CYCLE + 1)[:, None]
+    assert repeats_after(drifting, PER_CYCLE, 1e-4) is None
+    assert distance_after(drifting, PER_CYCLE, 6) == pytest.approx(0.005, rel=0.01)
+
+
+def test_what_is_only_back_where_it_began_does_not_repeat():
+    """Every period is tried in full: at its beginning the motion is back after 2 and after 3, and goes on otherwise."""
+    motion = waves(12, 1, 0, 0.1)
+    motion[2 * PER_CYCLE] = motion[0]
+    assert repeats_after(motion, PER_CYCLE, 1e-9) is None
+    assert repeats_after(waves(12, 1, 0, 0.1), PER_CYCLE, 1e-9) == 3
+
+
+def test_odd_harmonics_are_symmetric_and_an_offset_is_not():
+    motion = waves(4, 1.0) + 0.2 * waves(4, 1.0) ** 3
+    assert mirror_distance(motion, PER_CYCLE) < 1e-13
+    assert mirror_distance(motion + 0.05, PER_CYCLE) == pytest.approx(0.1)
+
+
+def test_impacts_are_counted_per_cycle_module_and_wall():
+    tau = 100 + PERIOD * np.array([0.2, 0.7, 0.1, 1.2, 1.7, 1.8, 2.5, 3.1])
+    module = np.array([1, 1, 2, 1, 1, 1, 2, 1])
+    wall = np.array([1, -1, 1, 1, -1, -1, -1, 1])
+    counts = impacts_per_cycle(tau, module, wall, 100, PERIOD, 3)
+    assert counts.tolist() == [[[1, 1], [1, 0]], [[1, 2], [0, 0]], [[0, 0], [0, 1]]]
+
+
+@pytest.mark.parametrize(("off", "refused"), [(0.5e-6, False), (2e-6, True)])
+def test_samples_may_be_uneven_by_a_millionth_of_a_step(off, refused):
+    step = PERIOD / PER_CYCLE
+    uneven, longer = times(4), times(4)[0] + (times(4) - times(4)[0]) * (1 + off)
+    uneven[7] += off * step
+    for tau in (uneven, longer):
+        if refused:
+            with pytest.raises(ValueError, match="evenly"):
+                samples_per_cycle(tau, PERIOD)
+        else:
+            assert samples_per_cycle(tau, PERIOD) == PER_CYCLE
+
+
+def test_an_odd_number_of_samples_has_no_mirror_image():
+    with pytest.raises(ValueError, match="per_cycle: 23 is odd"):
+        mirror_distance(waves(2, 1.0), 23)

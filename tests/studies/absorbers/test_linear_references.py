@@ -1,0 +1,195 @@
+"""Linear references against integration of the forces written out by hand, and against closed forms of the textbook."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
+from vibroimpact.studies.absorbers.tuning import best, compared, den_hartog
+
+DAMPED = vi.System(**{**PARAMETERS, "gamma1_hat": 2.5, "gamma2_hat": 3.5}, f10_hat=1.0, f20_hat=-0.6)
+TUNING = Tuning((0.95, 1.1), (0.2, 0.3))
+BARE = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat"), 0.0)
+
+
+@pytest.fixture(scope="module")
+def chapter():
+    return vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+
+
+def hosts(**changes):
+    """Two boxes that are one, twice: undamped and uncoupled."""
+    return vi.System(**{**PARAMETERS, **BARE, **changes}, f10_hat=1.0, f20_hat=1.0)
+
+
+def by_hand(system, mass, tuning=None):
+    """Accelerations of X1, X2, Y1, Y2 from the forces of springs and dampers, one by one."""
+    e = system.epsilon
+
+    def rates(tau, z):
+        (x1, x2, y1, y2), (v1, v2, u1, u2) = z[:4], z[4:]
+        between = e * system.alpha12_hat * (x2 - x1) + e * system.gamma12_hat * (v2 - v1)
+        push = [0.0, 0.0]
+        if tuning:
+            for i, (x, v, y, u) in enumerate([(x1, v1, y1, u1), (x2, v2, y2, u2)]):
+                w, zeta = tuning.frequency[i], tuning.damping[i]
+                push[i] = e * (w**2 * (y - x) + 2 * zeta * w * (u - v))
+        drive = e * np.sin((1 + e * system.sigma_e_hat) * tau)
+        a1 = (system.f10_hat * drive - x1 - e * system.gamma1_hat * v1 + between + push[0]) / mass
+        ground2 = (1 + e * system.sigma20_hat) * x2 + e * system.gamma2_hat * v2
+        a2 = (system.f20_hat * drive - ground2 - between + push[1]) / mass
+        return [v1, v2, u1, u2, a1, a2, -push[0] / e, -push[1] / e]
+
+    return rates
+
+
+@pytest.mark.parametrize(
+    ("linear", "rates"),
+    [
+        (without_balls(DAMPED), by_hand(DAMPED, 1.0)),
+        (fixed_balls(DAMPED), by_hand(DAMPED, 1.0 + DAMPED.epsilon)),
+        (tuned(DAMPED, TUNING), by_hand(DAMPED, 1.0, TUNING)),
+    ],
+    ids=["without balls", "fixed balls", "tuned"],
+)
+def test_steady_amplitudes_are_those_of_integration(linear, rates):
+    settle, times = 30 * DAMPED.period, np.linspace(0, DAMPED.period, 401)
+    run = solve_ivp(
+        rates, (0, settle + times[-1]), np.zeros(8), method="DOP853", rtol=1e-9, atol=1e-11, t_eval=settle + times
+    )
+    moved, amplitudes = np.abs(run.y[:2]).max(axis=1), linear.amplitudes(DAMPED.Omega)
+    np.testing.assert_allclose(moved, amplitudes, rtol=2e-4)
+    np.testing.assert_allclose(np.sqrt((run.y[:2, :-1] ** 2).mean(axis=1)), amplitudes / math.sqrt(2), rtol=1e-5)
+
+
+def test_the_textbook_meets_both_fixed_points_at_its_height():
+    """sqrt(1 + 2 / mu) of the static deflection at P and Q, whatever the damper (Den Hartog 1956)."""
+    system = hosts()
+    mu, frequency = system.epsilon, den_hartog(system).frequency
+    for sign in (1, -1):
+        Omega = math.sqrt((1 + sign * math.sqrt(mu / (2 + mu))) / (1 + mu))
+        for damping in (0.01, 0.2, 0.9):
+            amplitudes = tuned(system, Tuning(frequency, (damping, damping))).amplitudes(Omega)
+            np.testing.assert_allclose(amplitudes / system.forcing, math.sqrt(1 + 2 / mu), rtol=1e-12)
+
+
+def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
+    """The least peak in closed form (Nishihara and Asami 2002), which the textbook exceeds."""
+    system, band = hosts(), (0.6, 1.5)
+    mu = system.epsilon
+    least = (8 + 9 * mu) ** 2 * (16 + 9 * mu) - 128 * (4 + 3 * mu) ** 1.5
+    least = math.sqrt(least / (3 * (32 + 27 * mu))) / (3 * mu) * system.forcing[0]
+    assert least < tuned(system, best(system, band)).peak(band) < least * (1 + 1e-4)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.05, 0.1])
+def test_the_peak_of_the_textbook_is_hardly_above_its_fixed_points(ratio):
+    """sqrt(1 + 2 / mu) of the static deflection at both fixed points, which its damping makes nearly the peaks."""
+    system = hosts(epsilon=ratio)
+    peak = tuned(system, den_hartog(system)).peak((0.6, 1.5)) / system.forcing[0]
+    assert math.sqrt(1 + 2 / ratio) < peak < 1.002 * math.sqrt(1 + 2 / ratio)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.1, 0.25])
+def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
+    """c / (2 m Omega_n) as printed, Omega_n of the host: the damper itself does not depend on how a ratio is formed.
+
+    It is the mean, of squares, of the two dampings with which the response is level at either fixed point (Brock).
+    """
+    system = hosts(epsilon=ratio)
+    tuning = den_hartog(system)
+    damper = tuned(system, tuning).damping[2, 2]
+    assert damper / (2 * ratio * 1.0) == pytest.approx(math.sqrt(3 * ratio / (8 * (1 + ratio) ** 3)), rel=1e-12)
+
+    def slope(damping, at):
+        ends = at + np.array([-1e-5, 1e-5])
+        return np.diff(tuned(system, Tuning(tuning.frequency, (damping, damping))).amplitudes(ends)[:, 0]).item()
+
+    places = [math.sqrt((1 + sign * math.sqrt(ratio / (2 + ratio))) / (1 + ratio)) for sign in (1, -1)]
+    level = [brentq(slope, 0.01, 0.9, args=(place,)) for place in places]
+    assert tuning.damping[0] == pytest.approx(math.sqrt(np.mean(np.square(level))), rel=1e-6)
+
+
+def test_absorbers_move_as_far_as_integration_says(chapter):
+    """Largest |X_i - Y_i| at the worst frequency, from forces written out by hand."""
+    tuning = best(chapter, (0.8, 1.25))
+    linear = tuned(chapter, tuning)
+    frequencies = np.linspace(0.8, 1.25, 2001)
+    worst = frequencies[linear.strokes(frequencies).max(axis=1).argmax()]
+    system = chapter.with_(sigma_e_hat=(worst - 1) / chapter.epsilon)
+    settle, times = 40 * system.period, np.linspace(0, system.period, 401)
+    run = solve_ivp(
+        by_hand(system, 1.0, tuning),
+        (0, settle + times[-1]),
+        np.zeros(8),
+        method="DOP853",
+        rtol=1e-9,
+        atol=1e-11,
+        t_eval=settle + times,
+    )
+    assert np.abs(run.y[:2] - run.y[2:4]).max() == pytest.approx(linear.stroke((0.8, 1.25)), rel=1e-3)
+
+
+def test_balls_without_mass_are_no_balls():
+    """Machines do not feel what a billionth of their mass does, whether it is fixed, tuned or hits walls."""
+    plant = vi.PhysicalSystem(
+        M=3.0, m=3e-9, k1=48.0, k2=50.0, k12=4.0, c1=1.2, c2=1.3, c12=0.1, F10=15.0, F20=-9.0, omega1=4.1, omega2=4.1,
+        L=0.25, kappa=0.65,
+    )  # fmt: skip
+    system = plant.dimensionless()
+    alone = without_balls(system).amplitudes(system.Omega)
+    references = {"fixed": fixed_balls(system), "tuned": tuned(system, Tuning((1.0, 1.1), (0.2, 0.3)))}
+    for linear in references.values():
+        np.testing.assert_allclose(linear.amplitudes(system.Omega), alone, rtol=1e-6)
+    outcome = vi.ensemble(system, np.zeros(8), 60, settle=50)
+    np.testing.assert_allclose(outcome["largest"], alone, rtol=1e-5)
+    assert outcome["impacts"].sum() > 0
+
+
+def test_all_that_balls_are_held_against(chapter):
+    peaks = {name: linear.peak((0.8, 1.25)) for name, linear in compared(chapter, (0.8, 1.25)).items()}
+    assert sorted(peaks, key=peaks.get) == [
+        *("best absorbers", "absorbers of the textbook", "without balls", "balls fixed")
+    ]
+
+
+def test_no_tuning_nearby_is_better_than_the_best(chapter):
+    band = (0.7, 1.4)
+    tuning = best(chapter, band)
+    lowest, rng = tuned(chapter, tuning).peak(band), np.random.default_rng(5)
+    assert lowest < tuned(chapter, den_hartog(chapter)).peak(band)
+    for factors in np.exp(rng.normal(0.0, 1.0, (60, 4)) * rng.choice([0.003, 0.03, 0.3], (60, 1))):
+        other = Tuning(tuple(tuning.frequency * factors[:2]), tuple(tuning.damping * factors[2:]))
+        assert tuned(chapter, other).peak(band) > lowest * (1 - 1e-4)
+
+
+def test_a_peak_is_the_top_of_all_humps(chapter):
+    """A fine grid finds no higher point, however narrow the resonances."""
+    for system in (chapter, chapter.with_(gamma1_hat=1e-4, gamma2_hat=2e-4, gamma12_hat=0.0)):
+        linear = without_balls(system)
+        near = np.abs(linear.poles.imag)[:, None] + np.abs(linear.poles.real)[:, None] * np.linspace(-3, 3, 2001)
+        assert linear.peak((0.7, 1.4)) == pytest.approx(linear.amplitudes(near).max(), rel=1e-6)
+    assert without_balls(hosts()).peak((0.7, 1.4)) == math.inf
+
+
+@pytest.mark.parametrize(
+    ("said", "asked"),
+    {
+        r"^band: \(1.2, 1.1\) is no band": lambda: without_balls(DAMPED).peak((1.2, 1.1)),
+        r"^band: 'low' is not a number": lambda: best(DAMPED, ("low", 1.0)),
+        r"^tuning: .* needs frequencies above 0": lambda: tuned(DAMPED, Tuning((0.0, 1.0), (0.1, 0.1))),
+        r"^damping: needs two finite numbers": lambda: tuned(DAMPED, Tuning((1.0, 1.0), (0.1,))),
+        r"^system: no force acts on it": lambda: best(DAMPED.with_(f10_hat=0, f20_hat=0), (0.9, 1.1)),
+        r"^fraction: 1.0 is not between 0 and 1": lambda: without_balls(DAMPED).decay_time(fraction=1.0),
+        r"^strokes: needs two boxes with an absorber each": lambda: without_balls(DAMPED).stroke((0.9, 1.1)),
+        r"^module: 3 is not a whole number": lambda: without_balls(DAMPED).decay_time(3),
+    }.items(),
+)
+def test_malformed_arguments_are_refused(said, asked):
+    with pytest.raises(ValueError, match=said):
+        asked()

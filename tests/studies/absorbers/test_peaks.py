@@ -1,0 +1,72 @@
+"""Peaks over a band: what one cycle in a hundred exceeds, its standard error, and what windows do to it."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.studies.absorbers.peaks import by_cycle, peak, peak_of, standard_error
+from vibroimpact.studies.absorbers.references import without_balls
+from vibroimpact.studies.regimes.classification import starts
+
+SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+BAND = [SYSTEM.with_(sigma_e_hat=value) for value in (-0.5, 0.0, 0.5, 1.0)]
+CHAOTIC = [SYSTEM.with_(kappa=0.1, f10_hat=1.05, f20_hat=1.05, sigma_e_hat=value) for value in (-0.5, 0.9)]
+
+
+def test_a_peak_is_a_quantile_of_the_cycles_of_certified_runs():
+    states, system = starts(3, 1), BAND[1]
+    found = by_cycle(BAND, states, 30, 20)
+    times = (20 + np.arange(10 * 400 + 1) / 400) * system.period
+    each = []
+    for k, state in enumerate(states):
+        run = vi.simulate(system, state, 30, sample_times=times)
+        boxes = np.abs(run.samples[:, [0, 2]]).max(axis=1)
+        each.append([boxes[400 * n : 400 * (n + 1) + 1].max() for n in range(10)])
+        assert np.abs(found.final[1, k] - run.final).max() < 1e-9
+    np.testing.assert_allclose(found.largest[1], each, rtol=1e-4)
+    ordered = np.sort(found.largest[1], axis=None)  # thirty: the quantile is 0.71 of the way between the last two
+    assert peak_of(found.largest)[1] == pytest.approx(0.29 * ordered[-2] + 0.71 * ordered[-1], rel=1e-12)
+    whole = peak(BAND, states, 30, 20)
+    assert (whole.value, whole.largest) == (peak_of(found.largest).max(), found.largest.max())
+    assert whole.at == peak_of(found.largest).argmax()
+
+
+def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_largest_does():
+    short, long = (peak(CHAOTIC, starts(24, 3), 150 + cycles, 150) for cycles in (100, 1600))
+    assert long.largest > 1.03 * short.largest
+    assert long.value == pytest.approx(short.value, abs=3 * short.error)
+    assert long.error < short.error
+
+
+def test_the_standard_error_is_the_scatter_of_fresh_starts():
+    found = [peak(CHAOTIC, starts(9, seed)[1:], 250, 150) for seed in range(20, 50)]
+    scatter = np.std([one.value for one in found])
+    assert 0.6 * scatter < np.sqrt(np.mean([one.error**2 for one in found])) < 1.7 * scatter
+
+
+def test_one_start_has_no_error_to_tell_and_equal_ones_have_none():
+    one = np.linspace(1.0, 2.0, 20).reshape(2, 1, 10)
+    assert np.isnan(standard_error(one))
+    assert standard_error(np.repeat(one, 3, axis=1)) < 1e-12
+
+
+def test_runs_that_cannot_be_finished_are_counted_and_left_out():
+    states = np.vstack([starts(2, 1), np.full(8, np.nan)])
+    found, alone = by_cycle(BAND, states, 12, 8), by_cycle(BAND, states[:2], 12, 8)
+    assert (found.unfinished, alone.unfinished) == (len(BAND), 0)
+    assert peak_of(found.largest).tolist() == peak_of(alone.largest).tolist()
+    assert found.rms == alone.rms
+    assert np.isnan(peak_of(by_cycle(BAND, states[2:], 12, 8).largest)).all()
+    with pytest.raises(ArithmeticError, match="4 runs"):
+        peak(BAND, states, 12, 8)
+    with pytest.raises(ValueError, match=r"^cycles: 8 with 8"):
+        peak(BAND, states[:2], 8, 8)
+
+
+def test_balls_that_meet_no_wall_have_the_peak_of_none():
+    faint = [system.with_(f10_hat=1e-3, f20_hat=1e-3) for system in BAND]
+    found = peak(faint, np.zeros((1, 8)), 400, 390)
+    amplitudes = [without_balls(system).amplitudes(system.Omega).max() for system in faint]
+    assert found.value == pytest.approx(max(amplitudes), rel=1e-4)
+    assert found.at == int(np.argmax(amplitudes))

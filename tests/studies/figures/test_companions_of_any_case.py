@@ -1,0 +1,101 @@
+"""Companions of a system that has nothing of what they show: a picture without it, and tables that say so."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.studies.figures import (
+    companion_asymmetric,
+    companion_basins,
+    companion_branches,
+    companion_coupling,
+    companion_epsilon,
+    companion_ladder,
+    companion_response,
+    force_sweep,
+)
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.rows import rows
+from vibroimpact.studies.sweeps.spec import Spec
+
+STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
+"""Too weakly driven for a fixed point, an orbit or an impact."""
+OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks": 2, "block": 5, "retest": 50}
+
+
+def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
+    tables = companion_basins.compute(STILL, "still", 3, OBSERVATION)
+    assert tables["orbits"].set_index("series").loc[["shared"]].to_numpy().tolist() == [[0.0] * 8]
+    np.testing.assert_allclose(sorted(set(tables["csv"]["W1"])), [-2 / 3, 0, 2 / 3], atol=1e-15)
+    companion_basins.draw(tables)
+
+
+def test_forces_too_weak_for_a_response_are_drawn_without_one():
+    spec = Spec(("amplitudes", "envelopes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
+    band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 3}
+    forces = axis(["f10_hat", "f20_hat"], listed=[0.05, 0.06])
+    grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])
+    frequency, force = (pd.DataFrame(rows(grid, spec, range(len(grid)))) for grid in grids)
+    tables = companion_response.compute(STILL, frequency, force, band)
+    assert tables["shares"].empty  # no start meets a wall
+    companion_response.draw(tables).draw_without_rendering()
+
+
+def test_couplings_without_fixed_points_have_no_errors(monkeypatch):
+    monkeypatch.setattr(companion_coupling, "FORCES", (0.05, 0.4))
+    monkeypatch.setattr(companion_coupling, "STARTS", 2)
+    tables = companion_coupling.compute({"equal": STILL})
+    assert set(tables["csv"]["panel"]) == {"lean", "power"}  # their forces are the figure's own
+    assert tables["summary"].set_index("quantity")["value"]["points, damper held"] == 0
+    companion_coupling.draw(tables)
+
+
+@pytest.mark.parametrize("first", ["f10_hat", "f20_hat"])
+def test_a_path_without_special_points_says_none(first):
+    second = {"f10_hat": "f20_hat", "f20_hat": "f10_hat"}[first]
+    paths = [{"along": [first], "range": [0.01, 0.02]}, {"along": [second], "range": [0.01, 0.02]}]
+    attractors = {"values": 2, "starts": 1, "seed": 1}
+    tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, {})
+    assert tables["special_points"]["path"].tolist() == [first, second]
+    assert tables["special_points"]["kind"].tolist() == ["none", "none"]
+    companion_branches.draw(tables)
+
+
+def test_a_sweep_of_a_force_without_fixed_points_shows_the_manifold():
+    tables = force_sweep.compute({value: STILL.with_(f20_hat=value) for value in (0.0, 0.01)}, 2.0)
+    assert tables["points"].empty
+    assert tables["manifold"]["C"].max() == pytest.approx(2.0)
+    force_sweep.draw(tables)
+
+
+def test_theory_and_orbit_without_either_are_not_compared():
+    tables = companion_epsilon.compute({"still": STILL}, [0.1, 0.01], 3, 0.05)
+    assert tables["csv"].empty
+    assert tables["orders"].empty
+    companion_epsilon.draw(tables)
+
+
+def test_a_case_without_motions_has_no_errors():
+    tables = companion_ladder.compute({"still": STILL}, [1, 3, 5], [0.0, 0.02], [0.0, 0.02], 2, [0.001, 0.01])
+    assert not tables["csv"]["error"].any()
+    assert tables["verdicts"].empty
+    companion_ladder.draw(tables)
+
+
+def test_without_asymmetric_orbits_the_manifold_is_shown():
+    orbits = pd.DataFrame(columns=["case", "label", "symmetric", "C1", "C2"])
+    tables = companion_asymmetric.compute({"still": STILL}, orbits, STILL.kappa, [0.1, 0.01], 3, 0.05, 2.5)
+    assert len(tables["csv"])
+    assert tables["pairs"].empty
+    assert tables["points"].empty
+    companion_asymmetric.draw(tables)
+
+
+def test_no_order_is_fitted_to_a_single_epsilon():
+    system = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
+    tables = companion_epsilon.compute({"weak": system}, [0.1, 0.01], 3, 0.02)
+    assert len(tables["csv"])
+    assert tables["orders"].empty
+    companion_epsilon.draw(tables)

@@ -1,0 +1,71 @@
+"""Machines in SI units: closed forms in SI, and clearance over force."""
+
+import numpy as np
+import pytest
+import yaml
+
+from pipeline_trees import ROOT
+from vibroimpact.studies.figures import machines
+
+SCENE = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))["figures"]["machines"]
+SETTINGS = {name: SCENE[name] for name in ("plant", "clearances", "shown")}
+SETTINGS |= {"frequencies": SCENE["frequencies"] | {"values": 5}, "cycles": 250, "settle": 150}
+
+
+@pytest.fixture(scope="module")
+def made():
+    return machines.compute(**SETTINGS)
+
+
+def velocities(p, hertz):
+    """Complex amplitudes [m/s] of the boxes without balls, by (10.1) as it is printed, under forces of phase 0."""
+    omega = 2 * np.pi * hertz
+    own = [p[f"k{i}"] + p["k12"] + 1j * omega * (p[f"c{i}"] + p["c12"]) - p["M"] * omega**2 for i in (1, 2)]
+    link = -p["k12"] - 1j * omega * p["c12"]
+    return 1j * omega * np.linalg.solve([[own[0], link], [link, own[1]]], [p["F10"], p["F20"]])
+
+
+def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_those_of_the_linear_machines(made):
+    line = made["csv"].query("series == 'without balls'")
+    for hertz, swing in line[["frequency", "swing"]].to_numpy()[::50]:
+        moving = velocities(SCENE["plant"], hertz)
+        assert swing == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * hertz), rel=1e-9)
+    idle = made["summary"].set_index("L").loc[0.05]
+    moving = velocities(SCENE["plant"], idle["frequency"])
+    assert idle["power"] == pytest.approx(
+        0.5 * (moving.real @ [SCENE["plant"][name] for name in ("F10", "F20")]), rel=1e-3
+    )
+    assert idle["swing"] == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * idle["frequency"]), rel=1e-3)
+    assert idle["share"] == 0
+
+
+def test_twice_the_force_and_twice_the_clearance_swing_twice_as_far(made):
+    plant = SCENE["plant"] | {name: 2 * SCENE["plant"][name] for name in ("F10", "F20")}
+    wider = SETTINGS | {"plant": plant, "clearances": [2 * L for L in SCENE["clearances"]]}
+    found = machines.compute(**wider)["summary"]
+    scale = {"frequency": 1, "swing": 2, "power": 4, "share": 1, "force": 2}
+    for name, factor in scale.items():
+        np.testing.assert_allclose(found[name], factor * made["summary"][name], rtol=1e-9)
+
+
+def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
+    motion = made["motion"]
+    hits = motion[motion["at_wall"]]
+    np.testing.assert_allclose(np.abs(hits["box"] - hits["ball"]), 1000 * SCENE["shown"]["L"], rtol=1e-9)
+    assert motion["time"].is_monotonic_increasing
+    assert (np.abs(motion["box"] - motion["ball"]) <= 1000 * SCENE["shown"]["L"] * (1 + 1e-9)).all()
+    assert len(hits) > 20
+
+
+def test_the_figure_names_every_curve_and_the_best_clearance(made):
+    response, motion = machines.draw(made).axes
+    names = ", ".join(text.get_text() for text in response.texts).split(", ")
+    expected = [f"$L = {1000 * L:g}$ mm" for L in SCENE["clearances"]]
+    assert sorted(names) == sorted([*expected, *machines.LINES])
+    assert len(response.lines) == len(names)
+    best = made["summary"]["swing"].to_numpy().argmin()
+    assert response.get_title("left").endswith(expected[best])
+    assert len(motion.lines) == 3
+    assert motion.get_title("left").endswith(
+        f"$L = {1000 * SCENE['shown']['L']:g}$ mm, {SCENE['shown']['frequency']:g} Hz"
+    )

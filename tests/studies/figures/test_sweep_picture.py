@@ -1,0 +1,65 @@
+"""The default picture of a sweep: lines and cells at the values of the table, whatever is observed."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from vibroimpact.studies.figures import sweep
+from vibroimpact.studies.regimes.classification import REGIMES
+from vibroimpact.studies.sweeps.observations import COLUMNS
+
+LINE = [{"along": ["kappa"], "range": [0.5, 0.8], "values": 4}]
+PLANE = [{"along": ["epsilon"], "range": [0.001, 1.0], "values": 4, "scale": "logarithmic"}, {"along": ["f10_hat"]}]
+
+
+def table(axes, observe):
+    """Numbers that tell every point and column apart."""
+    values = [[0.001, 0.01, 0.1, 1.0], [0.5, 0.8, 1.0]][: len(axes)]
+    moved = [values.ravel() for values in np.meshgrid(*values, indexing="ij")]
+    made = pd.DataFrame({axis["along"][0]: column for axis, column in zip(axes, moved, strict=True)})
+    for k, column in enumerate(column for name in observe for column in COLUMNS[name]):
+        made[column] = (k + np.arange(len(made))) / 40
+    return made.assign(unsettled=0.0) if "regimes" in observe else made
+
+
+def test_a_line_has_the_values_of_its_column():
+    given = table(LINE, ["amplitudes", "orbits"])
+    figure = sweep.draw(sweep.compute(given, LINE))
+    assert len(figure.axes) == 4
+    largest = {line.get_label(): line for line in figure.axes[0].lines}
+    np.testing.assert_array_equal(largest["box 2"].get_ydata(), given["largest_X2"])
+    np.testing.assert_array_equal(largest["box 2"].get_xdata(), given["kappa"])
+    assert len({line.get_marker() for line in figure.axes[0].lines}) == 2  # told apart without colour
+
+
+@pytest.mark.parametrize("axes", [LINE, PLANE])
+def test_regimes_that_no_start_ends_in_are_left_out(axes):
+    drawn = sweep.compute(table(axes, ["regimes"]), axes)
+    assert set(drawn["series"]) == set(REGIMES) - {"unsettled"}
+
+
+def test_a_map_has_a_panel_per_column_and_cells_around_their_points():
+    given = table(PLANE, ["amplitudes", "fixed_points"])
+    figure = sweep.draw(sweep.compute(given, PLANE))
+    panels = [axes for axes in figure.axes if axes.get_xlabel() == r"$\varepsilon$"]
+    assert len(panels) == 8
+    mesh = panels[0].collections[0]
+    np.testing.assert_allclose(mesh.get_array().T.ravel(), given["largest_X1"])
+    corners = mesh.get_coordinates()
+    np.testing.assert_allclose(corners[0, :, 0], 10.0 ** np.arange(-3.5, 1))
+    np.testing.assert_allclose(corners[:, 0, 1], [0.35, 0.65, 0.9, 1.1])
+    assert panels[0].get_xscale() == "log"
+
+
+def test_a_point_without_a_value_is_left_blank():
+    given = table(PLANE, ["orbits"])
+    given.loc[5, "orbits"] = np.nan
+    figure = sweep.draw(sweep.compute(given, PLANE))
+    array = figure.axes[0].collections[0].get_array()
+    assert np.ma.count_masked(array) == 1
+    figure.draw_without_rendering()
+
+
+def test_a_table_of_zeros_is_drawn():
+    given = table(PLANE, ["fixed_points"]).assign(fixed_points=0, stable_points=0)
+    sweep.draw(sweep.compute(given, PLANE)).draw_without_rendering()

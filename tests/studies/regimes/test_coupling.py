@@ -1,0 +1,183 @@
+"""Both balls leaning, from weak to strong coupling: what tells the patterns apart, mirror images, proofs, power."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.studies.claims.coupling_checks import errors
+from vibroimpact.studies.figures.companion_coupling import ALIKE, LIMITS, WATCHED
+from vibroimpact.studies.regimes.coupling import (
+    OPPOSITE,
+    SAME,
+    SOUGHT,
+    STRAIGHT,
+    coupled,
+    impact_power,
+    lean,
+    leaning_orbits,
+    mirrored,
+    pattern,
+    patterns,
+    splitting,
+    stable_ranges,
+)
+from vibroimpact.studies.regimes.families import FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, AsymmetricOrbits
+from vibroimpact.system.matrices import damping_matrix
+
+TUNED_ALIKE = vi.System(**PARAMETERS | ALIKE)
+SMALL = (0.02, 0.01, 0.005)
+
+
+@pytest.fixture(scope="module", params=sorted({*WATCHED, *SOUGHT}))
+def leaning(request):
+    return leaning_orbits(coupled(TUNED_ALIKE, request.param))
+
+
+def apart(system):
+    """Exact roots of the same way and of its partner, and how far they are apart, ball 2 of the partner mirrored."""
+    roots = [(root, AsymmetricOrbits.member(system, root)) for root in AsymmetricOrbits.roots(system)]
+    root = next(root for root, one in roots if one.admissible and pattern(one) == SAME and lean(one)[0] > 0)
+    partner = newton(AsymmetricConditions(system), mirrored(system, root)[None])[0]
+    assert pattern(AsymmetricOrbits.member(system, partner)) == OPPOSITE
+    difference = root - mirrored(system, partner)
+    difference[:4] = (difference[:4] + system.period / 2) % system.period - system.period / 2
+    return root, difference
+
+
+def test_the_derived_term_tells_the_patterns_apart_better_than_in_proportion_to_epsilon():
+    """At forces at which both lean however small epsilon; the relative error falls at first order at least."""
+    errors, sizes = [], []
+    for epsilon in SMALL:
+        system = TUNED_ALIKE.with_(epsilon=epsilon, f10_hat=1.7, f20_hat=1.72)
+        root, exact = apart(system)
+        derived = splitting(system, root)
+        errors.append(np.linalg.norm(derived - exact) / np.linalg.norm(exact))
+        sizes.append(np.linalg.norm(exact) / epsilon**2)
+    assert max(errors) < 0.02
+    assert (np.diff(np.log(errors)) / np.diff(np.log(SMALL)) > 1).all()
+    # Of second order in epsilon: the difference over its square stays within a factor of 3 while that falls 16 times.
+    assert max(sizes) < 3 * min(sizes)
+
+
+def test_without_coupling_all_patterns_have_the_same_amplitudes():
+    system = TUNED_ALIKE.with_(alpha12_hat=0.0, gamma12_hat=0.0)
+    found = {pattern(one): one for one in leaning_orbits(system)}
+    np.testing.assert_allclose(found[SAME].C, found[OPPOSITE].C, atol=1e-9)
+    np.testing.assert_allclose(abs(found[SAME].multipliers), abs(found[OPPOSITE].multipliers), atol=1e-6)
+    np.testing.assert_allclose(splitting(system, patterns(system)[SAME]), 0, atol=1e-15)
+
+
+def test_what_an_even_harmonic_passes_through_the_coupling():
+    """By computer algebra: the response of box 1 to a force on box 2, boxes undamped, natural frequency 1."""
+    n, K = sp.symbols("n K")
+    stiffness = sp.Matrix([[1 - n**2 + K, -K], [-K, 1 - n**2 + K]])
+    through = stiffness.inv()[0, 1]
+    assert sp.simplify(through - K / ((n**2 - 1) * (n**2 - 1 - 2 * K))) == 0
+    assert sp.simplify(sp.diff(through, K).subs(K, 0) - 1 / (n**2 - 1) ** 2) == 0
+
+
+def test_patterns_come_in_mirror_images(leaning):
+    """state(tau) -> -state(tau + T/2), by the engine: half a period of each orbit ends on its mirror image."""
+    for one in leaning:
+        half = vi.simulate(one.system, one.state, 1, sample_times=[one.system.period / 2]).samples[0]
+        distances = [np.abs(half + other.state).max() for other in leaning]
+        image = leaning[int(np.argmin(distances))]
+        assert min(distances) < 1e-9
+        np.testing.assert_allclose(lean(image), -lean(one), atol=1e-9)
+        assert pattern(image) == pattern(one)
+
+
+@pytest.fixture(scope="module")
+def ranges():
+    return list(stable_ranges(TUNED_ALIKE, LIMITS))
+
+
+def test_the_page_says_how_the_stable_ranges_end(ranges):
+    assert [(name, ends) for name, _, _, ends in ranges] == [
+        (SAME, (FOLD, FOLD)),
+        (OPPOSITE, (PERIOD_DOUBLING, NEIMARK_SACKER)),
+        (OPPOSITE, (NEIMARK_SACKER, STRAIGHT)),
+        (SAME, (STRAIGHT, "")),
+    ]
+
+
+def test_stable_ranges_end_where_a_search_from_many_starts_ends_to_find_the_pattern(ranges):
+    """1 % inside and outside of each end, and a multiplier meets the unit circle there."""
+    for name, _, found, ends in ranges:
+        for (value, orbit), end, outwards in zip((found[0], found[-1]), ends, (0.99, 1.01), strict=True):
+            if not end:
+                continue
+            inside, outside = (leaning_orbits(coupled(TUNED_ALIKE, value * by)) for by in (1 / outwards, outwards))
+            assert name in map(pattern, inside)
+            assert name not in map(pattern, outside)
+            if end != STRAIGHT:
+                assert abs(orbit.multipliers[0]) == pytest.approx(1, abs=0.03)
+
+
+@pytest.mark.parametrize(("epsilon", "alpha12_hat"), [(0.1, 42.0), (0.05, 82.0)])
+def test_the_resonance_that_takes_motions_away_moves_with_epsilon_times_the_coupling(epsilon, alpha12_hat):
+    """1 + 2 epsilon alpha12_hat = (3 Omega)^2, with the damper of the coupling as in the chapter."""
+    system = vi.System(**PARAMETERS | {"epsilon": epsilon}, f10_hat=1.0, f20_hat=1.0)
+    met = coupled(system, alpha12_hat, held=True)
+    assert 1 + 2 * met.alpha12 == pytest.approx((3 * met.Omega) ** 2, rel=0.01)
+    for factor, missing in ((0.5, 0), (1.0, 2), (2.0, 0)):
+        found = [row["error"] for row in errors(coupled(system, factor * alpha12_hat, held=True))]
+        assert np.isnan(found).sum() == missing
+
+
+def test_all_stable_patterns_that_the_page_names_are_proved(leaning):
+    named = {1.0: (2, 2), 3.0: (2, 2), 14.0: (0, 2), 30.0: (2, 0)}
+    found = [pattern(one) for one in leaning]
+    assert (found.count(SAME), found.count(OPPOSITE)) == named[leaning[0].system.alpha12_hat]
+    for one in leaning:
+        proved = one.with_proof()
+        assert proved.proved
+        assert proved.stable
+
+
+COMPARED = {(0.5, 0.5): 1, (1.0, 0.89): 5, (1.0, 1.0): 5, (1.3, 1.3): 4}
+"""Forces and how many orbits whose power the page compares are proved at them."""
+
+
+@pytest.mark.parametrize("forces", COMPARED)
+def test_responses_whose_power_the_page_compares_are_proved(forces):
+    found = [one for one in vi.orbits(forced(*forces)) if one.admissible and (one.symmetric or one.stable)]
+    assert len(found) == COMPARED[forces]
+    for one in found:
+        proved = one.with_proof()
+        assert proved.proved
+        assert proved.stable is not one.symmetric
+
+
+@pytest.mark.parametrize("forces", COMPARED)
+def test_impacts_take_what_the_forces_give_and_the_dampers_do_not(forces):
+    """Per period of an exact orbit, by Gauss-Legendre quadrature between the impacts; and by the speeds alone."""
+    system = forced(*forces)
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    for one in (one for one in vi.orbits(system) if one.admissible):
+        run = vi.simulate(system, one.state, 1)
+        edges = np.unique(np.concatenate([[0.0], run.events["tau"], [system.period]]))
+        halves, middles = np.diff(edges)[:, None] / 2, (edges[1:] + edges[:-1])[:, None] / 2
+        tau = (middles + halves * nodes).ravel()
+        velocities = vi.simulate(system, one.state, 1, sample_times=tau).samples[:, [4, 6]]
+        forcing = system.forcing * np.sin(system.Omega * tau)[:, None]
+        damped = np.einsum("ni,ij,nj->n", velocities, damping_matrix(system), velocities)
+        given = ((forcing * velocities).sum(axis=1) - damped) @ (halves * weights).ravel()
+        taken = impact_power(system, [one.state], 1)[0] * system.period
+        assert taken == pytest.approx(given, rel=1e-8)
+        lost = system.epsilon / (1 + system.epsilon) * (1 / system.kappa**2 - 1) / 2 * _speeds_after(run) ** 2
+        assert taken == pytest.approx(lost.sum(), rel=1e-8)
+
+
+def _speeds_after(run):
+    """Relative speeds |X_i' - Y_i'| just after each impact."""
+    moves = run.events["state"].reshape(-1, 8)[:, 4:]
+    return np.where(run.events["module"] == 1, moves[:, 0] - moves[:, 1], moves[:, 2] - moves[:, 3])
+
+
+def forced(f10_hat, f20_hat):
+    return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)

@@ -1,0 +1,130 @@
+"""Names of motions that do not repeat: on made-up evidence, on motions that are known, and against longer runs."""
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.studies.regimes.aperiodic import ALWAYS, AT_TIMES, NEVER, OPEN, POSITIVE, ZERO, recurs, resonance, sign
+from vibroimpact.studies.regimes.classification import (
+    ASYMMETRIC,
+    CHAOS,
+    HOPPING,
+    IDLE,
+    NO_IMPACTS,
+    PERIODIC,
+    QUASI_PERIODIC,
+    STRONGLY_MODULATED,
+    UNSETTLED,
+    classify_after,
+    starts,
+)
+from vibroimpact.studies.regimes.lyapunov import Exponent
+from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
+from vibroimpact.studies.regimes.settling import named, settle
+
+ENDS = {*PERIODIC, IDLE, NO_IMPACTS}
+
+
+@pytest.mark.parametrize(
+    ("mean", "error", "expected"),
+    [
+        (0.5, 0.1, POSITIVE),
+        (0.5, 0.2, OPEN),
+        (0.015, 0.0001, OPEN),  # a perturbation that grows with time, not exponentially, within 100 cycles
+        (0.001, 0.001, ZERO),
+        (-0.001, 0.001, ZERO),
+        (0.01, 0.02, OPEN),
+        (-0.012, 0.0001, OPEN),  # a periodic motion that is not reached yet
+    ],
+)
+def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
+    assert sign(Exponent(mean, error)) == expected
+
+
+@pytest.mark.parametrize(
+    ("shares", "expected"),
+    [
+        ((0.0, 0.05), NEVER),
+        ((0.6, 0.05), AT_TIMES),
+        ((1.0, 0.5), AT_TIMES),
+        ((1.0, 0.95), ALWAYS),
+        ((1.0, 0.0), ALWAYS),
+    ],
+)
+def test_a_module_that_comes_and_goes_makes_bursts(shares, expected):
+    assert resonance(shares) == expected
+
+
+def ends(chapter, f10, f20, observation, count=5):
+    return [regime.name for regime in settle(chapter(f10, f20), starts(count, seed=1), observation)]
+
+
+def test_what_is_not_driven_decays_and_gets_no_other_name(chapter, observation):
+    """All energy is lost in the end, ever more slowly: nothing but rest is a regime without forcing."""
+    assert ends(chapter, 0.0, 0.0, observation) == [NO_IMPACTS] + 4 * [UNSETTLED]
+    decaying = vi.simulate(chapter(0.0, 0.0), starts(2, seed=1)[1], 1000)
+    assert not recurs(chapter(0.0, 0.0), decaying.final, 1000)
+
+
+def test_weak_forces_make_balls_hop(chapter, observation):
+    system = chapter(0.03, 0.03)
+    regimes = settle(system, starts(4, seed=1)[1:], observation)
+    assert {regime.name for regime in regimes} == {HOPPING}
+    run = vi.simulate(system, regimes[0].run.final, 2000)
+    assert len(run.events) / run.cycles < 1.5
+
+
+def test_a_torus_is_quasi_periodic(chapter, observation):
+    """Just below the Neimark-Sacker point of the asymmetric pair, from its own surroundings."""
+    pair = [o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1]
+    near = pair[0].state + 1e-3 * np.eye(8)[4]
+    assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [QUASI_PERIODIC]
+    assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [ASYMMETRIC]
+
+
+def names_now_and_later(system, states, observation, times):
+    """How many starts have each (name, name after a run `times` as long as all rounds of the observation)."""
+    regimes = settle(system, states, observation)
+    runs = vi.simulate_many(system, [one.run.final for one in regimes], times * observation.cycles * observation.rounds)
+    return Counter((one.name, named(run, observation).name) for one, run in zip(regimes, runs, strict=True))
+
+
+@pytest.mark.thorough
+def test_names_last_fifty_times_as_long(chapter, observation):
+    """The label stability of docs/studies/regimes.md, on a smaller map."""
+    counts = Counter()
+    for f10, f20 in plane_of_forces((0.0, 1.6), (0.0, 1.6), 4):
+        counts += names_now_and_later(chapter(f10, f20), starts(4, seed=4), observation, times=50)
+    assert counts.total() == 64
+    settled = {(name, later): n for (name, later), n in counts.items() if name != UNSETTLED}
+    assert {later for (name, later) in settled if name in ENDS} <= ENDS
+    assert all(name == later for name, later in settled if name not in CHAOS)
+    chaotic = sum(n for (name, _), n in settled.items() if name in CHAOS)
+    kept = sum(n for (name, later), n in settled.items() if name in CHAOS and later in CHAOS)
+    assert kept >= 0.95 * chaotic > 20
+    assert counts[STRONGLY_MODULATED, STRONGLY_MODULATED] > 15
+
+
+def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, observation):
+    """Chaos of 1600 cycles or so at (1, 0.97): a short look takes it for lasting, a longer one finds it out."""
+    system, states = chapter(1.0, 0.97), starts(12, seed=1)
+    short = [r.name for r in settle(system, states, replace(observation, rounds=1, retest=1))]
+    long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
+    assert set(short) & set(CHAOS)
+    assert set(long) <= {ASYMMETRIC, UNSETTLED}
+
+
+def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, observation):
+    """Ball 2 stays at rest throughout; from some of the starts at least, the first module repeats every cycle then."""
+    system = chapter(0.5, 0.5)
+    states = np.zeros((10, 8))
+    states[:, 4] = 1e-6 * np.arange(10)
+    ended = 0
+    for state in states:
+        run = vi.simulate(system, state, 60000)
+        assert not (run.events["module"] == 2).any()
+        ended += classify_after(system, run.final, observation.window, observation.nearness).repeats == 1
+    assert ended >= 2

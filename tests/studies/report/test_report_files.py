@@ -1,0 +1,190 @@
+"""The report as files: links lead somewhere, data are those of the build, the PDF holds the findings."""
+
+import json
+import re
+import unicodedata
+from html import unescape
+from html.parser import HTMLParser
+from urllib.parse import unquote, urlsplit
+from zipfile import ZipFile
+
+import pandas as pd
+import pypdfium2 as pdfium
+import pytest
+import yaml
+from fontTools.ttLib import TTFont
+
+import vibroimpact as vi
+from pipeline_trees import ROOT
+from vibroimpact_pipeline.data_dictionary import files, read
+from vibroimpact_pipeline.html.figure_texts import figure_texts
+from vibroimpact_pipeline.html.mathematics import FONT
+
+SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+PAGES = sorted(path.stem for folder in ("docs", "report/pages") for path in (ROOT / folder).glob("*.md"))
+MEGABYTE = 1e6
+
+
+class Page(HTMLParser):
+    """The links of a page, what it loads, and its names."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.links, self.names = [], []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.links += [attrs[name] for name in ("href", "src", "srcset", "data", "poster") if attrs.get(name)]
+        if "id" in attrs:
+            self.names.append(attrs["id"])
+
+
+@pytest.fixture(scope="module")
+def pages(site):
+    return {path: Page(path) for path in [*site.glob("*.html"), *site.glob("api/*.html")]}
+
+
+def test_all_pages_are_there(site, pages):
+    assert {path.stem for path in pages if path.parent == site} == {*PAGES, "search"}
+
+
+def test_links_are_alive_and_none_leads_outside(pages):
+    for path, page in pages.items():
+        assert len(page.links) > len(PAGES)  # the navigation at least
+        assert len(page.names) == len(set(page.names))
+        for link in page.links:
+            parts = urlsplit(link)
+            if parts.scheme == "data":
+                continue
+            assert not parts.scheme + parts.netloc, f"{path}: {link} leads to another host"
+            target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+            assert target.is_file(), f"{path}: {link} leads nowhere"
+            if parts.fragment and target in pages:
+                assert parts.fragment in pages[target].names, f"{path}: {link} leads to no place on its page"
+
+
+def test_every_page_says_what_it_may_do_and_is_light(site):
+    """Notebooks and the library among them: before it loads anything."""
+    pages = list(site.rglob("*.html"))
+    assert len(pages) > len(PAGES) + 10
+    for path in pages:
+        before, found, _ = path.read_text(encoding="utf-8").partition('<meta http-equiv="Content-Security-Policy"')
+        assert found, path
+        assert "<link" not in before
+        assert "<script" not in before
+        assert path.stat().st_size < 2 * MEGABYTE
+    assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE
+
+
+def test_the_pages_on_the_library_have_its_public_names(pages):
+    names = {name for page in pages.values() for name in page.names}
+    public = {f"vibroimpact.{name}" for name in vi.__all__ if callable(getattr(vi, name))}
+    assert len(public) > 8
+    assert public | {f"vibroimpact.theory.manifold.{name}" for name in ("B_of_C", "C_min", "impact_phase")} <= names
+
+
+def test_data_of_the_report_are_in_the_dictionary(reported):
+    listed = files(*read(ROOT))
+    made = [
+        path for name in ("animations", "force_sweep", "nudge") for path in (reported / f"results/{name}").glob("*.*")
+    ]
+    data = [path for path in made if path.suffix in (".csv", ".json")]
+    assert len(data) == len(CONFIG["report"]["animations"]) + 3
+    for path in data:
+        (file,) = (file for file in listed if file.has(str(path.relative_to(reported.path))))
+        found = pd.read_csv(path).columns if path.suffix == ".csv" else json.loads(path.read_text(encoding="utf-8"))
+        assert list(found) == list(file.columns or file.keys)
+
+
+def test_every_figure_is_shown_and_every_table_can_be_downloaded(site, pages):
+    offered = {link for page in pages.values() for link in page.links}
+    made = [path for folder in ("figures", "accuracy", "force_sweep") for path in (site.parent / folder).glob("*.csv")]
+    shown = {link.split("/")[-1] for link in offered if link.startswith("_images/")}
+    assert {path.name for path in (site / "figures").glob("*.svg")} <= shown
+    assert {f"fig10_{number:02d}.svg" for number in range(1, 12)} <= shown
+    tables = [path for path in made if (site / "figures" / path.with_suffix(".svg").name).exists()]
+    assert len(tables) > 10
+    for path, folder in [*((path, "figures") for path in tables), (site.parent / "orbits.csv", "data")]:
+        assert f"{folder}/{path.name}" in offered
+        assert (site / folder / path.name).read_bytes() == path.read_bytes()
+
+
+def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(site):
+    html = (site / "fixed_points.html").read_text(encoding="utf-8")
+    for value in pd.read_csv(site.parent / "fixed_points.csv")["C1"]:
+        assert f">{float(f'{value:.5g}'):.15g}<" in html
+    claims = json.loads((site.parent / "claims.json").read_text(encoding="utf-8"))
+    page = (site / "claims.html").read_text(encoding="utf-8")
+    assert page.count("<tr") == len(claims) + 1
+    assert re.findall(r'href="#claim-([\w-]+)"', page) == re.findall(r'<tr[^>]* id="claim-([\w-]+)"', page)
+    assert len(re.findall(r'href="#claim-', page)) == len(claims)
+    (distance,) = (claim["numbers"]["largest distance in C"] for claim in claims if claim["id"] == "periodic-solutions")
+    source = f"{distance:.6g}: results/claims.json, periodic-solutions, numbers, largest distance in C"
+    assert f'title="{source}">{distance:.3f}</abbr>' in (site / "findings.html").read_text(encoding="utf-8")
+
+
+def test_every_figure_tells_where_it_comes_from_and_leads_to_its_notebook_and_back(site):
+    html = (site / "figures.html").read_text(encoding="utf-8")
+    records = sorted((site.parent / "figures").glob("fig10_*.provenance.json"))
+    assert html.count("Where it comes from:") >= len(records) == 11
+    for path in records:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        assert all(f"{part} {number}" in html for part, number in record["versions"].items())
+    notebook = (site / "notebooks/fig10_08.html").read_text(encoding="utf-8")
+    assert 'href="notebooks/fig10_08.html"' in html
+    place = re.search(r'<p class="of"><a href="\.\./figures\.html#(.*?)">', notebook)[1]
+    assert f'id="{place}"' in html
+
+
+def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
+    """And every letter in italics too, as which browsers draw it."""
+    signs = set(map(chr, TTFont(FONT).getBestCmap()))
+    shown = set()
+    for path in [*site.glob("*.html"), *site.glob("notebooks/*.html")]:
+        for formula in re.findall("<math.*?</math>", path.read_text(encoding="utf-8"), re.DOTALL):
+            shown |= set(unescape(re.sub("<annotation.*?</annotation>|<[^>]*>", "", formula)))
+            shown |= {"√"} if "<msqrt" in formula else set()  # drawn by the browser, with the sign of the font
+    assert len(shown) > 100
+    assert [sign for sign in shown - signs if not sign.isspace()] == []
+    upright = {unicodedata.normalize("NFKD", sign) for sign in signs if "ITALIC" in unicodedata.name(sign, "")}
+    assert [letter for letter in shown if re.fullmatch("[A-Za-zα-ω]", letter) and letter not in upright | {"h"}] == []
+
+
+def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
+    document = pdfium.PdfDocument(site / "findings.pdf")
+    words = " ".join("".join(page.get_textpage().get_text_bounded() for page in document).split())
+    article = (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
+    title, *headings = re.findall("^#+ (.*)", article, re.MULTILINE)
+    assert words.startswith(title)
+    assert [heading for heading in headings if heading not in words] == []
+    assert re.search(r"Built from (commit .* of \d{4}-\d\d-\d\d|a copy without its history)\.", words)
+    assert "numbers.yaml" not in words
+    assert len(document) < 20
+    titles = [figure_texts(ROOT, CONFIG)[f"fig10_{number:02d}"]["title"] for number in range(2, 12)]
+    assert [title for title in titles if title.split(". ")[0] + "." not in words] == []
+    assert "press" not in words
+    drawn = [kind.type for page in document for kind in page.get_objects()]
+    assert len(drawn) > 1000  # pictures are vectors
+
+
+def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):
+    reported.snakemake("--report", str(tmp_path / "all.zip"), "report")
+    with ZipFile(tmp_path / "all.zip") as archive:
+        (html,) = (archive.read(name).decode() for name in archive.namelist() if name.endswith("report.html"))
+    for category in ("Figures of the chapter", "Companion figures", "Accuracy and speed", "Tables", "Fixed points"):
+        assert category in html
+    for figure in (f"fig10_{number:02d}" for number in range(1, 12)):
+        assert f"{figure}.svg" in html
+    assert "This page holds what one run of the pipeline made of it" in html
+
+
+def test_an_equation_of_the_chapter_is_explained_where_it_is_named(site):
+    assert list(SETTINGS["equations"]) == [f"10.{n}" for n in range(1, 27)]
+    for name in PAGES:
+        html = (site / f"{name}.html").read_text(encoding="utf-8")
+        assert not re.search(r"<(h[1-6]|a)\b[^>]*>[^<]*<abbr", html)  # names in navigation and search
+    said = re.findall(r'<abbr title="([^"]+)">\(10\.26\)</abbr>', (site / "findings.html").read_text(encoding="utf-8"))
+    assert said
+    assert all("C_i &gt; 4 / (4 + π ρ)" in one for one in said)

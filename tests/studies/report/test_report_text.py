@@ -1,0 +1,181 @@
+"""How the report's text is made: numbers, captions, claims, data of the live pages."""
+
+import json
+import math
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from pipeline_trees import ROOT
+from vibroimpact.theory.manifold import B_of_C, rho
+from vibroimpact_pipeline.html.figure_texts import figure_texts
+from vibroimpact_pipeline.html.mathematics import mathml
+from vibroimpact_pipeline.studies.report.live import SAMPLES, live_data, verdict_data
+from vibroimpact_pipeline.studies.report.pages import Pages, cell, digits, table
+from vibroimpact_pipeline.studies.report.results import Results
+
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1.0, "1"),
+        (12345.678, "12300"),
+        (0.00012344, "0.000123"),
+        (2.345e-15, r"$2.35\cdot 10^{-15}$"),
+        (1e-300, "$10^{-300}$"),
+        (-2.5e7, r"$-2.5\cdot 10^{7}$"),
+        (0, "0"),
+        (math.nan, "–"),
+        (None, "–"),
+        (math.inf, "∞"),
+        (np.True_, "yes"),
+        ("a_b", r"a\_b"),
+    ],
+)
+def test_a_value_in_the_text(value, text):
+    assert digits(value) == text
+
+
+def test_a_table_has_a_line_for_each_row():
+    frame = pd.DataFrame({"a": ["x | y"], "b": [0.12345], "c": [1]})
+    assert table(frame, {"b": "$B$", "a": "name"}, 2) == "| $B$ | name |\n| --- | --- |\n| 0.12 | x \\| y |"
+    assert cell("a\n b | c") == r"a b \| c"
+
+
+def test_no_line_of_a_page_is_lost_as_a_comment():
+    pages = [*(ROOT / "docs").glob("*.md"), *(ROOT / "report/pages").glob("*.md")]
+    assert len(pages) > 15
+    lost = [(page.name, line) for page in pages for line in page.read_text(encoding="utf-8").splitlines()]
+    assert [(name, line) for name, line in lost if line.lstrip().startswith("% ")] == []
+
+
+def test_captions_fill_from_the_config():
+    captions = {name: about["caption"] for name, about in figure_texts(ROOT, CONFIG).items()}
+    assert [name for name, text in captions.items() if len(text) < 20 or re.search(r"\{\w+_hat\}", text)] == []
+    assert str(CONFIG["cases"]["unequal"]["f20_hat"]) in captions["fig10_09"]
+
+
+def test_titles_of_cases_go_into_the_words_of_figures():
+    own = {"notebook": "simulation", "model": "simulation", "case": "weak"}
+    cases = CONFIG["cases"] | {"weak": CONFIG["cases"]["weak"] | {"title": "A b (c)"}}
+    said = figure_texts(ROOT, CONFIG | {"cases": cases, "figures": CONFIG["figures"] | {"mine": own}})["mine"]
+    assert all("A b" in said[name] and "weak" not in said[name] for name in ("title", "caption", "alt"))
+
+
+def test_numbers_and_figures_of_documents_are_those_of_the_build():
+    """To as many decimals as a document gives, with its sign; where a build has no such value, as it is written."""
+    values = {"x | a": 0.70984, "x | b": -3.17987, "percent | x | c": 69.16}
+    pages = Pages(ROOT, SimpleNamespace(value=lambda place: values[place]), CONFIG, {"chapter": ["one"]})
+    pages.places = {"a": "x | a", "b-1.0": "x | b", "c": "percent | x | c", "d": "x | d"}
+    pages.about["one"] = {"alt": "What it shows."}
+    text = (
+        "[0.69](numbers.yaml#a), [−3.2](numbers.yaml#b-1.0); [70](numbers.yaml#c) %, [5](numbers.yaml#d).\n"
+        "![One](../results/figures/one.png) ![Two](../results/figures/two.png)\n"
+        "([see](../results/figures/one.png), [two](../results/accuracy/two.png))"
+    )
+    shown = pages.with_numbers(text)
+    assert re.findall(r"{abbr}`(\S+) \(\S+ results/(.*?)\)`", shown) == [
+        ("0.71", "x, a"),
+        ("−3.2", "x, b"),
+        ("69", "x, c"),
+    ]
+    picture = "```{figure} figures/one.svg\n:alt: What it shows.\n:target: figures/one.svg\n\nOne\n```"
+    assert shown.endswith(f"%, 5.\n{picture} \n([see](#one), two)")
+    assert pages.with_numbers(text, paper=True).splitlines()[:2] == ["0.71, −3.2; 69 %, 5.", "![One](figures/one.svg) "]
+
+
+def test_a_live_part_stands_in_place_of_its_still_where_its_data_are(tmp_path):
+    pages = Pages(ROOT, Results(tmp_path), CONFIG, {"nudge": ["nudge"]})
+    text = "A\n\n<!-- live: nudge -->\n![Moved](../results/nudge/nudge.png)\n\nB"
+    assert "{figure} figures/nudge.svg" in pages.with_numbers(text)
+    (tmp_path / "nudge").mkdir()
+    (tmp_path / "nudge/nudge.json").write_text('{"cycles": 1}')
+    assert '{"cycles":1}' in pages.with_numbers(text)
+    assert "nudge.svg" not in pages.with_numbers(text)
+    assert "![Moved](figures/nudge.svg)" in pages.with_numbers(text, paper=True)
+
+
+def test_every_number_of_a_document_has_a_place_and_every_place_is_used():
+    documents = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md"))
+    places = yaml.safe_load((ROOT / "docs/studies/numbers.yaml").read_text(encoding="utf-8"))
+    assert set(re.findall(r"\(numbers\.yaml#(.*?)\)", documents)) == set(places)
+
+
+def test_values_are_found_by_their_places(tmp_path):
+    pd.DataFrame({"of": ["a", "b", "b"], "share": [0.5, 0.1, 0.2]}).to_csv(tmp_path / "x.csv", index=False)
+    (tmp_path / "y.json").write_text('[{"id": "k", "numbers": {"of (1)": [3, 4]}}]')
+    results = Results(tmp_path)
+    assert results.value('percent | x.csv | of == "a" | share') == 50
+    assert results.value("y.json | k | numbers | of (1) | 1") == 4
+    with pytest.raises(ValueError, match="too many"):
+        results.value('x.csv | of == "b" | share')
+    with pytest.raises(ValueError, match="fig10_99"):
+        results.files("fig10_99")
+
+
+@pytest.mark.parametrize(
+    ("figure", "found"),
+    [("fig10_01", []), ("fig10_06", ["0", "1"]), ("fig10_10", ["2"]), ("fig10_11", ["2", "3"])],
+)
+def test_claims_are_found_by_the_figure_they_name(tmp_path, figure, found):
+    places = ("Fig. 10.6", "figures 10.6 and 10.9", "Figs. 10.10 and 10.11", "figure 10.11", "(10.6)")
+    (tmp_path / "claims.json").write_text(
+        json.dumps([{"id": str(n), "place": place} for n, place in enumerate(places)])
+    )
+    assert [claim["id"] for claim in Results(tmp_path).claims_about(figure)] == found
+    assert Results(tmp_path, judged=False).claims_about(figure) == []
+
+
+def test_a_formula_has_its_number_and_one_that_cannot_be_set_is_an_error():
+    assert ">(10.25)<" in mathml(r"\frac{a}{b} \tag{10.25}", display=True)
+    with pytest.raises(Exception, match="nosuchcommand"):
+        mathml(r"\nosuchcommand{x}", display=False)
+
+
+def test_the_slider_of_epsilon_knows_points_without_an_orbit():
+    """Called stable, and told apart: the exact orbit is stable, unstable, or there is none."""
+    exact = ["stable", "unstable", "no orbit", "no orbit"]
+    grid = pd.DataFrame({"epsilon": 0.1, "f10_hat": [1.0, 2.0, 3.0, 4.0], "f20_hat": 0.5, "exact": exact})
+    grid = grid.assign(printed_10_26=["stable"] * 3 + ["unstable"], theory="unstable")
+    ranges = {"f10_range": [0, 4], "f20_range": [0, 4], "points": 4}
+    results = SimpleNamespace(table=lambda name: grid.copy())
+    data = json.loads(verdict_data(results, {"stability": {"verdict_grid": ranges}}))
+    assert data["printed_10_26"] == [[[1.0, 0.5, "stable"], [2.0, 0.5, "unstable"], [3.0, 0.5, "no orbit"]]]
+    assert data["theory"] == [[]]
+
+
+def test_predictions_of_the_page_play_are_saw_tooths_on_the_manifold():
+    """Of module 2: W reaches its walls once a cycle; the box, W - Z, has the amplitude B of C on the manifold."""
+    cases = {name: {"f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in FORCES.items()}
+    systems = {name: vi.System(**PARAMETERS, **forces) for name, forces in cases.items()}
+    points = [{"case": name, "label": point.label, "orbit": "S1", "exact": "unstable"}
+              for name, system in systems.items() for point in vi.fixed_points(system)]  # fmt: skip
+    orbits = pd.DataFrame([{"case": "equal", "label": "S1", "modulus_1": 2.43617}])
+    tables = {"fixed_points.csv": pd.DataFrame(points), "orbits.csv": orbits}
+    results = SimpleNamespace(table=tables.get)
+    shown = json.loads(live_data(results, {"system": PARAMETERS, "cases": cases}))["cases"]
+    assert [point["multiplier"] for point in shown["equal"]["points"]] == ["2.44"] * 3
+    assert [point["multiplier"] for point in shown["weak"]["points"]] == [""]
+    for name, case in shown.items():
+        assert case["forces"] == list(FORCES[name])
+        system = vi.System(**PARAMETERS, **cases[name])
+        points = {point.label: point for point in vi.fixed_points(system)}
+        assert [point["label"] for point in case["points"]] == sorted(points)
+        for point in case["points"]:
+            W, X = np.array(point["W"]), np.array(point["X"])
+            C = points[point["label"]].C[1]
+            assert len(W) == SAMPLES
+            np.testing.assert_allclose(W[SAMPLES // 2 :], -W[: SAMPLES // 2], atol=2e-4)  # half a period later
+            U = (1 + system.epsilon) * X - system.epsilon * W
+            first = 2 / SAMPLES * abs(np.exp(-2j * np.pi * np.arange(SAMPLES) / SAMPLES) @ U)
+            assert first == pytest.approx(B_of_C(C, rho(system.kappa)), abs=1e-3)
+            limit = 4 / (4 + np.pi * rho(system.kappa))
+            assert (point["printed"] == "stable") == (limit < points[point["label"]].C).all()

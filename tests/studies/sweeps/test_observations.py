@@ -1,0 +1,171 @@
+"""Rows of a sweep against direct calls of the library."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.exact.measures.modulation import PER_CYCLE
+from vibroimpact.studies.public.sweeps import observations
+from vibroimpact.studies.regimes.classification import REGIMES
+from vibroimpact.studies.regimes.classification import starts as spread_starts
+from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.studies.sweeps.observations import COLUMNS, OBSERVATIONS, observed
+from vibroimpact.studies.sweeps.rows import columns, rows
+from vibroimpact.studies.sweeps.spec import AMPLITUDES, PEAKS, Spec
+
+BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+GRID = Grid(BASE, [axis(["f20_hat"], listed=[0.89, 1.0])])
+OBSERVED = {"cycles": 100, "rounds": 2, "window": 12, "nearness": 0.02, "blocks": 2, "block": 10, "retest": 50}
+BAND = {"along": ["sigma_e_hat"], "range": [-0.5, 1.0], "values": 4}
+SPEC_KEYS = Spec(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
+
+ASKED_FROM_REST = Spec((PEAKS,), starts=1, seed=1, cycles=100, settle=50, band=BAND)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return list(rows(GRID, SPEC_KEYS, [0, 1]))
+
+
+def test_a_row_has_every_column_in_order(found):
+    assert [list(row) for row in found] == [columns(GRID, SPEC_KEYS)] * 2
+    assert [row["f20_hat"] for row in found] == [0.89, 1.0]
+    assert {row["failed"] for row in found} == {""}
+
+
+def test_amplitudes_are_those_of_runs_that_were_sampled(found):
+    """The ensemble observes without samples; here are samples of `simulate`, close together."""
+    system = BASE.with_(f20_hat=0.89)
+    times = np.linspace(20, 30, 8001) * system.period
+    runs = [vi.simulate(system, start, 30, sample_times=times).samples for start in spread_starts(3, 1)]
+    for i in (1, 2):
+        X = np.array([samples[:, 2 * i - 2] for samples in runs])
+        assert found[0][f"largest_X{i}"] == pytest.approx(np.abs(X).max(), rel=1e-4)
+        assert found[0][f"rms_X{i}"] == pytest.approx(np.sqrt(np.mean(X**2)), rel=1e-3)
+        speed = np.mean([np.abs(samples[:, 2 * i + 3]) for samples in runs])
+        assert found[0][f"ball_speed_{i}"] == pytest.approx(speed, rel=1e-2)
+
+
+def test_a_peak_is_what_one_cycle_in_a_hundred_exceeds_along_its_band(found):
+    """Samples of `simulate` from settled states, close together, cycle by cycle; 30 cycles forget their start."""
+    spec = Spec((AMPLITUDES,), starts=3, seed=1, cycles=30, settle=20)
+    along = {value: observed(BASE.with_(sigma_e_hat=value), spec) for value in (-0.5, 0.0, 0.5, 1.0)}
+    heights = {}
+    for value in along:
+        system = BASE.with_(sigma_e_hat=value)
+        times = np.linspace(0, 10, 8001) * system.period
+        settled = vi.ensemble(system, spread_starts(3, 1), 20, settle=20)["final"]
+        runs = [vi.simulate(system, state, 10, sample_times=times).samples for state in settled]
+        boxes = np.abs(np.array(runs)[:, :, [0, 2]]).max(axis=2)
+        cycles = [boxes[:, 800 * n : 800 * (n + 1) + 1].max(axis=1) for n in range(10)]
+        heights[value] = np.percentile(cycles, 99)
+    assert found[1]["peak"] == pytest.approx(max(heights.values()), rel=1e-4)
+    assert found[1]["peak_at"] == max(heights, key=heights.get)
+    assert found[1]["peak"] < max(row[f"largest_X{i}"] for row in along.values() for i in (1, 2))
+    assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along.values() for i in (1, 2))  # of a start, not all
+    assert found[1]["peak_unfinished"] == 0
+    assert SPEC_KEYS.runs == 3 * (4 + 4)
+
+
+def test_one_ball_is_told_where_the_other_never_moves():
+    """Against runs that list their impacts: at small forces no ball meets a wall, at large ones both do."""
+    kinds = set()
+    for force in (0.1, 0.4, 1.5):
+        system = BASE.with_(f10_hat=force, f20_hat=force)
+        row = observed(system, ASKED_FROM_REST)
+        runs = [vi.simulate(system.with_(sigma_e_hat=value), np.zeros(8), 100) for value in (-0.5, 0.0, 0.5, 1.0)]
+        hit = {int(module) for run in runs for module in np.unique(run.events["module"])}
+        assert np.isnan(row["peak_one_ball"]) == (len(hit) != 1)
+        assert len(hit) != 1 or row["peak_one_ball"] == row["peak"]
+        kinds.add(len(hit))
+    assert kinds == {0, 1, 2}
+
+
+def test_the_share_of_impacts_is_that_of_the_certified_runs(found):
+    """Over the observed cycles; each run tells its energy cycle by cycle, the balance of which is closed."""
+    cycles = [vi.simulate(BASE, start, 30).energy.per_cycle[20:] for start in spread_starts(3, 1)]
+    work, impacts = (sum(energy[name].sum() for energy in cycles) for name in ("work", "impacts"))
+    assert found[1]["impact_share"] == pytest.approx(impacts / work, rel=1e-9)
+    assert 0.1 < found[1]["impact_share"] < 1
+
+
+def test_starts_whose_balls_rest_are_in_no_share_of_impacts():
+    """At this detuning rest never brings a ball to a wall, and the other starts do: it is counted, and left out."""
+    system = BASE.with_(sigma_e_hat=-2.0)
+    spec = Spec(("energy",), starts=3, seed=1, cycles=120, settle=60)
+    row = observed(system, spec)
+    runs = [vi.simulate(system, start, 120) for start in spread_starts(3, 1)]
+    hits = [any(run.events["tau"] > 60 * system.period) for run in runs]
+    assert hits == [False, True, True]
+    cycles = [run.energy.per_cycle[60:] for run, hit in zip(runs, hits, strict=True) if hit]
+    work, impacts = (sum(energy[name].sum() for energy in cycles) for name in ("work", "impacts"))
+    assert row["impact_share"] == pytest.approx(impacts / work, rel=1e-9)
+    assert row["starts_without_impacts"] == 1
+    from_rest = observed(system, Spec(("energy",), starts=1, seed=1, cycles=120, settle=60))
+    assert np.isnan(from_rest["impact_share"])
+    assert from_rest["starts_without_impacts"] == 1
+
+
+def test_an_envelope_leaves_out_a_twentieth_of_the_cycles_on_either_side(found):
+    times = (20 + np.arange(10 * PER_CYCLE) / PER_CYCLE) * BASE.period
+    runs = [vi.simulate(BASE, start, 30, sample_times=times).samples for start in spread_starts(3, 1)]
+    for i in (1, 2):
+        cycles = np.sort([np.ptp(s[:, 2 * i - 2].reshape(10, -1), axis=1) / 2 for s in runs], axis=None)
+        places = np.array([0.05, 0.95]) * 29
+        expected = np.interp(places, np.arange(30), cycles)
+        np.testing.assert_allclose([found[1][f"low_X{i}"], found[1][f"high_X{i}"]], expected, rtol=1e-8)
+
+
+def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(found):
+    system = BASE.with_(f20_hat=0.89)
+    names = [regime.name for regime in settle(system, spread_starts(3, 1), Observation(**OBSERVED))]
+    assert {name: found[0][name] for name in REGIMES} == {name: names.count(name) / 3 for name in REGIMES}
+    assert found[0]["from_rest"] == names[0]
+    assert found[0]["fixed_points"] == len(vi.fixed_points(system))
+
+
+def test_a_point_and_its_mirror_image():
+    spec = Spec(("regimes", "fixed_points"), starts=1, observation=OBSERVED)
+    for f10, f20 in ((1.0, 0.89), (1.2, 1.3)):
+        ours, mirrored = (observed(BASE.with_(f10_hat=sign * f10, f20_hat=sign * f20), spec) for sign in (1, -1))
+        assert ours == mirrored
+
+
+def test_orbits_are_motions_of_the_system(found):
+    motions = [orbit for orbit in vi.orbits(BASE) if orbit.admissible]
+    assert found[1]["orbits"] == len(motions) > 0
+    assert found[1]["stable_orbits"] == sum(abs(orbit.multipliers[0]) < 1 for orbit in motions)
+
+
+def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch):
+    def fail(system, states, spec):
+        if system.f20_hat == 1.0:
+            raise ArithmeticError("no\nroots")
+        return 2, 1
+
+    monkeypatch.setitem(observations.OBSERVATIONS, "fixed_points", fail)
+    first, second = rows(GRID, Spec(("fixed_points",)), [0, 1])
+    assert (first["fixed_points"], first["failed"]) == (2, "")
+    assert second == {"point": 1, "f20_hat": 1.0, "failed": "no roots"}
+
+
+def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
+    outcomes = vi.ensemble(BASE, spread_starts(3, 1), 4)
+    broken = outcomes.copy()
+    broken["status"][1], broken["largest"][1] = 1, np.nan
+    monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
+    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
+    assert row["unfinished"] == 1
+    assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
+    broken["status"] = 1
+    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
+    assert row["unfinished"] == 3
+    assert np.isnan(row["rms_X2"])
+    states = np.vstack([spread_starts(3, 1), np.full(8, np.nan)])
+    *kept, peaks, lost = (OBSERVATIONS[PEAKS](BASE, some, SPEC_KEYS) for some in (states[:3], states, states[3:]))
+    assert kept[0][-1] == 0
+    assert peaks == (*kept[0][:-1], 4)
+    assert np.isnan(lost[:-1]).all()
+    assert lost[-1] == 4

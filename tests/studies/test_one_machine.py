@@ -1,0 +1,298 @@
+"""The design of a ball for one machine: against closed forms, the momentum of the ball, its energy, and finer grids."""
+
+import csv
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli.parser import main
+from vibroimpact.studies import one_machine
+
+MACHINE = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, F=40.0)
+BAND = (7.4, 8.4)
+NARROW = replace(MACHINE, c1=120.0), (7.6, 8.2)
+CHOICE = {"clearances": [0.001, 0.002], "restitutions": [0.4]}
+OPTIONS = "design --M 120 --m 6 --k 3e5 --c 240 --F 40 --from 7.4 --to 8.4 --clearance 0.001 0.002 --restitution 0.4"
+WORDS = OPTIONS.split()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def briefly():
+    """Watched for less time than a user's machine, for all that these tests compare."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(one_machine, "LONG", 120)
+        patch.setattr(one_machine, "WATCHED", 60)
+        yield
+
+
+@pytest.fixture(scope="module")
+def found():
+    return vi.design(MACHINE, BAND, **CHOICE)
+
+
+def test_without_ball_and_with_it_fixed_the_peak_is_that_of_an_oscillator(found):
+    for mass, said in ((120.0, found.without), (126.0, found.fixed)):
+        ratio = 240.0 / (2 * np.sqrt(mass * 3e5))
+        assert said == pytest.approx(40.0 / 3e5 / (2 * ratio * np.sqrt(1 - ratio**2)), rel=1e-9)
+
+
+def test_the_machine_is_told_by_its_natural_frequency_and_static_deflection(found):
+    assert found.natural == pytest.approx(50 / (2 * np.pi), rel=1e-12)
+    assert found.static == pytest.approx(40 / 3e5, rel=1e-12)
+    assert str(found).splitlines()[0] == "natural frequency 7.958 Hz, static deflection 0.133 mm"
+
+
+def test_text_and_table_are_of_one_grid_and_window(found):
+    assert [(row["clearance_m"], row["restitution"]) for row in found.candidates] == [(0.001, 0.4), (0.002, 0.4)]
+    assert (found.machine.L, found.machine.kappa) == (0.002, 0.4)
+    assert found.peak == max(row["with_m"] for row in found.response)
+    assert found.settling == max(row["settling_m"] for row in found.response)
+    assert found.absorber < found.peak < found.without
+    assert max(row["without_m"] for row in found.response) == pytest.approx(found.without, rel=0.02)
+
+
+@pytest.fixture(scope="module")
+def many():
+    """Over the resonance, from clearances of its own."""
+    return vi.design(*NARROW, restitutions=[0.15, 0.3])
+
+
+def test_the_best_few_are_measured_again_and_the_best_of_those_is_chosen(many):
+    """By their neighbourhood: each of them alone gets the numbers that it has in the list."""
+    again = [row for row in many.candidates if np.isfinite(row["again_m"])]
+    assert len(again) == 3
+    assert max(row["peak_m"] for row in again) <= min(row["peak_m"] for row in many.candidates if row not in again)
+    lowest = min(again, key=lambda row: row["near_m"])
+    chosen = lowest["clearance_m"], lowest["restitution"], lowest["again_m"], lowest["near_m"]
+    assert chosen == (many.machine.L, many.machine.kappa, many.peak, many.near[1])
+    other = next(row for row in again if row is not lowest)
+    alone = vi.design(*NARROW, [other["clearance_m"]], [other["restitution"]])
+    assert (alone.peak, alone.near[1]) == (other["again_m"], other["near_m"])
+    beside = [vi.design(*NARROW, [f * many.machine.L], [many.machine.kappa]) for f in (0.98, 1.02)]
+    peaks = [one.peak for one in (many, *beside)]
+    assert many.near == pytest.approx((min(peaks), max(peaks)), rel=1e-9)
+
+
+def test_the_printed_clearance_gives_what_was_printed(many):
+    clearance, restitution = re.search(
+        r"^clearance (\S+) mm to each side, restitution (\S+)$", str(many), re.M
+    ).groups()
+    assert len(clearance.replace(".", "").lstrip("0")) <= 3
+    again = vi.design(replace(NARROW[0], L=0.3, kappa=0.9), NARROW[1], [float(f"{clearance}e-3")], [float(restitution)])
+    assert (again.peak, again.near, again.response) == (many.peak, many.near, many.response)
+    assert set(str(again).splitlines()) <= set(str(many).splitlines())
+
+
+def test_a_machine_and_its_mirror_image_have_the_same_answer_to_the_digit(found):
+    mirrored = vi.design(replace(MACHINE, F10=-40.0), BAND, **CHOICE)
+    assert str(mirrored) == str(found)
+    np.testing.assert_equal(mirrored.candidates, found.candidates)
+    assert mirrored.response == found.response
+    assert mirrored.machine == replace(found.machine, F10=-40.0)
+
+
+def test_displacement_and_impacts_are_those_of_one_motion_in_one_window(found):
+    """Where it is periodic, against runs from each start, sampled: the largest of them, and its impacts."""
+    waited, watched = found.window
+    row = found.response[20]
+    omega = 2 * np.pi * row["frequency_Hz"]
+    system = replace(found.machine, omega1=omega, omega2=omega).dimensionless()
+    runs, spans = [], (0, waited * system.period, (waited + watched) * system.period)
+    for state in one_machine._starts(one_machine.AGAIN, 2):
+        times = np.linspace(0, spans[2], 200 * (waited + watched) + 1)
+        run = vi.simulate(system, state, waited + watched, sample_times=times)
+        boxes = found.machine.L * np.abs(run.samples[:, 0])
+        impacts = run.events[(run.events["kind"] == vi.IMPACT) & (run.events["tau"] > spans[1])]
+        early = times <= spans[1]
+        runs.append((boxes[~early].max(), boxes[early].max(), len(impacts) / watched * row["frequency_Hz"]))
+    largest, _, impacts = max(runs)
+    assert impacts > 10
+    assert row["with_m"] == pytest.approx(largest, rel=1e-3)
+    assert row["impacts_per_s"] == pytest.approx(impacts, rel=2e-3)
+    assert row["later_m"] == pytest.approx(largest, rel=1e-3)
+    assert row["settling_m"] == pytest.approx(runs[0][1], rel=1e-3)
+
+
+def test_a_transient_is_told_as_one(found, monkeypatch):
+    """Watched too early: what is seen there is not what remains."""
+    monkeypatch.setattr(one_machine, "SETTLED", 0.1)
+    monkeypatch.setattr(one_machine, "LONG", 3)
+    early = vi.design(MACHINE, (7.8, 7.9), **CHOICE)
+    worst = max(early.response, key=lambda row: row["with_m"])
+    assert early.peak > 1.1 * worst["later_m"]
+    (line,) = (line for line in str(early).splitlines() if "had not settled" in line)
+    assert f"at most {1000 * worst['later_m']:.3g} mm in the 1000 periods after them" in line
+    assert "had not settled" not in str(found)
+
+
+def test_what_to_know_before_it_is_built_is_told(found):
+    told = {
+        "The clearance is the greatest of those tried": found,
+        "The restitution is the least of those tried": replace(
+            found, candidates=[*found.candidates, found.candidates[0] | {"restitution": 0.5}]
+        ),
+        "Fragile: with clearances within 2% of it the peak is up to 20% higher.": replace(
+            found, near=(found.peak, 1.2 * found.peak)
+        ),
+        "No resonance without ball lies in the band from 7.4 to 8.4 Hz.": replace(found, natural=8.5),
+        "The ball of 121 kg is heavier than its machine of 120 kg.": replace(
+            found, machine=replace(found.machine, m=121.0)
+        ),
+    }
+    for words, answer in told.items():
+        assert words in str(answer)
+        assert sum(words in str(other) for other in told.values()) == (len(told) if answer is found else 1)
+
+
+def test_a_softer_ball_than_the_usual_is_tried():
+    """Restitutions from 0.3 on gave 0.598 mm; over the resonance alone."""
+    machine = vi.PhysicalSystem.single(M=1500.0, m=40.0, k=2.4e7, c=6e3, F=800.0)
+    found = vi.design(machine, (19.0, 21.0), clearances=[0.00064])
+    assert found.machine.kappa < 0.3
+    assert found.peak < 0.56e-3
+
+
+def test_the_mass_of_the_ball_is_chosen_and_what_it_buys_is_told(found):
+    several = vi.design(MACHINE, BAND, **CHOICE, masses=[6.0, 1.5])
+    assert [row["mass_kg"] for row in several.masses] == [1.5, 6.0]
+    alone = vi.design(replace(MACHINE, m=1.5), BAND, **CHOICE)
+    for row, one in zip(several.masses, (alone, found), strict=True):
+        assert (row["peak_m"], row["near_m"], row["absorber_m"]) == (one.peak, one.near[1], one.absorber)
+        assert f"with {row['mass_kg']:g} kg {1000 * one.peak:.3g} mm" in str(several)
+    assert several.machine == min((alone, found), key=lambda one: one.near[1]).machine
+    assert not found.masses
+
+
+def test_a_band_so_narrow_that_damping_is_no_use_has_an_absorber():
+    found = vi.design(MACHINE, (8.3, 8.31), **CHOICE)
+    assert 0 < found.absorber < 0.01 * found.without
+
+
+def run_at(hertz, L=0.002, kappa=0.4):
+    """A machine driven at a frequency, and its run after a transient."""
+    omega = 2 * np.pi * hertz
+    machine = replace(MACHINE, L=L, kappa=kappa, omega1=omega, omega2=omega)
+    system = machine.dimensionless()
+    return machine, vi.simulate(system, vi.simulate(system, np.zeros(8), 200).final, 60)
+
+
+def test_impulses_are_changes_of_the_momentum_of_the_ball():
+    machine, run = run_at(7.9)
+    events = run.events[(run.events["module"] == 1) & (run.events["kind"] == vi.IMPACT)]
+    assert len(events) > 100
+    assert len(events) == len(run.events)
+    # Between its impacts the ball is free, so the velocity before an impact is that after the one before.
+    momentum = machine.m * machine.L * machine.omega10 * events["state"][:, 5]
+    told = one_machine._impacts(machine, run)
+    assert told["impulse_Ns"] == pytest.approx(np.abs(np.diff(momentum)).mean(), rel=0.02)
+    seconds = 60 / 7.9
+    assert told["impacts_per_s"] == pytest.approx(len(events) / seconds)
+    assert told["impulse_Ns_per_s"] == pytest.approx(told["impulse_Ns"] * told["impacts_per_s"])
+
+
+def test_speeds_of_impacts_account_for_the_energy_that_impacts_take():
+    machine, run = run_at(7.9)
+    reduced = machine.M * machine.m / (machine.M + machine.m)
+    states = run.events["state"][(run.events["module"] == 1) & (run.events["kind"] == vi.IMPACT)]
+    before = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa
+    lost = 0.5 * reduced * (1 - machine.kappa**2) * (before**2).sum()
+    joule = machine.k1 * machine.L**2
+    assert lost == pytest.approx(joule * np.sum(run.energy.impacts), rel=1e-9)
+    assert one_machine._impacts(machine, run)["impact_speed_m_s"] == pytest.approx(before.mean())
+
+
+def test_the_share_of_sticking_is_that_of_fine_samples():
+    machine, run = run_at(7.9, L=3e-5, kappa=0.1)
+    assert (run.events["kind"] == vi.STICK).any()
+    times = np.linspace(0, run.cycles * run.system.period, 60_001)[:-1]
+    samples = vi.simulate(run.system, vi.simulate(run.system, np.zeros(8), 200).final, 60, sample_times=times).samples
+    gap, speed = samples[:, 0] - samples[:, 1], samples[:, 4] - samples[:, 5]
+    share = np.mean((np.abs(np.abs(gap) - 1) < 1e-9) & (np.abs(speed) < 1e-9))
+    assert 0.05 < share < 1
+    assert one_machine._impacts(machine, run)["sticking"] == pytest.approx(share, abs=2e-3)
+
+
+def test_finer_frequencies_change_neither_the_choice_nor_its_peak(found, monkeypatch):
+    monkeypatch.setattr(one_machine, "PER_WIDTH", 3 * one_machine.PER_WIDTH)
+    monkeypatch.setattr(one_machine, "LEAST", 3 * one_machine.LEAST)
+    finer = vi.design(MACHINE, BAND, **CHOICE)
+    assert len(finer.response) > 2.5 * len(found.response)
+    assert finer.machine == found.machine
+    assert finer.peak == pytest.approx(found.peak, rel=0.03)
+
+
+def test_without_a_choice_clearances_up_to_the_amplitude_are_tried(many):
+    """Rounded to three digits, from a quarter of F / k M / m on; others beside the best at its restitution."""
+    first = [row["clearance_m"] for row in many.candidates[:8]]
+    assert len(many.candidates) == 2 * 8 + 2 * 3
+    assert first[0] == pytest.approx(40 / 3e5 * 20 / 4, rel=5e-3)
+    assert first[-1] == pytest.approx(many.without, rel=5e-3)
+    np.testing.assert_allclose(np.diff(np.log(first)), np.log(first[-1] / first[0]) / 7, atol=0.01)
+    assert all(float(f"{row['clearance_m']:.3g}") == row["clearance_m"] for row in many.candidates)
+    assert first[0] < many.machine.L < first[-1]
+
+
+@pytest.mark.parametrize(
+    ("machine", "band", "choice", "told"),
+    [
+        (MACHINE, (8.0, 7.0), {}, "band"),
+        (MACHINE, (0.0, 7.0), {}, "band"),
+        (replace(MACHINE, c1=0.0), BAND, {}, "machine"),
+        (replace(MACHINE, k12=1.0), BAND, {}, "machine"),
+        (MACHINE, BAND, {"clearances": [0.0]}, "clearances"),
+        (MACHINE, BAND, {"restitutions": [1.0]}, "restitutions"),
+        (MACHINE, BAND, {"masses": [0.0, 1.0]}, "masses"),
+        (MACHINE.dimensionless(), BAND, {}, "machine"),
+    ],
+)
+def test_refusals_name_the_argument(machine, band, choice, told):
+    with pytest.raises(ValueError, match=f"^{told}: "):
+        vi.design(machine, band, **choice)
+
+
+def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_path, capsys):
+    table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
+    assert main([*WORDS, "--output", str(table), "--plot", str(picture)]) == 0
+    assert capsys.readouterr().out == f"{found}\n"
+    with open(table, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [{name: float(value) for name, value in row.items()} for row in rows] == found.response
+    assert picture.stat().st_size > 10_000
+
+
+def test_the_picture_has_the_displacements_of_the_table(found):
+    axes = found.plot().axes[0]
+    lines = {line.get_label(): np.asarray(line.get_data()) for line in axes.get_lines()}
+    assert len(lines) == 4
+    for name, label in (("with_m", "with the ball, settled"), ("without_m", "without ball")):
+        drawn = [[row["frequency_Hz"], 1000 * row[name]] for row in found.response]
+        np.testing.assert_array_equal(lines[label].T, drawn)
+
+
+def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(one_machine, "design", lambda *given, masses: asked.append(masses) or done)
+    done = vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
+    words = OPTIONS.replace("--m 6", "--m {}")
+    for given, masses in (("0..4", [1.0, 2.0, 3.0, 4.0]), ("2..6", [2.0, 3.0, 4.0, 5.0, 6.0]), ("6", None)):
+        assert main(words.format(given).split()) == 0
+        assert asked[-1] == masses
+    assert "with 2 kg" in capsys.readouterr().out
+    for wrong in ("4..2", "a..2", "1..", "-1..2"):
+        with pytest.raises(SystemExit) as end:
+            main([*words.replace("--m {}", f"--m={wrong}").split()])
+        assert end.value.code == 2
+        assert "m: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("wrong", ["--k -1", "--m 0", "--restitution 2", "--from 9", "--clearance 0"])
+def test_a_wrong_option_is_named(wrong, capsys):
+    with pytest.raises(SystemExit) as end:
+        main([*WORDS, *wrong.split()])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert wrong.split()[0].strip("-") in said

@@ -1,0 +1,247 @@
+"""Exponents, attractors, basins, sections, sweeps and continuation by their public names."""
+
+import doctest
+import sys
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import PARAMETERS
+from vibroimpact.studies.regimes.bifurcation_curves import Plane, bifurcation_curves
+from vibroimpact.studies.regimes.branches import Path, branches
+from vibroimpact.studies.regimes.classification import starts
+from vibroimpact.studies.regimes.families import FOLD, SYMMETRY_BREAKING, SymmetricOrbits
+from vibroimpact.system import progress
+from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
+
+SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+REST = [0.0] * 8
+EXAMPLES = (
+    *("branches", "bifurcation_curves", "sweep", "sections"),
+    *("attractors", "basins", "largest_lyapunov", "lyapunov_spectrum"),
+)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    """The stable asymmetric orbits, mirror images of each other, by Newton's method."""
+    return [orbit for orbit in vi.orbits(SYSTEM) if orbit.admissible and orbit.stable]
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_example_of_a_docstring_runs(name):
+    function = getattr(vi, name)
+    [example] = doctest.DocTestFinder(recurse=False).find(
+        function, name, globs={"system": SYSTEM, "np": np, name: function}
+    )
+    assert example.examples
+    assert doctest.DocTestRunner().run(example).failed == 0
+
+
+# Lyapunov exponents
+
+
+def test_exponents_of_a_periodic_motion_are_those_of_its_multipliers(pair):
+    found = vi.lyapunov_spectrum(SYSTEM, pair[0].state, cycles=400, settle=0)
+    logs = np.log(np.abs(pair[0].multipliers))
+    assert found.exponents.sum() == pytest.approx(logs.sum(), abs=1e-8)
+    np.testing.assert_allclose(found.exponents[:4], logs[:4], atol=0.02)  # pairs turn: means over whole turns only
+    largest = vi.largest_lyapunov(SYSTEM, REST, cycles=2000, settle=3000)
+    assert largest.mean == pytest.approx(logs[0], abs=max(3 * largest.error, 1e-3))
+
+
+def test_the_exponent_of_chaos_is_the_growth_of_a_small_distance():
+    """Two runs side by side, renormalised after every cycle: no Jacobian."""
+    system, start = SYSTEM.with_(f10_hat=0.5, f20_hat=0.5), np.array([0, 0, 0, 0, 0, 0.5, 0, -0.5])
+    state = vi.ensemble(system, start, 500, settle=500)["final"]
+    other, growth = state + 1e-8, []
+    for _ in range(1500):
+        state, other = vi.ensemble(system, np.array([state, other]), 1, settle=1)["final"]
+        distance = np.linalg.norm(other - state)
+        growth.append(np.log(distance / 1e-8))
+        other = state + (other - state) * 1e-8 / distance
+    blocks = np.reshape(growth[100:], (20, -1)).mean(axis=1)
+    found = vi.largest_lyapunov(system, start, cycles=2000, settle=500)
+    error = np.hypot(found.error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
+    assert abs(found.mean - blocks.mean()) < 4 * error < 0.2
+
+
+# Attractors and basins
+
+
+def test_the_basins_of_mirror_images_are_mirror_images(pair):
+    """Starts from near either orbit bear its label; shares count the labels."""
+    states = np.array([pair[0].state, pair[1].state, pair[0].state + 1e-3, pair[1].state + 1e-3])
+    found = vi.attractors(SYSTEM, states)
+    assert found.labels.tolist() == [1, 2, 1, 2]
+    assert found.shares == {1: 0.5, 2: 0.5}
+    for label, orbit in enumerate(pair, start=1):
+        np.testing.assert_allclose(found.attractors[label].states, [orbit.state], atol=1e-9)
+        assert found.attractors[label].cycles == 1
+
+
+def test_basins_are_those_of_their_starts_listed():
+    W1, X2 = [-0.5, 0.3], [0.1, 0.6, 0.9]
+    found = vi.basins(SYSTEM, {"W1": W1, "X2": X2}, state=[0.2, 0, 0, 0, 0, 0, 0, 0.4])
+    states = [[0.2, 0.2 - w, x, 0, 0, 0, 0, 0.4] for w in W1 for x in X2]
+    listed = vi.attractors(SYSTEM, states)
+    assert found.labels.shape == (2, 3)
+    assert found.labels.ravel().tolist() == listed.labels.tolist()
+    frame = vi.to_frame(found)
+    assert frame[["W1", "X2"]].to_numpy().tolist() == [[w, x] for w in W1 for x in X2]
+    assert sum(found.shares.values()) == pytest.approx(1.0)
+
+
+def test_a_start_that_has_no_time_to_settle_is_labelled_minus_one():
+    short = vi.Observation(cycles=1, rounds=1, blocks=2, block=1, retest=1)
+    found = vi.attractors(SYSTEM, starts(3, 2)[1:], short)
+    assert found.labels.tolist() == [-1, -1]
+    assert found.shares == {-1: 1.0}
+
+
+# Sections
+
+
+def test_sections_are_the_states_of_single_runs_at_whole_cycles():
+    systems = [SYSTEM, SYSTEM.with_(f20_hat=0.9)]
+    found = vi.sections(systems, REST, cycles=12, settle=4)
+    for system, states in zip(systems, found, strict=True):
+        np.testing.assert_allclose(states, vi.simulate(system, REST, 12).section()[5:], atol=1e-9)
+
+
+# Sweeps
+
+
+def test_a_sweep_without_cycles_has_numbers():
+    [row] = vi.sweep(SYSTEM, {"f20_hat": [1.0]}, ["amplitudes", "regimes", "peaks"], band={"sigma_e_hat": [0.2]})
+    assert row["failed"] == ""
+    assert all(np.isfinite(row[name]) for name in ("largest_X1", "rms_X2", "peak", "asymmetric"))
+    outcomes = vi.ensemble(SYSTEM, starts(5, 0), 1000, settle=800)
+    assert row["largest_X1"] == outcomes["largest"][:, 0].max()
+
+
+AXES = {"f20_hat": [1.0]}
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"observe": ["peaks"]}, "band"), ({"observe": ["peaks"], "band": {"mass": [1.0]}}, "mass"),
+        ({"observe": ["peaks"], "band": AXES}, "band"), ({"observe": ["amplitudes"], "cycles": 0}, "cycles"),
+        ({"observe": ["amplitudes"], "cycles": 10, "settle": 10}, "settle"), ({"observe": []}, "observe"),
+        ({"observe": ["regimes"], "observation": {"cycles": 5}}, "observation"), ({"observe": "all"}, "observe"),
+        ({"observe": ["orbits"], "starts": 0}, "starts"), ({"observe": ["orbits"], "axes": {}}, "axes"),
+        ({"observe": ["orbits"], "axes": {"kappa": []}}, r"axes\['kappa'\]"),
+        ({"observe": ["orbits"], "axes": {"kappa": ["a"]}}, r"axes\['kappa'\]"),
+        ({"observe": ["orbits"], "axes": {"kappa": [0.5, 1.5]}}, "at kappa = 1.5"),
+    ],
+)  # fmt: skip
+def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
+    with pytest.raises(ValueError, match=rf"^{told}: [^\n]+$"):
+        vi.sweep(SYSTEM, **{"axes": AXES} | given)
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda: vi.largest_lyapunov(SYSTEM, [0.0] * 7), "state"), (lambda: vi.lyapunov_spectrum(1, REST), "system"),
+        (lambda: vi.largest_lyapunov(SYSTEM, REST, 1), "cycles"),
+        (lambda: vi.largest_lyapunov(SYSTEM, REST, blocks=1), "blocks"),
+        (lambda: vi.attractors(SYSTEM, REST), "states"),
+        (lambda: vi.attractors(SYSTEM, [[2.0, *REST[1:]]]), "start 0"),
+        (lambda: vi.basins(SYSTEM, {"Z": [1]}), "axes"), (lambda: vi.basins(SYSTEM, {}), "axes"),
+        (lambda: vi.basins(SYSTEM, {"W1": [1.5]}), "start 0"), (lambda: vi.Observation(blocks=1), "blocks"),
+        (lambda: vi.sections(SYSTEM, REST, 5, settle=5), "settle"), (lambda: vi.sections(SYSTEM, [1.0], 5), "states"),
+        (lambda: vi.bifurcation_curves(SYSTEM, "kappa", [(0, 1)] * 2), "along"),
+        (lambda: vi.bifurcation_curves(SYSTEM, ("kappa", "mass"), [(0, 1)] * 2), "mass"),
+        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "f20_hat"), (0.8, 1.2)), "between, f10_hat"),
+        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "kappa"), [(0.8, 1.2), (0.5, 1.5)]), "between"),
+        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "kappa"), [(0.8, 1.2), (0.5, 0.6)], of="all"), "of"),
+    ],
+)  # fmt: skip
+def test_a_wrong_argument_is_named_in_one_line(call, told):
+    with pytest.raises(ValueError, match=rf"^{told}: [^\n]+$"):
+        call()
+
+
+# Continuation
+
+
+def test_the_theory_s_folds_bound_the_number_of_fixed_points_in_the_plane():
+    """On one side there are two points less, as a search at that side counts."""
+    names, limits = ("f20_hat", "f10_hat"), [(0.6, 1.0), (0.98, 1.2)]
+    found = vi.bifurcation_curves(SYSTEM, names, limits, seeds=1)
+    [fold] = [curve for curve in found if curve.kind == FOLD]
+    for f20, f10 in fold.points[1:-1:4]:
+        counts = [len(vi.fixed_points(SYSTEM.with_(f10_hat=f10, f20_hat=f20 + side))) for side in (-1e-4, 1e-4)]
+        assert abs(counts[0] - counts[1]) == 2
+    frame = vi.to_frame(found)
+    assert frame.columns.tolist() == ["family", "curve", "special", *names, "C1", "C2"]
+    for name, (low, high) in zip(names, limits, strict=True):
+        assert frame[name].between(low - 1e-9, high + 1e-9).all()
+
+
+def test_the_theory_breaks_the_symmetry_where_masri_s_upper_limit_is():
+    found = vi.bifurcation_curves(SYSTEM, ("f10_hat", "f20_hat"), [(0.9, 1.1), (0.95, 1.05)], seeds=1)
+    [curve] = [curve for curve in found if curve.kind == f"{SYMMETRY_BREAKING}, module 2"]
+    for (f10, f20), C in zip(curve.points[::4], curve.amplitudes[::4], strict=True):
+        points = vi.fixed_points(SYSTEM.with_(f10_hat=f10, f20_hat=f20))
+        assert min(np.abs(point.C - C).max() for point in points) < 1e-9
+        assert C[1] == pytest.approx(SYMMETRY_BREAKING_C, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("kind", "interval", "seed"), [(FOLD, (0.72, 0.75), 0.745), (SYMMETRY_BREAKING, (1.2, 1.22), 1.21)]
+)
+def test_exact_curves_pass_the_special_points_of_other_branches(kind, interval, seed):
+    """Found there by the multipliers, which the equations of the curve do not know."""
+
+    def special(f10):
+        path = Path(SYSTEM.with_(f10_hat=f10), ("f20_hat",))
+        found = branches(SymmetricOrbits, path, interval, [seed], 0.01)
+        return [(branch, node) for branch in found for node in branch.special if node.kind == kind]
+
+    [(branch, _)] = special(1.0)
+    plane = Plane(SYSTEM, ("f20_hat", "f10_hat"), np.array([interval, (0.995, 1.005)]))
+    [curve] = [one for one in bifurcation_curves(plane, [(1.0, branch)], 0.002) if one.kind == kind]
+    [(_, node)] = special(1.002)
+    order = np.argsort(curve.points[:, 1])
+    assert np.interp(1.002, curve.points[order, 1], curve.points[order, 0]) == pytest.approx(node.p, abs=1e-6)
+
+
+def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
+    assert list(progress.counted([3, 4], "things")) == [3, 4]
+    vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert list(progress.counted([3, 4], "things")) == [3, 4]
+    assert capsys.readouterr().err.endswith("things 2/2\n")
+    vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
+    told = capsys.readouterr().err
+    assert "fixed point: f20_hat = " in told
+    list(progress.counted([3], "things", progress=False))
+    assert capsys.readouterr().err == ""
+
+
+def test_attractors_and_basins_count_their_starts_on_a_terminal(monkeypatch, capsys):
+    few = vi.Observation(cycles=10, rounds=2, retest=20)
+    states = vi.starts(2, seed=1)
+    vi.attractors(SYSTEM, states, few)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    vi.attractors(SYSTEM, states, few)
+    lines = capsys.readouterr().err
+    assert lines.count("starts: round 1, 2/2\n") == 1
+    assert "starts: last round, " in lines
+    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few)
+    assert "starts: round 1, 2/2\n" in capsys.readouterr().err
+    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few, progress=False)
+    vi.attractors(SYSTEM, states, few, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+def test_the_former_name_of_a_verdict_still_answers():
+    [first, *_] = vi.fixed_points(SYSTEM)
+    with pytest.deprecated_call():
+        assert first.stability.both == first.stability.theory

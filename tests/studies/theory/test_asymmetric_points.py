@@ -1,0 +1,150 @@
+"""Asymmetric fixed points: they stand still, their eigenvalues are those of the flow, and none is missed."""
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from vibroimpact.studies.completeness import points as completeness_proof
+from vibroimpact.studies.theory import branch
+from vibroimpact.studies.theory.asymmetric_points import fixed_points, search
+from vibroimpact.studies.theory.branch import ASYMMETRIC, charts
+from vibroimpact.theory.manifold import B_of_C, impact_phase, rho, sawtooth
+from vibroimpact.theory.slow_flow import impedances
+
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+SYSTEMS |= {
+    "strong": SYSTEMS["equal"].with_(f20_hat=1.1),
+    "both": SYSTEMS["equal"].with_(f10_hat=1.9, f20_hat=1.6, gamma1_hat=0.1, gamma2_hat=0.1),
+}
+
+
+@functools.cache
+def points(case):
+    return search(SYSTEMS[case])
+
+
+@functools.cache
+def proof(case):
+    return completeness_proof.certify_asymmetric(SYSTEMS[case])
+
+
+def harmonic(system, skewed, squared, C):
+    """First harmonic of Z over U, by a Fourier sum over Z itself, and B."""
+    kappa, x = system.kappa, 2 * np.pi * (np.arange(20000) + 0.5) / 20000
+    if not skewed:
+        r = rho(kappa)
+        # (10.11) peaks at the impact with W = +1.
+        Z, B = sawtooth(x, C, impact_phase(C, r)), B_of_C(C, r)
+    else:
+        v, B = np.sqrt(squared), branch.amplitudes(squared, kappa)[1]
+        a, b = branch.impact_phases(v, kappa)
+        Z = np.interp(np.remainder(x - a, 2 * np.pi), [0, b - a, 2 * np.pi], [C, -C, C])
+    return 2 * np.mean(Z * np.exp(-1j * x)) / (-1j * B), B
+
+
+@pytest.mark.parametrize("case", ["equal", "both"])
+def test_every_real_point_stands_still(case):
+    """The balance of section 4, with describing functions from the saw-teeth."""
+    system = SYSTEMS[case]
+    e, K = impedances(system)
+    real = [point for point in points(case) if point.real]
+    assert len(real) >= 2
+    for point in real:
+        modules = zip(point.asymmetric, point.squared, point.C, strict=True)
+        N, B = np.transpose([harmonic(system, *module) for module in modules])
+        np.testing.assert_allclose(point.B, B.real, rtol=1e-12)
+        b = point.B * np.exp(-1j * point.psi)
+        balance = np.array([system.f10_hat, system.f20_hat]) - (e + N) * b - K * (b - b[::-1])
+        assert abs(balance).max() < 1e-7
+
+
+def flow(system, point, b):
+    """D_1 b near a point, each N following |b| along its own chart."""
+    known, N = charts(system.kappa), []
+    for name, x, size in zip(point.charts, point.x, abs(b), strict=True):
+        chart = known[name]
+        for _ in range(8):
+            B, _, B_x, _ = chart.ball(x)
+            x -= (B - size) / B_x
+        N.append(chart.n(x) / chart.z(x))
+    e, K = impedances(system)
+    return (np.array([system.f10_hat, system.f20_hat]) - (e + N) * b - K * (b - b[::-1])) / 2j
+
+
+@pytest.mark.parametrize("case", ["equal", "both"])
+def test_eigenvalues_are_those_of_the_flow_in_the_plane_of_b(case):
+    system, step = SYSTEMS[case], 1e-6
+    for point in points(case):
+        b = point.B * np.exp(-1j * point.psi)
+        assert abs(flow(system, point, b)).max() < 1e-10
+        columns = []
+        for change in (1, 0), (1j, 0), (0, 1), (0, 1j):
+            slope = (
+                flow(system, point, b + step * np.array(change)) - flow(system, point, b - step * np.array(change))
+            ) / 2
+            columns.append(np.ravel([slope.real, slope.imag], order="F") / step)
+        # Compared as characteristic polynomials, whose coefficients have an order.
+        np.testing.assert_allclose(np.poly(np.transpose(columns)), np.poly(point.slow_eigenvalues).real, atol=1e-5)
+
+
+@pytest.mark.parametrize("case", SYSTEMS)
+def test_none_is_missed(case):
+    assert proof(case).complete
+    assert len(proof(case).isolated) == len(points(case))
+
+
+def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
+    listed = points("equal")
+    for spoilt in (listed[1:], [*listed, listed[0]]):
+        monkeypatch.setattr(completeness_proof.asymmetric, "search", lambda system, spoilt=spoilt: spoilt)
+        assert not completeness_proof.certify_asymmetric(SYSTEMS["equal"]).complete
+
+
+def test_without_coupling_each_module_is_on_its_own():
+    """A module alone balances |e z + n| = |f beta|: its points times the symmetric ones of the other."""
+    system = SYSTEMS["equal"].with_(alpha12_hat=0, gamma12_hat=0, f10_hat=0.6)
+    e, forces, known = impedances(system)[0], (system.f10_hat, system.f20_hat), charts(system.kappa)
+    roots = {}
+    for (module, force), (name, chart) in itertools.product(enumerate(forces), known.items()):
+        x = np.linspace(-1, 1, 4001)
+        excess = abs(e[module] * chart.z(x) + chart.n(x)) - abs(force * chart.beta(x))
+        roots[module, name] = x[:-1][excess[:-1] * excess[1:] < 0]
+    for first, second in itertools.product(known, known):
+        if ASYMMETRIC in (first, second):
+            expected = sorted(itertools.product(roots[0, first], roots[1, second]))
+            found = sorted(tuple(p.x) for p in search(system) if p.charts == (first, second))
+            np.testing.assert_allclose(np.reshape(found, (-1, 2)), np.reshape(expected, (-1, 2)), atol=6e-4)
+
+
+def test_points_are_where_symmetry_breaks_at_the_same_force():
+    """Where C_2 of the symmetric point passes pi^2 / (pi^2 - 4), v_2^2 passes 0, and C, B, psi are the same."""
+
+    def born(f20):
+        return min(search(SYSTEMS["equal"].with_(f20_hat=f20)), key=lambda p: abs(p.squared).sum())
+
+    low, high = (born(f20) for f20 in (1.0, 1.1))
+    assert low.squared[1] < 0 < high.squared[1]
+    f20 = 1.0 + 0.1 * low.squared[1] / (low.squared[1] - high.squared[1])
+    at = born(f20)
+    assert abs(at.squared[1]) < 1e-3
+    symmetric = min(vi.fixed_points(SYSTEMS["equal"].with_(f20_hat=f20)), key=lambda p: np.linalg.norm(p.C - at.C))
+    np.testing.assert_allclose(symmetric.C, at.C, atol=1e-2)
+    np.testing.assert_allclose(symmetric.psi, at.psi, atol=1e-2)
+
+
+def test_what_is_not_driven_or_not_a_system_is_told():
+    assert fixed_points(SYSTEMS["equal"].with_(f10_hat=0.0, f20_hat=0.0)) == []
+    with pytest.raises(ValueError, match="system"):
+        fixed_points("equal")
+
+
+@pytest.mark.parametrize(("case", "motions"), [("equal", 2), ("unequal", 0), ("weak", 0)])
+def test_few_of_the_proved_points_are_motions(case, motions):
+    """Those of the search with both C and every v^2 above 0; the branch has no other C."""
+    found = [point for point in points(case) if (point.C > 0).all() and (point.squared[point.asymmetric] > 0).all()]
+    assert proof(case).motions == len(found) == motions
+    assert branch.amplitudes(np.linspace(0, 0.999, 1000), 0.65)[0].min() > 1.68

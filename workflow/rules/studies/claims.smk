@@ -1,0 +1,49 @@
+# The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
+# parameters and lean on some settings: with others, those that depend on these are not judged, and the page says why.
+
+EVIDENCE = {
+    "fixed_points": "results/fixed_points.csv",
+    "orbits": "results/orbits.csv",
+    "proofs": "results/proofs.json",
+    "verdict_grid": "results/verdict_grid.csv",
+    "modulation": "results/regimes/modulation.csv",
+    "special_points": "results/regimes/special_points.csv",
+    "epsilon_orders": "results/regimes/epsilon_orders.csv",
+    "absorber": "results/absorber.csv",
+    "clearance": "results/sweeps/clearance.csv",
+    "equal_samples": "results/simulations/equal/samples.csv",
+    "equal_events": "results/simulations/equal/events.csv",
+    "equal_summary": "results/simulations/equal/summary.json",
+    "weak_samples": "results/simulations/weak/samples.csv",
+    "weak_events": "results/simulations/weak/events.csv",
+    "weak_summary": "results/simulations/weak/summary.json",
+}
+
+# What a config does not make.
+ABSENT = {
+    *({"special_points"} if "companion_branches" not in MADE else ()),
+    *({"epsilon_orders"} if "companion_epsilon" not in MADE else ()),
+    *({"absorber"} if "companion_absorber" not in MADE else ()),
+    *({"clearance"} - SWEEPS.keys()),
+    *(name for name in EVIDENCE if name.startswith(("equal_", "weak_")) and name.split("_")[0] not in config["cases"]),
+}
+
+
+rule claims:
+    input:
+        **{name: path for name, path in EVIDENCE.items() if name not in ABSENT},
+        claims=own("docs/studies/claims.yaml"),
+    output:
+        json=report("results/claims.json", category="Tables", labels={"name": "claims", "kind": "json"}),
+        markdown="results/claims.md",
+    params:
+        config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
+        code=LIBRARY | fingerprints("pipeline", "docs/studies/claims.yaml"),
+    log:
+        "results/logs/claims.log",
+    benchmark:
+        "results/benchmarks/claims.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/claims.py"

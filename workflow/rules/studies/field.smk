@@ -1,0 +1,20 @@
+# A published program beside exact orbits, outside the default build: snakemake field. It runs the program CC by Weidemann
+# et al. (2025) in Octave, from the folder that the environment variable CC_PROGRAM names (docs/studies/field.md).
+
+
+rule field:
+    output:
+        program="results/field/chain_program.csv",
+        exact="results/field/chain_exact.csv",
+        evidence="results/field/chain_evidence.json",
+    params:
+        octave=str(ROOT / "workflow/scripts/studies/chain.m"),
+        code=LIBRARY,
+    log:
+        "results/logs/field.log",
+    benchmark:
+        "results/benchmarks/field.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/field.py"

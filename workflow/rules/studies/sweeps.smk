@@ -1,0 +1,84 @@
+# Parameters moved over a grid: snakemake sweep_NAME. A sweep is cut into tiles, a job each; how many follows from its
+# predicted cost (vibroimpact.studies.sweeps.cost), or from `--set-scatter NAME=8`, and changes no byte of its table.
+
+from vibroimpact.studies.sweeps.cost import points, tiles
+
+SWEEPS = config.get("sweeps", {})
+
+
+scattergather:
+    **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
+
+
+for name, sweep in SWEEPS.items():
+
+    rule:
+        name:
+            f"tile_{name}"
+        output:
+            csv=f"results/sweeps/{name}/tiles/{{scatteritem}}.csv",
+        params:
+            request=sweep_request(sweep),
+            code=LIBRARY,
+        threads: 1
+        log:
+            f"results/logs/sweeps/{name}/{{scatteritem}}.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
+        script:
+            "../scripts/sweep_tile.py"
+
+    rule:
+        name:
+            f"table_{name}"
+        input:
+            getattr(gather, name)(f"results/sweeps/{name}/tiles/{{scatteritem}}.csv"),
+        output:
+            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables"),
+            netcdf=f"results/sweeps/{name}.nc",
+        params:
+            points=points(sweep["axes"]),
+            along=[axis["along"] for axis in sweep["axes"]],
+            code=LIBRARY,
+        log:
+            f"results/logs/sweeps/{name}/table.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/table.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
+        script:
+            "../scripts/sweep_table.py"
+
+    rule:
+        name:
+            f"sweep_{name}"
+        input:
+            table=f"results/sweeps/{name}.csv",
+        output:
+            **figure_files(f"results/sweeps/{name}/figure", {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}),
+        params:
+            figure="sweep",
+            settings={"axes": sweep["axes"]},
+            config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
+            code=FIGURES,
+        log:
+            f"results/logs/sweeps/{name}/figure.log",
+        benchmark:
+            f"results/benchmarks/sweeps/{name}/figure.tsv"
+        conda:
+            "../envs/vibroimpact.yaml"
+        script:
+            "../scripts/figure.py"
+
+
+# Sweeps of your own: those that no companion figure draws.
+rule sweeps:
+    input:
+        [
+            f"results/sweeps/{name}/figure.{kind}"
+            for name in SWEEPS
+            if not any(name in drawn.get("sweeps", {}) for drawn in SPECS.values())
+            for kind in ("png", "csv")
+        ],

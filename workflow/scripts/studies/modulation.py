@@ -1,0 +1,11 @@
+"""Measures of the regimes of all cases and their Lyapunov spectra -> three CSV files."""
+
+from vibroimpact import tables
+from vibroimpact.studies.claims.modulation_tables import modulation_tables
+from vibroimpact.system import System
+from vibroimpact_pipeline.jobs import running
+
+with running(snakemake) as out:
+    systems = {case: System(**parameters) for case, parameters in snakemake.params.systems.items()}
+    for name, table in modulation_tables(systems, **snakemake.params.settings).items():
+        tables.write(table, getattr(out, name))

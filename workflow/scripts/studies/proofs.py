@@ -1,0 +1,39 @@
+"""Completeness of the lists of fixed points and orbits, and proofs of the orbits -> JSON, by case.
+
+The lists of fixed points, also those with unequal flights, and of symmetric orbits are proved complete in interval
+arithmetic. That of asymmetric orbits is not: the number of Newton starts that led to the one that was met least says
+how likely another one was missed.
+"""
+
+import dataclasses
+import json
+from pathlib import Path
+
+from vibroimpact import tables
+from vibroimpact.studies.claims.orbit_proofs import counts
+from vibroimpact.studies.completeness.orbits import certify as certify_orbits
+from vibroimpact.studies.completeness.points import certify, certify_asymmetric
+from vibroimpact.system import System
+from vibroimpact_pipeline.jobs import running
+
+CERTIFIED = {
+    "fixed_points": certify,
+    "asymmetric_fixed_points": certify_asymmetric,
+    "symmetric_orbits": certify_orbits,
+}
+
+
+def proofs_of(system, table, search) -> dict:
+    """Return the proofs on one case; for asymmetric orbits, the search effort."""
+    proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
+    return {
+        **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},
+        "asymmetric_orbits": json.loads(Path(search).read_text(encoding="utf-8")),
+        "orbits": counts(tables.read(table)),
+    }
+
+
+with running(snakemake) as out:
+    cases = zip(snakemake.params.systems.items(), snakemake.input.orbits, snakemake.input.searches, strict=True)
+    found = {case: proofs_of(System(**values), table, search) for (case, values), table, search in cases}
+    Path(out.json).write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

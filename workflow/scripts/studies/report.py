@@ -1,0 +1,64 @@
+"""Results -> the report: a site that reads offline, and its article as PDF."""
+
+import json
+import shutil
+from pathlib import Path
+
+from vibroimpact.studies.claims.judge import NOT_JUDGED
+from vibroimpact_pipeline.code import ROOT
+from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.html.offline import linked
+from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.studies.chapter import departures
+from vibroimpact_pipeline.studies.report.pages import Pages, anchor
+from vibroimpact_pipeline.studies.report.results import Results
+from vibroimpact_pipeline.studies.report.site import write
+
+
+def collect(results, figures, tables, folder: Path) -> None:
+    """Copy the files of figures, their notebooks and further tables into the report."""
+    for part in ("figures", "notebooks", "data"):
+        (folder / part).mkdir(parents=True)
+    for figure in figures:
+        for path in results.files(figure).values():
+            shutil.copy(path, folder / "figures")
+        if notebook := results.notebook(figure):
+            text = linked(notebook.read_text(encoding="utf-8"), f"../figures.html#{anchor(figure).replace('_', '-')}")
+            (folder / "notebooks" / notebook.name).write_text(text, encoding="utf-8")
+    for table in tables:
+        shutil.copy(results.root / Path(table).relative_to("results"), folder / "data")
+
+
+def version(root) -> str:
+    """Return commit and date of the checkout, if git knows them."""
+    described = git("describe", "--always", "--dirty=, with changes", root=root)
+    if described is None:
+        return "a copy without its history"
+    return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
+
+
+def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
+    """Return the figures of the report in groups, in the order of display."""
+    chapter = [figure for figure in figures if figure.startswith("fig10_")]
+    companions = [figure for figure in figures if figure.startswith("companion_")]
+    return {
+        "chapter": chapter,
+        "own": [figure for figure in figures if figure not in chapter + companions],
+        "companions": companions,
+        "accuracy": ["work_precision", "hazards"],
+        "models": ["scene_models"],
+        "animations": list(config["report"]["animations"]),
+        "force_sweep": ["force_sweep"],
+        "nudge": ["nudge"],
+    }
+
+
+with running(snakemake) as out:
+    params, folder = snakemake.params, Path(out.site)
+    claims = json.loads((Path(snakemake.output.site).parent / "claims.json").read_text(encoding="utf-8"))
+    judged = all(claim["verdict"] != NOT_JUDGED for claim in claims)
+    results, shown = Results(Path(snakemake.output.site).parent, judged), groups(params.figures, params.config)
+    tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
+    pages = Pages(ROOT, results, params.config, shown, [Path(table).name for table in tables])
+    collect(results, pages.pictures, tables, folder)
+    write(folder, ROOT, pages, version(ROOT), departures(params.config))

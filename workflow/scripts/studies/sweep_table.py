@@ -1,0 +1,17 @@
+"""All tiles of a sweep -> one table, a row per point in their order; the same as NetCDF, over the grid."""
+
+import sys
+
+import pandas as pd
+
+from vibroimpact import tables
+from vibroimpact.frames import to_dataset
+from vibroimpact.studies.sweeps.spec import POINT
+from vibroimpact_pipeline.jobs import running
+
+with running(snakemake) as out:
+    table = pd.concat(map(tables.read, snakemake.input), ignore_index=True).sort_values(POINT, ignore_index=True)
+    if table[POINT].tolist() != list(range(snakemake.params.points)):
+        sys.exit(f"{len(table)} rows with {table[POINT].nunique()} points, not {snakemake.params.points} once each")
+    tables.write(table, out.csv)
+    to_dataset(table, map(tuple, snakemake.params.along)).to_netcdf(out.netcdf, engine="scipy")

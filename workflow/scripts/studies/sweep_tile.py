@@ -1,0 +1,14 @@
+"""One tile of a sweep -> CSV, a row per point."""
+
+import pandas as pd
+
+from vibroimpact import tables
+from vibroimpact.exact.engine.all_cores import at_most
+from vibroimpact.studies.sweeps.request import parsed
+from vibroimpact.studies.sweeps.rows import columns, rows
+from vibroimpact_pipeline.jobs import running
+
+with running(snakemake) as out, at_most(snakemake.threads):
+    grid, spec = parsed(snakemake.params.request)
+    number, tiles = map(int, snakemake.wildcards.scatteritem.split("-of-"))
+    tables.write(pd.DataFrame(rows(grid, spec, grid.tile(number, tiles)), columns=columns(grid, spec)), out.csv)
