@@ -1,6 +1,6 @@
 """Fingerprints of the checkout's files behind a job, for the `params` of rules; the job takes them again when it ends.
 
-Coarse on purpose: any change of the library makes everything computed again, one of `figures/` every figure.
+Coarse on purpose: any change of the library schedules every job, one of `figures/` every figure.
 Standard library only.
 """
 
@@ -15,15 +15,18 @@ SHIPPED = Path(__file__).resolve().with_name("checkout")
 INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
 """The checkout, or the files of it in an installed pipeline."""
-FIGURES = "src/vibroimpact/figures"
 PARTS = {
     "library": "src/vibroimpact",
-    "figures": FIGURES,
+    "figures": "src/vibroimpact/figures",
+    "studies": "src/vibroimpact/studies",
+    "figures of studies": "src/vibroimpact/studies/figures",
     "pipeline": "src/vibroimpact_pipeline",
+    "pipeline of studies": "src/vibroimpact_pipeline/studies",
     "scripts": "workflow/scripts",
+    "scripts of studies": "workflow/scripts/studies",
     "lock": "environment.lock",
 }
-"""The file or folder of each part; the library's without the figures."""
+"""The file or folder of each part, without the folders of other parts in it."""
 
 
 @cache
@@ -43,11 +46,12 @@ def fingerprint_now(part: str) -> str:
 
 def files(part: str) -> list[Path]:
     """Return all files of a part, sorted, without hidden ones and bytecode."""
-    top, left_out = folder(part), {"library": folder("figures"), "pipeline": SHIPPED}.get(part)
+    top = folder(part)
+    left_out = [other for other in (SHIPPED, *map(folder, PARTS)) if other != top and other.is_relative_to(top)]
     found = [top] if top.is_file() else top.rglob("*")
     found = (path for path in found if path.is_file() and not path.name.startswith("."))
     found = (path for path in found if "__pycache__" not in path.parts)
-    return sorted(path for path in found if left_out is None or not path.is_relative_to(left_out))
+    return sorted(path for path in found if not any(map(path.is_relative_to, left_out)))
 
 
 def folder(part: str) -> Path:

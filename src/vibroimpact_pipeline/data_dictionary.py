@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from vibroimpact_pipeline.code import FIGURES
+from vibroimpact_pipeline.code import PARTS
 from vibroimpact_pipeline.specs import columns, each, specs
 
 DATA = "report/data.yaml"
@@ -44,8 +44,8 @@ def stands_for(pattern: str, path: str) -> bool:
 
 def read(root) -> tuple[dict, dict]:
     """Read the SPEC of every figure and report/data.yaml."""
-    modules = Path(root, FIGURES)
-    return specs(modules if modules.is_dir() else None), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
+    checkout = root if Path(root, PARTS["figures"]).is_dir() else None
+    return specs(checkout), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
 
 
 def files(known: dict, data: dict) -> list[File]:

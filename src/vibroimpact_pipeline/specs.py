@@ -18,18 +18,21 @@ from functools import cache
 from pathlib import Path
 
 from vibroimpact_pipeline.cases import own_parameters
-from vibroimpact_pipeline.code import folder
+from vibroimpact_pipeline.code import PARTS, folder
 
 LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
 LIKE |= {"physical_units": "machines"}
 """The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
+PACKAGES = {"figures": "vibroimpact.figures", "figures of studies": "vibroimpact.studies.figures"}
+"""Packages of figures by the part of the code; a checkout may lack the studies."""
 
 
 @cache
-def specs(modules=None) -> dict[str, dict]:
-    """Return SPEC by figure for all modules of a folder; the plotted table is "csv" among its tables."""
+def specs(root=None) -> dict[str, dict]:
+    """Return SPEC by figure for all modules of figures, of a checkout if given; the plotted table is "csv"."""
     found = {}
-    for path in sorted(Path(modules or folder("figures")).glob("*.py")):
+    folders = [Path(root, PARTS[part]) if root else folder(part) for part in PACKAGES]
+    for path in sorted(path for one in folders for path in one.glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)
@@ -49,6 +52,12 @@ def specs(modules=None) -> dict[str, dict]:
     return complete
 
 
+def module_of(figure: str) -> str:
+    """Return the full name of the module of a figure."""
+    found = (package for part, package in PACKAGES.items() if (folder(part) / f"{figure}.py").is_file())
+    return f"{next(found)}.{figure}"
+
+
 def drawing_module(figure: str, scene: dict, known: dict) -> str:
     """Return the module that draws a figure of the config: its own, or that of its notebook's first figure."""
     if figure in known:
@@ -57,17 +66,17 @@ def drawing_module(figure: str, scene: dict, known: dict) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure and its "module"; where that is another figure's, the own words and files."""
+    """Return the SPEC of a figure and its "module" in full; where that is another figure's, the own words and files."""
     module = drawing_module(figure, scene, known)
     if module == figure:
-        return known[figure] | {"module": module}
+        return known[figure] | {"module": module_of(module)}
     own = known[module]["own"]
     tables = {
         name: table | {"file": table["file"].replace(f"/{module}.", f"/{figure}.")}
         for name, table in known[module]["tables"].items()
     }
     tables["csv"]["about"] = f"{own['title'].format_map(scene)}."
-    return known[module] | own | {"tables": tables, "module": module}
+    return known[module] | own | {"tables": tables, "module": module_of(module)}
 
 
 def at(config: dict, path: str):

@@ -23,7 +23,7 @@ FIGURES = {path.stem: spec_of(path.stem, {}, specs()) for path in sorted((ROOT /
 def figure(request):
     name, spec = request.param, FIGURES[request.param]
     read = {key: tables.read(ROOT / "figures" / file) for key, (file, _) in compared_files(name, spec).items()}
-    drawn = style.draw_tables(import_module(f"vibroimpact.figures.{spec['module']}"), read)
+    drawn = style.draw_tables(import_module(spec["module"]), read)
     drawn.draw_without_rendering()
     return drawn
 

@@ -16,7 +16,7 @@ from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.provenance import differences
 from vibroimpact_pipeline.specs import case_parameters
-from vibroimpact_pipeline.studies.chapter import departures
+from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.studies.report.live import live_data
 
 CONFIG = checked(

@@ -4,7 +4,7 @@ from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
 from vibroimpact.system import chapter
 from vibroimpact_pipeline.config import read
-from vibroimpact_pipeline.studies.chapter import digest, unlike
+from vibroimpact_pipeline.studies.claims_config import digest, unlike
 
 
 def test_the_config_is_the_chapters():

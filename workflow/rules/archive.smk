@@ -4,6 +4,16 @@ import tomllib
 
 from vibroimpact_pipeline.git import git
 
+
+def results_of_a_commit(wildcards):
+    """Return the results of both builds; refuse a changed checkout before anything is built."""
+    try:
+        committed(ROOT)
+    except ValueError as error:
+        refuse(str(error))
+    return [*rules.all.input, *(rules.studies.input if STUDIES else ())]
+
+
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
 

@@ -1,13 +1,14 @@
 # The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
 
 
-# Has no output, so that it compares anew each time; what it says is on the terminal, too.
+# Has no output, so that it compares each time; it prints its result on the terminal, too.
 rule figure_check:
     input:
         rules.figures.input,
-        rules.companions.input,
     params:
-        figures=config["figures"] | dict.fromkeys(MADE, {}),
+        figures=config["figures"],
+        reference="figures",
+        page="results/figure_check",
         strict=False,
         code=PIPELINE,
     threads: ALL_CORES
@@ -22,8 +23,15 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        figures=config["figures"] | dict.fromkeys(MADE, {}),
+        figures=config["figures"],
+        reference="figures",
+        page="results/figure_check",
         strict=True,
         code=PIPELINE,
     log:
         "results/logs/figure_check_strict.log",
+
+
+if STUDIES:
+
+    include: "studies/checks.smk"

@@ -8,7 +8,6 @@ import re
 import shlex
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, update_config, validate
@@ -45,8 +44,8 @@ from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
 from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
-for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
-    name = f"{path.parent.name}/{path.name}"
+for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
+    name = path.relative_to(ROOT / "workflow").as_posix()
     if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
         refuse(f"workflow/{name} is not that of the installed vibroimpact: install the commit of these rules.")
 
@@ -54,26 +53,43 @@ if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
 
 
-# The config: entries of --config and --configfile over config/config.yaml, of the working directory or else the checkout.
-CONFIG_FILE = (
-    "config/config.yaml" if Path("config/config.yaml").is_file() and not IS_MODULE else own("config/config.yaml")
-)
+# The layer of what goes beyond the chapter; a checkout may do without it.
+STUDIES = (ROOT / "workflow/rules/studies").is_dir()
+
+
+# The config: entries of --config and --configfile over those of config/config.yaml and config/studies.yaml, each of the
+# working directory or else of the checkout.
+def config_file(path):
+    return path if Path(path).is_file() and not IS_MODULE else own(path)
+
+
+CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studies")[: 1 + STUDIES]]
 
 
 def config_files():
     """The files that the config is from, a later one over those before."""
     given = workflow.config_settings
-    return [CONFIG_FILE] if IS_MODULE else [CONFIG_FILE, *given.configfiles][given.replace_workflow_config :]
+    if IS_MODULE:
+        return CONFIG_FILES
+    return given.configfiles if given.replace_workflow_config else [*CONFIG_FILES, *given.configfiles]
 
 
 def checked_config(given):
-    """The config with defaults; without its model, as the schema made from it allows."""
+    """The config with defaults; without its model, as the schemas made from it allow."""
     if not WITH_MODEL:
-        given = with_cases(given)
-        validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
-        return given
+        given, rest = with_cases(given), {}
+        schemas = ROOT / "workflow/schemas"
+        if STUDIES:
+            chapter = json.loads((schemas / "config.schema.json").read_text("utf-8"))["properties"]
+            rest = {name: entry for name, entry in given.items() if name not in chapter}
+            validate(rest, schema=str(schemas / "studies/config.schema.json"))
+        given = {name: entry for name, entry in given.items() if name not in rest}
+        validate(given, schema=str(schemas / "config.schema.json"))
+        return given | rest
     last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
-    whole = read(CONFIG_FILE) if IS_MODULE else {}
+    whole = {}
+    for file in CONFIG_FILES if IS_MODULE else ():
+        update_config(whole, read(file))
     update_config(whole, given)
     try:
         return checked(whole, [*SOURCES, last])
@@ -115,7 +131,7 @@ SPECS = specs()
 
 def spec(figure):
     """The words and columns of a figure, and the module that draws it."""
-    return spec_of(figure, config["figures"].get(figure, {}), SPECS)
+    return spec_of(figure, SCENES.get(figure, {}), SPECS)
 
 
 def figure_files(stem, tables):
@@ -133,14 +149,6 @@ def in_report(outputs, category):
         if kind in ("svg", "csv")
     }
     return outputs | marked
-
-
-def sweep_request(sweep):
-    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
-    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
-    if "regimes" in sweep["observe"]:
-        spec["observation"] = config["regimes"]["observation"]
-    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
 
 
 def entries(paths):
@@ -169,8 +177,12 @@ def figure_params(figure, paths, case=None, systems=False):
 
 def of_case(figure, paths):
     """Results for the case that a figure of the config shows."""
-    case = config["figures"].get(figure, {}).get("case")
+    case = SCENES.get(figure, {}).get("case")
     return {name: path.format(case=case) for name, path in paths.items()} if case else {}
+
+
+# The notebooks by name.
+NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
 
 
 def page_and_files(figure):
@@ -179,17 +191,17 @@ def page_and_files(figure):
     return files | {"html": f"results/notebooks/{figure}.html"}
 
 
-def scene(figure, *paths):
+def scene(figure, *paths, section="figures"):
     """Params of a figure of the config: its own settings, those at further paths, and the system of its case."""
-    if figure not in config["figures"]:
+    if figure not in SCENES:
         return {"scene": absent(figure)}
-    own_settings = config["figures"][figure]
+    own_settings = SCENES[figure]
     case, notebook = own_settings.get("case"), own_settings["notebook"]
-    params = figure_params(figure, [f"figures.{figure}.*", *(path.format(case=case) for path in paths)], case)
+    params = figure_params(figure, [f"{section}.{figure}.*", *(path.format(case=case) for path in paths)], case)
     title = {"case": title_of(config, case)} if case else {}
     return params | {
         "scene": own_settings | title,
-        "code": PIPELINE | fingerprints(f"notebooks/{notebook}.ipynb"),
+        "code": PIPELINE | fingerprints(NOTEBOOKS[notebook]),
     }
 
 
@@ -202,23 +214,10 @@ def absent(figure):
     return refused
 
 
-def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
-    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
-    try:
-        case = at(config, case) if case else None
-        inputs = {name: path.format(case=case) for name, path in inputs.items()}
-        swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
-        entries([*swept, *(path.format(case=case) for path in needs)])
-        params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
-    except LookupError:
-        return None
-    return SimpleNamespace(inputs=inputs, params=params)
-
-
 def caption(figure):
     """The caption of a figure, with the numbers that it asks for."""
     params = getattr(rules, figure).params
-    known = config["figures"].get(figure, {}) | (params.get("system") or config["system"]) | params.get("scene", {})
+    known = SCENES.get(figure, {}) | (params.get("system") or config["system"]) | params.get("scene", {})
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec(figure)["caption"])
 
 
@@ -242,12 +241,3 @@ def existing_outputs():
 onstart:
     if missing := missing_libraries():
         refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
-
-
-def results_of_a_commit(wildcards):
-    """Return the results of the default build; refuse a changed checkout before anything is built."""
-    try:
-        committed(ROOT)
-    except ValueError as error:
-        refuse(str(error))
-    return rules.all.input

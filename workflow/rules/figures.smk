@@ -1,6 +1,9 @@
 # The figures of the config. Each has a rule of its name: `snakemake --cores 2 fig10_06` makes this figure and what it needs.
 # Its notebook gets the inputs, and as parameters the settings of the config and the system of the case.
 
+# Settings of each figure by its name; those of the studies join.
+SCENES = dict(config["figures"])
+
 # What figures show of a case.
 POINTS = {
     "points": "results/fixed_points/{case}.csv",
@@ -13,7 +16,7 @@ MOTION = {
     "events": "results/simulations/{case}/events.csv",
     "summary": "results/simulations/{case}/summary.json",
 }
-RUN = "cases.{case}.simulation.*", "regimes.observation"
+RUN = ("cases.{case}.simulation.*",)
 
 
 rule fig10_01:
@@ -195,7 +198,6 @@ OWN = {
     "fixed_points": (POINTS, ()),
     "theoretical_response": (POINTS, ()),
     "simulation": (MOTION, RUN),
-    "physical_units": ({}, ()),
 }
 OWN_FIGURES = [figure for figure in config["figures"] if not figure.startswith("fig10_")]
 
@@ -208,7 +210,7 @@ for figure in OWN_FIGURES:
             figure
         input:
             **of_case(figure, read),
-            notebook=own(f"notebooks/{notebook}.ipynb"),
+            notebook=own(NOTEBOOKS[notebook]),
         output:
             **page_and_files(figure),
         params:
@@ -227,3 +229,9 @@ for figure in OWN_FIGURES:
 rule figures:
     input:
         [getattr(rules, figure).output for figure in config["figures"]],
+
+
+# The figures that are compared with a reference set and that captions are for; those of the studies join.
+ALL_FIGURES = list(config["figures"])
+config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
+config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}

@@ -7,6 +7,7 @@ from vibroimpact.figures.plotting.style import write_and_draw
 from vibroimpact.system import System
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.specs import module_of
 
 
 def arguments(params, inputs) -> dict:
@@ -20,6 +21,6 @@ def arguments(params, inputs) -> dict:
 
 
 with running(snakemake) as out:
-    module = import_module(f"vibroimpact.figures.{snakemake.params.figure}")
+    module = import_module(module_of(snakemake.params.figure))
     write_and_draw(module, module.compute(**arguments(snakemake.params, snakemake.input)), vars(out))
     provenance.write(snakemake, out)

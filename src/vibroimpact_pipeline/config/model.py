@@ -1,6 +1,6 @@
-"""The whole config: its smaller sections, and the conditions across sections."""
+"""The config of the chapter, config/config.yaml: its smaller sections, and the conditions across sections."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError, create_model
@@ -10,8 +10,6 @@ from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import described, problems_of
 from vibroimpact_pipeline.config.section import Place, Section
-from vibroimpact_pipeline.studies.config.regimes import Regimes
-from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
@@ -23,7 +21,7 @@ RULES = {
     *("modulation", "nudge", "orbits", "proofs", "report", "scene_models", "simulation", "stability", "sweeps"),
     *("verdict_grid", "verdicts", "verdicts_by_epsilon", "work_precision"),
 }
-"""Rules whose names figures and animations, which become rules as well, cannot have."""
+"""Rules whose names figures and other entries, which become rules as well, cannot have."""
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
@@ -92,25 +90,6 @@ class Case(create_model("OwnParameters", __base__=Section, **OWN)):
     simulation: Simulation
 
 
-class Companion1005(Section):
-    """Companion of figure 10.5."""
-
-    C_range: fields.around(0.6, fields.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
-
-
-class VerdictGrid(fields.ForceGrid):
-    """The theory's verdicts against exact orbits, at the centres of points x points cells of forces."""
-
-    epsilon: fields.items(fields.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
-
-
-class Stability(Section):
-    """The axis of the companion of figure 10.5, and the grid for judging the criteria."""
-
-    companion_10_05: Companion1005
-    verdict_grid: VerdictGrid
-
-
 class Problem(Section):
     """A test problem of the work-precision chart; every method and the reference run it many times."""
 
@@ -135,35 +114,8 @@ class Accuracy(Section):
     benchmark: Benchmark
 
 
-class Animation(Section):
-    """The first cycles of a case's simulated window."""
-
-    case: fields.CaseName
-    cycles: fields.count("Cycles shown, no more than the window has [forcing periods]", 1, 1000)
-
-
-class ForceSweep(Section):
-    """The slider on the page of fixed points: f20_hat varies, all else is as in the case."""
-
-    case: fields.CaseName
-    range: fields.Forces
-    values: fields.count("Values of f20_hat", 2, fields.MOST)
-    C_max: fields.Amplitude = Field(description="Right end of the planes")
-
-    def conditions(self):
-        if self.range[1] - self.range[0] < 1e-6 * (self.values - 1):
-            yield ("values",), f"{self.values} in {self.range} are not all different in six decimals"
-
-
-class Report(Section):
-    """The live parts of the report: animations, and the slider of the fixed points."""
-
-    animations: fields.named(Animation, 0, 10) = Field(description="Animations by free names")
-    force_sweep: ForceSweep
-
-
 class Config(Section):
-    """All settings of a build: dimensionless except machines, times in forcing periods."""
+    """The chapter: system, cases, figures, accuracy. Dimensionless; times in forcing periods."""
 
     system: SystemSection
     # At most twelve: companions have a panel for each.
@@ -172,36 +124,27 @@ class Config(Section):
     )
     default_case: fields.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
     figures: Figures
-    stability: Stability
-    regimes: Regimes
     accuracy: Accuracy
-    tile_seconds: float = Field(20.0, gt=0, le=1e5, description="Cut sweeps into jobs of about so long [core seconds]")
-    report: Report
-    sweeps: fields.named(Sweep, 0, 100) = Field({}, description="Questions of one's own, by name; companions draw some")
 
     def conditions(self):
-        yield from self._taken_names()
-        yield from self._unsound()
-        for name, sweep in self.sweeps.items():
-            for place, what in sweep.not_drawn(name):
-                yield ("sweeps", name, *place), what
-        for name, shown in self.report.animations.items():
-            if shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
-                what = f"{shown.cycles} is above {kept}, window_cycles of the case {shown.case}"
-                yield ("report", "animations", name, "cycles"), what
+        yield from self.taken_names()
+        yield from self.unsound()
 
-    def _taken_names(self):
-        """Yield figures, animations and sweeps whose names are taken already."""
-        own = [("figures", name) for name in self.figures.model_extra]
-        for *section, name in own + [("report", "animations", name) for name in self.report.animations]:
-            twice = section[0] == "report" and ("figures", name) in own
+    def named_rules(self) -> Iterator[Place]:
+        """Yield the places of entries whose names become names of rules."""
+        yield from (("figures", name) for name in self.figures.model_extra)
+
+    def taken_names(self):
+        """Yield entries whose names are taken already."""
+        places = [*self.named_rules()]
+        for place in places:
+            name = place[-1]
+            twice = [other[-1] for other in places].count(name) > 1 and place[0] != "figures"
             if twice or name in RULES or name.startswith(PREFIXES):
                 what = f"the name is that of a rule or another figure, or begins with {', '.join(PREFIXES)}"
-                yield (*section, name), what
-        if "self" in self.sweeps:
-            yield ("sweeps", "self"), "a sweep cannot have this name, which Snakemake gives to an argument"
+                yield place, what
 
-    def _unsound(self):
+    def unsound(self):
         """Yield errors of parameters that no System takes: those of the cases, or else where parameters move."""
         systems, found = {}, False
         for name, case in self.cases.items():
@@ -210,25 +153,15 @@ class Config(Section):
             for place, what in _amiss(systems[name]):
                 found = True
                 yield ("system", *place) if {*place} - own.keys() else ("cases", name, *place), what
-        for place, case, moved in () if found else self._moves():
+        for place, case, moved in () if found else self.moves():
             at = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
             for one in [case] if case else systems:
                 for key, what in _amiss(systems[one] | moved):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
-    def _moves(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield changed parameters: the place of the change, its case (None: all), and the parameters by name."""
-        branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
-        for number, path in enumerate(branches.paths):
-            for end in path.range:
-                yield ("regimes", "branches", "paths", number), branches.case, dict.fromkeys(path.along, end)
-        lists = {("stability", "verdict_grid"): grid.epsilon, ("regimes", "epsilon"): regimes.epsilon.epsilon}
-        for place, values in (lists | {("regimes", "asymmetric"): regimes.asymmetric.epsilon}).items():
-            for value in values:
-                yield place, None, {"epsilon": value}
-        for name, sweep in self.sweeps.items():
-            for moved in sweep.corners():
-                yield ("sweeps", name), sweep.case, moved
+    def moves(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
+        """Return changed parameters: the place of the change, its case (None: all), and the parameters by name."""
+        return ()
 
 
 def _amiss(parameters):

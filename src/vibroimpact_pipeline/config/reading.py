@@ -1,5 +1,7 @@
 """Reading and checking a config: all problems at once, one line each."""
 
+from importlib import import_module
+from importlib.util import find_spec
 from itertools import count
 
 import yaml
@@ -66,14 +68,19 @@ def checked(config: dict, sources=()) -> dict:
     Raises:
         ConfigError: something is wrong; a line for each problem, "source: key: what".
     """
-    from vibroimpact_pipeline.config.model import Config
-
     try:
         values = with_cases(without_nulls(config))
         cases = values["cases"] if isinstance(values.get("cases"), dict) else ()
-        return Config.model_validate(values, context=[*cases]).model_dump(mode="json", exclude_none=True)
+        return model().model_validate(values, context=[*cases]).model_dump(mode="json", exclude_none=True)
     except ValidationError as error:
         raise _refusal(error, sources) from None
+
+
+def model():
+    """Return the model of the config: of both files, or of the chapter's alone where there are no studies."""
+    if find_spec("vibroimpact_pipeline.studies"):
+        return import_module("vibroimpact_pipeline.studies.config.model").Whole
+    return import_module("vibroimpact_pipeline.config.model").Config
 
 
 def _refusal(error, sources):

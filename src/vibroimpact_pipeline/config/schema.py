@@ -1,21 +1,26 @@
-"""The JSON Schema of the config, for editors and for Snakemake without Pydantic.
+"""The JSON Schema of each config file, for editors and for Snakemake without Pydantic.
 
 Run it as `python -m vibroimpact_pipeline.config.schema`.
 """
 
 import json
+from importlib import import_module
+from importlib.util import find_spec
 
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config.model import Config
 
-TARGET = ROOT / "workflow/schemas/config.schema.json"
+TARGETS = {ROOT / "workflow/schemas/config.schema.json": Config}
+if find_spec("vibroimpact_pipeline.studies"):
+    studies = import_module("vibroimpact_pipeline.studies.config.model").Studies
+    TARGETS[ROOT / "workflow/schemas/studies/config.schema.json"] = studies
 NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^[-+]?\d+(\.0*)?$"}
 """Texts that are read as numbers."""
 
 
-def schema() -> str:
-    """Return the text of the schema, a line for each section of the config."""
-    whole = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(Config.model_json_schema())
+def schema(model) -> str:
+    """Return the text of the schema of a model, a line for each of its sections."""
+    whole = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(model.model_json_schema())
     sections = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in whole.pop("$defs").items())
     return f'{{"$defs": {{\n{sections}\n}},\n{json.dumps(whole)[1:]}\n'
 
@@ -35,5 +40,6 @@ def _plain(node):
 
 
 if __name__ == "__main__":
-    TARGET.parent.mkdir(exist_ok=True)
-    TARGET.write_text(schema(), encoding="utf-8")
+    for target, model in TARGETS.items():
+        target.parent.mkdir(exist_ok=True)
+        target.write_text(schema(model), encoding="utf-8")

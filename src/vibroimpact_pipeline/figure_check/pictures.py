@@ -19,9 +19,9 @@ processor may round otherwise; a thousandth of a point is a hundredth of a pixel
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables with its module; return the files by kind."""
+    """Draw a figure from its tables with its module, by full name; return the files by kind."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
-    style.save(style.draw_tables(import_module(f"vibroimpact.figures.{module}"), tables), files)
+    style.save(style.draw_tables(import_module(module), tables), files)
     return files
 
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact_pipeline.cases import title_of
+from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
 from vibroimpact_pipeline.specs import case_parameters, spec_of, specs
-from vibroimpact_pipeline.studies.chapter import CASE_OF
 
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
 """Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""

@@ -38,12 +38,12 @@ rule claims:
         markdown="results/claims.md",
     params:
         config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
-        code=LIBRARY | fingerprints("pipeline", "docs/studies/claims.yaml"),
+        code=STUDY_LIBRARY | fingerprints("pipeline", "pipeline of studies", "docs/studies/claims.yaml"),
     log:
         "results/logs/claims.log",
     benchmark:
         "results/benchmarks/claims.tsv"
     conda:
-        "../envs/vibroimpact.yaml"
+        "../../envs/vibroimpact.yaml"
     script:
-        "../scripts/claims.py"
+        "../../scripts/studies/claims.py"

@@ -9,12 +9,12 @@ rule field:
         evidence="results/field/chain_evidence.json",
     params:
         octave=str(ROOT / "workflow/scripts/studies/chain.m"),
-        code=LIBRARY,
+        code=STUDY_LIBRARY,
     log:
         "results/logs/field.log",
     benchmark:
         "results/benchmarks/field.tsv"
     conda:
-        "../envs/vibroimpact.yaml"
+        "../../envs/vibroimpact.yaml"
     script:
-        "../scripts/field.py"
+        "../../scripts/studies/field.py"

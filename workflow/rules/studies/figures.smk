@@ -1,4 +1,6 @@
-# Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/figures/.
+from types import SimpleNamespace
+
+# Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/studies/figures/.
 
 # What `compute` of each takes: settings of the config, named as the last key of their paths (a * stands for all of a
 # section, but for its `case`); inputs; `system`, that of a case; `systems`, those of all cases. Without one of these
@@ -65,6 +67,21 @@ COMPANIONS = {
     },
     "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
 }
+
+
+def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
+    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
+    try:
+        case = at(config, case) if case else None
+        inputs = {name: path.format(case=case) for name, path in inputs.items()}
+        swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
+        entries([*swept, *(path.format(case=case) for path in needs)])
+        params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
+    except LookupError:
+        return None
+    return SimpleNamespace(inputs=inputs, params=params)
+
+
 MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
 
 for figure, found in MADE.items():
@@ -78,23 +95,45 @@ for figure, found in MADE.items():
             **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures"),
         params:
             **found.params,
-            code=FIGURES,
+            code=STUDY_FIGURES,
         log:
             f"results/logs/figures/{figure}.log",
         benchmark:
             f"results/benchmarks/figures/{figure}.tsv"
         conda:
-            "../envs/vibroimpact.yaml"
+            "../../envs/vibroimpact.yaml"
         script:
-            "../scripts/figure.py"
+            "../../scripts/figure.py"
+
+
+# Machines in SI units, by a notebook as the chapter's figures.
+for figure, machines in config["machines"].items():
+    SCENES[figure] = machines | {"notebook": "physical_units"}
+
+    rule:
+        name:
+            figure
+        input:
+            notebook=own(NOTEBOOKS["physical_units"]),
+        output:
+            **page_and_files(figure),
+        params:
+            **scene(figure, section="machines") | {"code": STUDY_PIPELINE | fingerprints(NOTEBOOKS["physical_units"])},
+        log:
+            f"results/logs/figures/{figure}.log",
+        benchmark:
+            f"results/benchmarks/figures/{figure}.tsv"
+        conda:
+            "../../envs/vibroimpact.yaml"
+        script:
+            "../../scripts/notebook.py"
+
+
+STUDY_DRAWINGS = [*MADE, *config["machines"]]
+ALL_FIGURES += STUDY_DRAWINGS
+config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
 
 
 rule companions:
     input:
-        [getattr(rules, figure).output for figure in MADE],
-
-
-# All figures that the config makes; for `snakemake --report`, their captions.
-ALL_FIGURES = [*config["figures"], *MADE]
-config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
-config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
+        [getattr(rules, figure).output for figure in STUDY_DRAWINGS],

@@ -17,15 +17,15 @@ for name, scene in MOVING["animations"].items():
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
-            code=FIGURES,
+            code=STUDY_FIGURES,
         log:
             f"results/logs/report/{name}.log",
         benchmark:
             f"results/benchmarks/report/{name}.tsv"
         conda:
-            "../envs/vibroimpact.yaml"
+            "../../envs/vibroimpact.yaml"
         script:
-            "../scripts/animation.py"
+            "../../scripts/studies/animation.py"
 
 
 rule force_sweep:
@@ -34,15 +34,15 @@ rule force_sweep:
     params:
         system=system_of(MOVING["force_sweep"]["case"]),
         settings=MOVING["force_sweep"],
-        code=FIGURES,
+        code=STUDY_FIGURES,
     log:
         "results/logs/report/force_sweep.log",
     benchmark:
         "results/benchmarks/report/force_sweep.tsv"
     conda:
-        "../envs/vibroimpact.yaml"
+        "../../envs/vibroimpact.yaml"
     script:
-        "../scripts/force_sweep.py"
+        "../../scripts/studies/force_sweep.py"
 
 
 rule nudge:
@@ -50,15 +50,15 @@ rule nudge:
         **{kind: f"results/nudge/nudge.{kind}" for kind in (*PICTURES, "json")},
     params:
         system=system_of(MOVING["force_sweep"]["case"]),
-        code=FIGURES,
+        code=STUDY_FIGURES,
     log:
         "results/logs/report/nudge.log",
     benchmark:
         "results/benchmarks/report/nudge.tsv"
     conda:
-        "../envs/vibroimpact.yaml"
+        "../../envs/vibroimpact.yaml"
     script:
-        "../scripts/nudge.py"
+        "../../scripts/studies/nudge.py"
 
 
 rule report:
@@ -79,12 +79,12 @@ rule report:
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
-        code=PIPELINE | fingerprints("docs", "report"),
+        code=STUDY_PIPELINE | fingerprints("docs", "report"),
     log:
         "results/logs/report/report.log",
     benchmark:
         "results/benchmarks/report/report.tsv"
     conda:
-        "../envs/vibroimpact.yaml"
+        "../../envs/vibroimpact.yaml"
     script:
-        "../scripts/report.py"
+        "../../scripts/studies/report.py"

@@ -6,6 +6,14 @@ from vibroimpact.studies.sweeps.cost import points, tiles
 SWEEPS = config.get("sweeps", {})
 
 
+def sweep_request(sweep):
+    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
+    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
+    if "regimes" in sweep["observe"]:
+        spec["observation"] = config["regimes"]["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
+
+
 scattergather:
     **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
 
@@ -19,16 +27,16 @@ for name, sweep in SWEEPS.items():
             csv=f"results/sweeps/{name}/tiles/{{scatteritem}}.csv",
         params:
             request=sweep_request(sweep),
-            code=LIBRARY,
+            code=STUDY_LIBRARY,
         threads: 1
         log:
             f"results/logs/sweeps/{name}/{{scatteritem}}.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
         conda:
-            "../envs/vibroimpact.yaml"
+            "../../envs/vibroimpact.yaml"
         script:
-            "../scripts/sweep_tile.py"
+            "../../scripts/studies/sweep_tile.py"
 
     rule:
         name:
@@ -41,15 +49,15 @@ for name, sweep in SWEEPS.items():
         params:
             points=points(sweep["axes"]),
             along=[axis["along"] for axis in sweep["axes"]],
-            code=LIBRARY,
+            code=STUDY_LIBRARY,
         log:
             f"results/logs/sweeps/{name}/table.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/table.tsv"
         conda:
-            "../envs/vibroimpact.yaml"
+            "../../envs/vibroimpact.yaml"
         script:
-            "../scripts/sweep_table.py"
+            "../../scripts/studies/sweep_table.py"
 
     rule:
         name:
@@ -62,15 +70,15 @@ for name, sweep in SWEEPS.items():
             figure="sweep",
             settings={"axes": sweep["axes"]},
             config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
-            code=FIGURES,
+            code=STUDY_FIGURES,
         log:
             f"results/logs/sweeps/{name}/figure.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/figure.tsv"
         conda:
-            "../envs/vibroimpact.yaml"
+            "../../envs/vibroimpact.yaml"
         script:
-            "../scripts/figure.py"
+            "../../scripts/figure.py"
 
 
 # Sweeps of your own: those that no companion figure draws.

@@ -10,7 +10,7 @@ import yaml
 
 from vibroimpact.studies.claims.judge import judge, to_markdown
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.studies.chapter import unlike
+from vibroimpact_pipeline.studies.claims_config import unlike
 from vibroimpact_pipeline.studies.claims_evidence import evidence
 
 with running(snakemake) as out:

@@ -10,7 +10,7 @@ import json
 from pathlib import Path
 
 from vibroimpact import tables
-from vibroimpact.studies.claims.orbit_proofs import counts
+from vibroimpact.exact.orbits.proof.table import counts
 from vibroimpact.studies.completeness.orbits import certify as certify_orbits
 from vibroimpact.studies.completeness.points import certify, certify_asymmetric
 from vibroimpact.system import System

@@ -9,7 +9,7 @@ from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.html.offline import linked
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.studies.chapter import departures
+from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.studies.report.pages import Pages, anchor
 from vibroimpact_pipeline.studies.report.results import Results
 from vibroimpact_pipeline.studies.report.site import write

@@ -17,7 +17,7 @@ from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.fixed_points.table import labelled_points
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.specs import drawing_module, specs
+from vibroimpact_pipeline.specs import drawing_module, module_of, specs
 
 
 def levels_of(figure, scene, params, simulation, module, table, folder):
@@ -39,7 +39,7 @@ def levels_of(figure, scene, params, simulation, module, table, folder):
 with running(snakemake) as out:
     rows, results, known = [], Path(snakemake.output.csv).parents[1], specs()
     for figure, (scene, params) in snakemake.params.figures.items():
-        module = import_module(f"vibroimpact.figures.{drawing_module(figure, scene, known)}")
+        module = import_module(module_of(drawing_module(figure, scene, known)))
         table = tables.read(results / f"figures/{figure}.csv")
         simulation = snakemake.params.simulations.get(scene.get("case"))
         levels = levels_of(figure, scene, params, simulation, module, table, results)

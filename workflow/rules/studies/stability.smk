@@ -1,0 +1,84 @@
+# What is proved of the orbits of each case, and the verdicts of all criteria over planes of forces and over epsilon.
+
+
+rule proofs:
+    input:
+        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
+        searches=expand("results/orbits/{case}.search.json", case=all_systems()),
+    output:
+        json="results/proofs.json",
+    params:
+        systems=all_systems(),
+        code=STUDY_LIBRARY,
+    log:
+        "results/logs/proofs.log",
+    benchmark:
+        "results/benchmarks/proofs.tsv"
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/proofs.py"
+
+
+# The theory's verdicts over a plane of forces, against exact orbits at several epsilon.
+rule verdict_grid:
+    output:
+        **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
+    params:
+        system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid has the forces
+        settings=config["stability"]["verdict_grid"],
+        code=STUDY_LIBRARY,
+    log:
+        "results/logs/verdict_grid.log",
+    benchmark:
+        "results/benchmarks/verdict_grid.tsv"
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/verdict_grid.py"
+
+
+# Measures of the regime of every case, and their Lyapunov spectra.
+rule modulation:
+    output:
+        measures="results/regimes/modulation.csv",
+        windows="results/regimes/modulation_windows.csv",
+        spectra="results/regimes/spectra.csv",
+    params:
+        systems=all_systems(),
+        settings=config["regimes"]["modulation"] | {"observation": config["regimes"]["observation"]},
+        code=STUDY_LIBRARY,
+    log:
+        "results/logs/modulation.log",
+    benchmark:
+        "results/benchmarks/modulation.tsv"
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/modulation.py"
+
+
+# The verdicts on the fixed points of the cases as the balls get lighter.
+rule verdicts_by_epsilon:
+    output:
+        csv="results/verdicts_by_epsilon.csv",
+    params:
+        systems=all_systems(),
+        epsilon=config["stability"]["verdict_grid"]["epsilon"],
+        code=STUDY_LIBRARY,
+    log:
+        "results/logs/verdicts_by_epsilon.log",
+    benchmark:
+        "results/benchmarks/verdicts_by_epsilon.tsv"
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/verdicts_by_epsilon.py"
+
+
+rule stability:
+    input:
+        rules.modulation.output,
+        rules.proofs.output,
+        rules.verdict_grid.output,
+        rules.verdicts_by_epsilon.output,

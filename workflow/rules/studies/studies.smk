@@ -1,0 +1,53 @@
+# What goes beyond the chapter: `snakemake --cores 2 studies`. Deleting every folder and file called `studies` removes it.
+
+STUDY_LIBRARY = LIBRARY | fingerprints("studies", "scripts of studies")
+STUDY_FIGURES = FIGURES | STUDY_LIBRARY | fingerprints("figures of studies")
+STUDY_PIPELINE = PIPELINE | STUDY_FIGURES | fingerprints("pipeline of studies")
+
+
+include: "stability.smk"
+include: "sweeps.smk"
+include: "figures.smk"
+include: "claims.smk"
+include: "report.smk"
+include: "field.smk"
+
+
+READ_BY_FIGURES = {path for figure in ALL_FIGURES for path in getattr(rules, figure).input if "results/" in path}
+SIMULATED = {Path(path).parent.name for path in READ_BY_FIGURES if "results/simulations/" in path}
+
+
+# What the columns of all tables mean, for programs that read them elsewhere.
+rule datapackage:
+    input:
+        rules.index.input,
+        rules.companions.input,
+        rules.stability.input,
+        rules.sweeps.input,
+        sorted(READ_BY_FIGURES),
+        expand("results/simulations/{case}/{table}.csv", case=sorted(SIMULATED), table=["samples", "events", "strobe"]),
+        citation=own("CITATION.cff"),
+        data=own("report/data.yaml"),
+    output:
+        json="results/datapackage.json",
+    params:
+        figures=SCENES,
+        code=STUDY_PIPELINE | fingerprints("report/data.yaml", "CITATION.cff"),
+    log:
+        "results/logs/datapackage.log",
+    benchmark:
+        "results/benchmarks/datapackage.tsv"
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/datapackage.py"
+
+
+rule studies:
+    input:
+        rules.companions.input,
+        rules.stability.input,
+        rules.claims.output,
+        rules.sweeps.input,
+        rules.nudge.output,
+        rules.datapackage.output,
