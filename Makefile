@@ -25,7 +25,7 @@ help:  ## list these commands
 		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says' \
 		'WHEELS=folder  set-up takes all packages from there, none from the network'
 
-figures: set-up  ## build every figure into results/
+figures: set-up  ## build the figures of the chapter and the charts of speed against accuracy into results/
 	@$(BUILD)
 
 check-figures: set-up  ## compare results/figures/ with the reference set figures/ (STRICT=1: it fails if pixels cannot be)

@@ -57,7 +57,13 @@ def __getattr__(name: str):
         return version("vibroimpact")
     if name not in _PUBLIC:
         raise AttributeError(f"module 'vibroimpact' has no attribute {name!r}")
-    value = getattr(import_module(_PUBLIC[name]), name)
+    try:
+        value = getattr(import_module(_PUBLIC[name]), name)
+    except ModuleNotFoundError as error:
+        if error.name != "vibroimpact.studies":
+            raise
+        missing = f"vibroimpact.{name} belongs to the studies, the folder vibroimpact/studies, which is missing here"
+        raise ModuleNotFoundError(missing, name=error.name) from None
     globals()[name] = value
     return value
 

@@ -12,11 +12,11 @@ from pipeline_trees import ROOT
 from vibroimpact import System, fixed_points
 from vibroimpact.studies.figures import companion_regime_map
 from vibroimpact_pipeline.cases import title_of
+from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.provenance import differences
 from vibroimpact_pipeline.specs import case_parameters
-from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.studies.report.live import live_data
 
 CONFIG = checked(

@@ -1,4 +1,4 @@
-"""All results of the default build -> the page to open first."""
+"""Results -> the page to open first: the chapter, speed and accuracy, and the studies that are there."""
 
 from pathlib import Path
 
@@ -7,7 +7,14 @@ from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results_page import page
 
+ACCURACY = "work_precision", "hazards"
+
 with running(snakemake) as out:
     texts = figure_texts(ROOT, snakemake.params.config)
-    titles = {name: text["title"] for name, text in texts.items() if "title" in text}
-    Path(out.html).write_text(page(Path(snakemake.output.html).parent, titles), encoding="utf-8")
+    chapter, results = snakemake.params.config["figures"], Path(snakemake.output.html).parent
+    groups = {
+        "The chapter": {name: texts[name]["title"] for name in chapter},
+        "Speed and accuracy": {name: texts[name]["title"] for name in ACCURACY},
+        "Studies": snakemake.params.studies,
+    }
+    Path(out.html).write_text(page(results, groups), encoding="utf-8")

@@ -7,8 +7,8 @@ import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.accuracy.verdict_table import orbit_rows
-from vibroimpact.exact.orbits.search import search
 from vibroimpact.exact.orbits.proof.table import proof_rows
+from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
 from vibroimpact_pipeline.jobs import running
 

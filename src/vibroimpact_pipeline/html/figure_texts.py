@@ -17,7 +17,8 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
     """Return the SPEC of every figure, animation and control by name, worded for a config; see `words`."""
     known, data = read(root)
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
-    scenes = config["figures"] | config["report"]["animations"] | {"force_sweep": config["report"]["force_sweep"]}
+    moving = config.get("report", {"animations": {}})
+    scenes = config["figures"] | moving["animations"] | {name: moving[name] for name in moving if name != "animations"}
     for figure, scene in scenes.items():
         case = scene.get("case")
         known_case = case in config["cases"]

@@ -5,11 +5,11 @@ import shutil
 from pathlib import Path
 
 from vibroimpact.studies.claims.judge import NOT_JUDGED
+from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.git import git
 from vibroimpact_pipeline.html.offline import linked
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.studies.report.pages import Pages, anchor
 from vibroimpact_pipeline.studies.report.results import Results
 from vibroimpact_pipeline.studies.report.site import write

@@ -10,18 +10,15 @@ import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.accuracy.window import window
-from vibroimpact.exact.measures.periodicity import distance_after
+from vibroimpact.exact.measures.periodicity import distance_after, mirror_distance
 from vibroimpact.figures.plotting.case_points import HINT
 from vibroimpact.figures.plotting.markdown import EXACTLY
-from vibroimpact.studies.regimes.classification import ASYMMETRIC, SYMMETRIC, Regime
 from vibroimpact.system import System
 
-SETTLED = 1e-6
-"""A periodic motion that changes by more from period to period has not settled yet."""
-KINDS = {
-    SYMMETRIC: "as the motions of the chapter's theory are",
-    ASYMMETRIC: "as no motion of the chapter's theory is",
-}
+SETTLED, NEAR = 1e-6, 0.02
+"""Largest change of a motion that repeats, and of one that nearly repeats; displacements, of which a wall is 1."""
+AS_SYMMETRIC = "as the motions of the chapter's theory"
+AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -43,38 +40,46 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
     return made.samples, made.events
 
 
-def exact(regime: Regime, displacements, per_cycle: int, nearness: float) -> str:
-    """Return the kind of a simulated motion, and how it agrees with its window, in Markdown.
+def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -> str:
+    """Return whether a simulated motion repeats, and how long its balls fly, in Markdown: measured in its window.
 
     Args:
-        regime: of the motion in the long run.
-        displacements: shape (n, 4), per_cycle times in a forcing period, over the window.
-        nearness: a change of the displacements by which a motion may still count as the same.
+        displacements: shape (n, 4), `per_cycle` times in a forcing period.
+        impacts: columns tau, module, wall, in the window. period: of the forcing.
     """
-    kind = KINDS.get(regime.name, "")
-    return (
-        f"{EXACTLY} this is its own motion, simulated. In the long run it is **{regime.name}**"
-        + f"{f', {kind}' if kind else ''}; {repetition(regime.repeats, displacements, per_cycle, nearness)}."
+    mirror = mirror_distance(displacements, per_cycle)
+    kind = f"symmetric, {AS_SYMMETRIC}" if mirror <= SETTLED else f"**asymmetric**, {AS_ASYMMETRIC}"
+    lengths = flights(impacts, period)
+    flown = "; ".join(
+        f"ball {module} flies for {plus:.3f} and {minus:.3f} of a period" for module, plus, minus in lengths
+    )
+    repeated = repetition(displacements, per_cycle)
+    return f"{EXACTLY} this is its own motion, simulated. It {repeated}" + (
+        f". It is {kind}: {flown}." if lengths and "**repeats every" in repeated else "."
     )
 
 
-def repetition(repeats: int | None, displacements, per_cycle: int, nearness: float) -> str:
-    """Say after how many periods a motion repeats in the long run (None: it does not), and what the window shows.
+def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
+    """Return module, mean flight from wall +1 and from wall -1 [forcing periods], of balls that leave both walls."""
+    found = []
+    for module, mine in impacts.groupby("module"):
+        flown = mine["tau"].diff().shift(-1).groupby(mine["wall"]).mean() / period
+        if {1, -1} <= {*flown.dropna().index}:
+            found.append((module, flown[1], flown[-1]))
+    return found
 
-    A window that disagrees with the long run, before the motion settles or leaves, is said to.
-    """
+
+def repetition(displacements, per_cycle: int) -> str:
+    """Say after how many periods a motion repeats in its window, with the largest change of a displacement."""
     whole = (len(displacements) - 1) // per_cycle
     changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, whole + 1)}
-    if repeats is None:
-        near = next((lag for lag in changes if changes[lag] <= nearness and lag <= max(1, whole // 2)), None)
-        if near is None:
-            return f"it **does not repeat**: {_measured(changes, 1)}"
-        return f"it **leaves** what the window shows, where it nearly repeats: {_measured(changes, near)}"
-    after = f"**repeats {'every period' if repeats == 1 else f'after {repeats} periods'}**"
-    if repeats > whole:
-        return f"it {after}, which is longer than the window"
-    settled = "" if changes[repeats] <= SETTLED else " once it has settled"
-    return f"it {after}{settled}: {_measured(changes, repeats)}"
+    lags = [lag for lag in changes if lag <= max(1, whole // 2)]
+    if (settled := next((lag for lag in lags if changes[lag] <= SETTLED), None)) is not None:
+        after = "every period" if settled == 1 else f"after {settled} periods"
+        return f"**repeats {after}**: {_measured(changes, settled)}"
+    if (near := next((lag for lag in lags if changes[lag] <= NEAR), None)) is not None:
+        return f"**nearly repeats**, but has not settled: {_measured(changes, near)}"
+    return f"**does not repeat**: {_measured(changes, 1)}"
 
 
 def _measured(changes, lag):
