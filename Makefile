@@ -12,7 +12,7 @@ export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
-.PHONY: help figures check-figures accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up matrix dist release
+.PHONY: help figures studies check-figures check-studies accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools clean set-up matrix dist release
 .DEFAULT_GOAL := help
 
 # A progress bar in a terminal; plain lines elsewhere, and with V=1 all that Snakemake says.
@@ -21,17 +21,24 @@ BUILD = .venv/bin/snakemake --cores $(CORES) $(if $(V),--quiet host,$$([ ! -t 2 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { name[++n] = $$1; does[n] = $$2; if (length($$1) > w) w = length($$1) } \
 		END { for (i = 1; i <= n; i++) printf "%-" w "s  %s\n", name[i], does[i] }' $(MAKEFILE_LIST)
-	@printf '\nTo figures, check-figures, report, archive and accept may be added:\n%s\n%s\n%s\n' \
+	@printf '\nTo figures, studies, check-figures, check-studies, report, archive and accept may be added:\n%s\n%s\n%s\n' \
 		'CORES=4        the number of cores (2 unless said)' 'V=1            everything that Snakemake says' \
 		'WHEELS=folder  set-up takes all packages from there, none from the network'
 
 figures: set-up  ## build the figures of the chapter and the charts of speed against accuracy into results/
 	@$(BUILD)
 
-check-figures: set-up  ## compare results/figures/ with the reference set figures/ (STRICT=1: it fails if pixels cannot be)
+studies: set-up  ## build what goes beyond the chapter: sweeps, maps, companion figures, claims, proofs, machines
+	@$(BUILD) -- studies
+	@$(BUILD)
+
+check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: it fails if pixels cannot be)
 	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
 
-report: set-up  ## build the report, results/report/index.html and a PDF of the same
+check-studies: set-up  ## compare the figures of the studies with figures/studies/
+	@$(BUILD) -- study_check$(if $(STRICT),_strict)
+
+report: set-up  ## build both and the report, results/report/index.html, with a PDF
 	@$(BUILD) -- report
 
 archive: set-up  ## pack sources, results and what describes them into one file to cite and to run elsewhere, results/archive/

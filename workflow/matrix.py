@@ -21,14 +21,10 @@ LINES = 12
 """Of the output of a step that failed, the last ones are shown."""
 PACKAGES = {"lock": None, "lowest": "lowest-direct", "newest": "highest"}
 """Name of each set of packages, and what uv calls its resolution; None for environment.lock as it is."""
-FIGURES = ["fig10_06", "fig10_08", "fig10_11", "companion_branches", "companion_epsilon"]
-"""Certified fixed points, simulations, a table of statistics, continued branches, 50-digit arithmetic."""
-MODELS = "results/accuracy/scene_models.csv"
-"""A table that needs the reference arithmetic in more ways than the figures do."""
 STEPS = {
     "set-up": ["make", "set-up"],
-    "figures": [".venv/bin/snakemake", "--cores", "2", "--", *FIGURES, MODELS],
-    "check": [".venv/bin/python", "-m", "vibroimpact_pipeline.figure_check", *FIGURES],
+    "figures": ["make", "figures"],
+    "check": ["make", "check-figures"],
     "tests": ["make", "test-quick"],
 }
 APART = ["snakemake-executor-plugin-slurm", "jupyterlab"]

@@ -16,6 +16,8 @@ from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 
+SETS = {"figure_check": "", "study_check": "studies"}
+"""Folders of reference sets, below that of the chapter's figures, by the check of each."""
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
 
 
@@ -77,23 +79,27 @@ def main(arguments=None) -> int:
     parser.add_argument("--reason", default="", help="why the reference changes")
     parser.add_argument("--pictures", action="store_true", help="keep the tables; take the pictures drawn of them now")
     parser.add_argument("--build", type=Path, default=Path(), help="folder in which results/ lies")
-    parser.add_argument("--reference", type=Path, default=Path("figures"), help="folder of the reference set")
+    parser.add_argument("--reference", type=Path, default=Path("figures"), help="folder of the reference sets")
     given = parser.parse_args(arguments)
     try:
-        verdicts = json.loads((given.build / "results/figure_check/figure_check.json").read_text(encoding="utf-8"))
-        known = {verdict["figure"]: verdict for verdict in verdicts}
+        checks = {given.reference / SETS[check]: given.build / f"results/{check}/figure_check.json" for check in SETS}
+        sets = {folder: json.loads(path.read_text(encoding="utf-8")) for folder, path in checks.items() if path.is_file()}
+        if not sets:
+            raise ValueError("No figure has been checked: run `make check-figures` or `make check-studies` first.")
+        known = {verdict["figure"]: verdict for verdicts in sets.values() for verdict in verdicts}
         if unknown := [figure for figure in given.figures if figure not in known]:
             raise ValueError(f"figures: unknown {', '.join(unknown)}; there are {', '.join(known)}")
         named = given.figures or [figure for figure, verdict in known.items() if verdict["status"] != PASSED]
-        found = [known[figure] for figure in named]
-        if not found:
+        if not named:
             print("Nothing to accept: every figure agrees with its reference.")
             return 0
-        accept(found, given.build, given.reference, given.reason, datetime.date.today(), given.pictures)
+        for folder, verdicts in sets.items():
+            if found := [verdict for verdict in verdicts if verdict["figure"] in named]:
+                accept(found, given.build, folder, given.reason, datetime.date.today(), given.pictures)
     except (OSError, ValueError) as error:
         print(f"Not accepted. {error}", file=sys.stderr)
         return 1
-    print(*map(line, found), f"Accepted {len(found)} figure(s); recorded in {given.reference}/CHANGES.md.", sep="\n")
+    print(*(line(known[figure]) for figure in named), f"Accepted {len(named)} figure(s); see CHANGES.md.", sep="\n")
     return 0
 
 
