@@ -10,7 +10,7 @@ from pipeline_trees import ROOT
 from vibroimpact_pipeline.config import ConfigError, checked, read
 
 TEXT = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
-GOOD = read(ROOT / "config/config.yaml")
+GOOD = {key: entry for path in sorted((ROOT / "config").glob("*.yaml")) for key, entry in read(path).items()}
 MINE = (
     "sweeps.mine = {case: equal, axes: [{along: [epsilon], range: [0.05, 0.1], values: 3}, {along: [f10_hat, f20_hat], "
     "listed: [0.5, 0.8]}], observe: [amplitudes, regimes], starts: 5, seed: 1, cycles: 40, settle: 30}"

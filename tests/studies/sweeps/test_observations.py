@@ -6,7 +6,7 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.measures.modulation import PER_CYCLE
-from vibroimpact.studies.public.sweeps import observations
+from vibroimpact.studies.sweeps import observations
 from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.settling import Observation, settle
