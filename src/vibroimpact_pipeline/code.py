@@ -1,12 +1,16 @@
-"""Fingerprints of the checkout's files behind a job, for the `params` of rules; the job takes them again when it ends.
+"""The code behind a job, for the `params` of its rule: the modules that its script imports, and files that they read.
 
-Coarse on purpose: any change of the library schedules every job, one of `figures/` every figure.
-Standard library only.
+A fingerprint is of compiled code without comments, docstrings and line numbers: a comment schedules nothing, a formula
+schedules the jobs that use it, two imports away as well. Standard library only.
 """
 
 import hashlib
+import json
+from collections.abc import Iterator
+from dis import opmap
 from functools import cache
 from pathlib import Path
+from types import CodeType
 
 SOURCES = Path(__file__).resolve().parents[1]
 """The folder of the packages: `src` of a checkout, or where they are installed."""
@@ -15,51 +19,137 @@ SHIPPED = Path(__file__).resolve().with_name("checkout")
 INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
 """The checkout, or the files of it in an installed pipeline."""
-PARTS = {
-    "library": "src/vibroimpact",
-    "figures": "src/vibroimpact/figures",
-    "studies": "src/vibroimpact/studies",
-    "figures of studies": "src/vibroimpact/studies/figures",
-    "pipeline": "src/vibroimpact_pipeline",
-    "pipeline of studies": "src/vibroimpact_pipeline/studies",
-    "scripts": "workflow/scripts",
-    "scripts of studies": "workflow/scripts/studies",
-    "lock": "environment.lock",
-}
-"""The file or folder of each part, without the folders of other parts in it."""
+PACKAGES = "vibroimpact", "vibroimpact_pipeline"
+LEFT_OUT = "__pycache__", ".ipynb_checkpoints", "checkout"
+CODE = ".py", ".pyi", ".typed"
 
 
-@cache
-def fingerprint(part: str) -> str:
-    """Return the fingerprint of a part (a name in PARTS, or a path), as it was at the first call in this process."""
-    return fingerprint_now(part)
+def behind(*roots: str) -> list[Path]:
+    """Return all files behind a job, sorted.
+
+    Args:
+        roots: modules by name, as vibroimpact.figures.fig10_06; files and folders by their path from the checkout.
+            Modules, scripts and notebooks bring what they import, directly or not. A module brings the files beside it
+            that are no modules, such as styles and templates.
+    """
+    found, pending = set(), [path for root in roots for path in _paths(root)]
+    while pending:
+        path = pending.pop()
+        if path in found:
+            continue
+        found.add(path)
+        if path.suffix in (".py", ".ipynb"):
+            pending += [file for module in _imported(path) for file in module_files(module)]
+    return sorted(found)
 
 
-def fingerprint_now(part: str) -> str:
-    """Return a hash of the names and contents of all files of a part."""
-    digest = hashlib.sha256()
-    for path in files(part):
-        name = f"{PARTS.get(part, part)}/{path.relative_to(folder(part))}"  # the same for a checkout and its wheel
-        digest.update(f"{name}\n".encode() + path.read_bytes())
+def fingerprint(*roots: str) -> str:
+    """Return the fingerprint of the files behind a job; of folders every byte counts, comments as well."""
+    digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
+    for path in behind(*roots):
+        top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
+        content = path.read_bytes() if path in listed else _content(path)
+        digest.update(f"{path.relative_to(top).as_posix()}\n".encode() + content)  # the same in a wheel
     return digest.hexdigest()[:16]
 
 
-def files(part: str) -> list[Path]:
-    """Return all files of a part, sorted, without hidden ones and bytecode."""
-    top = folder(part)
-    left_out = [other for other in (SHIPPED, *map(folder, PARTS)) if other != top and other.is_relative_to(top)]
+def change_times(*roots: str) -> dict[Path, int]:
+    """Return the ctime (ns) of every file behind a job: putting an old version back changes it, too."""
+    return {path: path.stat().st_ctime_ns for path in behind(*roots)}
+
+
+def _paths(root: str) -> list[Path]:
+    """Return the files of a root of `behind`."""
+    if root.split(".")[0] in PACKAGES:
+        return module_files(root)
+    top = ROOT / root
+    if not top.exists():
+        raise FileNotFoundError(f"{root}: neither a module nor a file of the checkout")
     found = [top] if top.is_file() else top.rglob("*")
-    found = (path for path in found if path.is_file() and not path.name.startswith("."))
-    found = (path for path in found if "__pycache__" not in path.parts)
-    return sorted(path for path in found if not any(map(path.is_relative_to, left_out)))
+    return [path for path in found if path.is_file() and _counts(path)]
 
 
-def folder(part: str) -> Path:
-    """Return the folder (or file) of a part; of an installed pipeline, code is in the installed package."""
-    top, _, inside = PARTS.get(part, part).partition("/")
-    return SOURCES / inside if INSTALLED and top == "src" else ROOT / PARTS.get(part, part)
+def _counts(path: Path) -> bool:
+    return not path.name.startswith(".") and not {*LEFT_OUT} & {*path.parts}
 
 
-def change_times(parts) -> dict[Path, int]:
-    """Return the ctime (ns) of every file of the parts: putting an old version back changes it, too."""
-    return {path: path.stat().st_ctime_ns for part in parts for path in files(part)}
+@cache
+def modules() -> dict[str, Path]:
+    """Return the file of every module of this project by its name."""
+    files = [path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if _counts(path)]
+    return {".".join(path.relative_to(SOURCES).with_suffix("").parts).removesuffix(".__init__"): path for path in files}
+
+
+@cache
+def module_files(name: str) -> list[Path]:
+    """Return the files of a module: it, the packages around it, and what lies beside it; none for another's module."""
+    if name not in modules():
+        return []
+    parts = name.split(".")
+    around = [modules()[".".join(parts[:depth])] for depth in range(1, len(parts) + 1)]
+    beside = [path for path in around[-1].parent.iterdir() if path.is_file() and path.suffix not in CODE]
+    return [*around, *filter(_counts, beside)]
+
+
+def _imported(path: Path) -> set[str]:
+    """Return the names of this project's modules that a file may import: those that its code can name."""
+    return _named(path, path.stat().st_ctime_ns)
+
+
+@cache
+def _named(path: Path, time: int) -> set[str]:
+    found = set()
+    for code in _nested(_compiled(path, time)):
+        packages = [name for name in code.co_names if name.split(".")[0] in PACKAGES]
+        found |= {*packages, *(f"{package}.{name}" for package in packages for name in code.co_names)}
+    return found & modules().keys()
+
+
+@cache
+def _compiled(path: Path, time: int) -> CodeType:
+    """Return the code of a module, script or notebook, without docstrings."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".ipynb":
+        cells = json.loads(text)["cells"]
+        text = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+    return compile(text, path.name, "exec", optimize=2)
+
+
+def _nested(code: CodeType) -> Iterator[CodeType]:
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _nested(constant)
+
+
+def _content(path: Path) -> bytes:
+    """Return what counts of a file: of a module its code, of any other all bytes."""
+    if path.suffix == ".py":
+        return repr(_plain(_compiled(path, path.stat().st_ctime_ns))).encode()
+    return path.read_bytes()
+
+
+def _plain(value):
+    """Return code as values with one text each, without names of files and numbers of lines."""
+    if isinstance(value, CodeType):
+        names = value.co_names, value.co_varnames, value.co_freevars, value.co_cellvars
+        counts = value.co_argcount, value.co_posonlyargcount, value.co_kwonlyargcount, value.co_flags
+        steps = [value.co_code[k : k + 2] for k in range(0, len(value.co_code), 2)]
+        kept = b"".join(step for step in steps if step[0] != opmap["NOP"])  # one stands where a docstring was
+        return (value.co_name, kept, value.co_exceptiontable, names, counts, _plain(value.co_consts))
+    if isinstance(value, tuple):
+        return tuple(map(_plain, value))
+    if isinstance(value, frozenset):  # in the order of their hashes, which differ from run to run
+        return sorted(map(repr, value))
+    return value
+
+
+def changed(code: dict) -> bool:
+    """Return True if the code behind a job, as `code_of` gives it, is another one now."""
+    return fingerprint(*code["of"]) != code["fingerprint"]
+
+
+def code_of(*roots: str) -> dict:
+    """Return the code behind a job for the params of its rule: the roots of `behind`, and their fingerprint."""
+    return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}
+

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import yaml
 
-from vibroimpact_pipeline.code import PARTS
 from vibroimpact_pipeline.specs import columns, each, specs
 
 DATA = "report/data.yaml"
@@ -44,7 +43,7 @@ def stands_for(pattern: str, path: str) -> bool:
 
 def read(root) -> tuple[dict, dict]:
     """Read the SPEC of every figure and report/data.yaml."""
-    checkout = root if Path(root, PARTS["figures"]).is_dir() else None
+    checkout = root if Path(root, "src").is_dir() else None
     return specs(checkout), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
 
 

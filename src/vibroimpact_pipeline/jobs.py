@@ -31,7 +31,7 @@ def running(job) -> Iterator[SimpleNamespace]:
     """Run the script of a Snakemake job, whose outputs are named; give their temporary paths by name.
 
     What the script prints goes to the job's log. The job fails, with one line there, and replaces nothing, if its code
-    is not the code that the rules saw (`params.code`: fingerprints by part), if an input is not what its job wrote, or
+    is not the code that the rules saw (`params.code`, see `code.code_of`), if an input is not what its job wrote, or
     if either changes meanwhile. An error in an argument from the config is one line, too.
     """
     end_with_parent()
@@ -39,17 +39,16 @@ def running(job) -> Iterator[SimpleNamespace]:
         if job.log:
             stack.enter_context(logging_to(job.log[0]))
         try:
-            parts = dict(job.params.get("code", {}))
-            before = code.change_times(parts)
-            for part, fingerprint in parts.items():
-                if code.fingerprint_now(part) != fingerprint:
-                    raise Refused(f"{part}: has changed since the build began. Build again.")
+            behind = job.params.get("code", {"of": ()})
+            before = code.change_times(*behind["of"])
+            if behind["of"] and code.changed(behind):
+                raise Refused("the code has changed since the build began. Build again.")
             inputs = checked_digests(job.input)
             partial = {name: partial_path(path) for name, path in job.output.items()}
             for path in partial.values():
                 stack.callback(shutil.rmtree, path.parent)
             yield SimpleNamespace(**{name: str(path) for name, path in partial.items()})
-            if code.change_times(parts) != before:
+            if code.change_times(*behind["of"]) != before:
                 raise Refused("the code has changed while this job ran. Build again.")
             if checked_digests(job.input) != inputs:
                 raise Refused("an input has changed while this job ran. Build again.")

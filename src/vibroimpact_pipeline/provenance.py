@@ -68,9 +68,11 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
     for place, value in record["config"].items():
         if (now := _at(config, place)) != value:
             yield f"config, {place}: is {now}, was {value}"
-    for part, fingerprint in record["code"].items():
-        if code.fingerprint(part) != fingerprint:
-            yield f"{part}: has changed"
+    python = platform.python_version_tuple()[:2]
+    if (then := tuple(record["versions"]["python"].split(".")[:2])) != python:
+        yield f"Python: is {'.'.join(python)}, was {'.'.join(then)}; the code is compared on the same version only"
+    elif code.changed(record["code"]):
+        yield f"the code behind {', '.join(record['code']['of'])}: has changed"
     for name, digest in {**record["inputs"], **record["files"]}.items():
         file = Path(os.path.normpath(Path(path).parent / name))
         if not file.is_file() or digest_of(file) != digest:

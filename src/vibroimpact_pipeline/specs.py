@@ -18,21 +18,23 @@ from functools import cache
 from pathlib import Path
 
 from vibroimpact_pipeline.cases import own_parameters
-from vibroimpact_pipeline.code import PARTS, folder
+from vibroimpact_pipeline.code import SOURCES, modules
 
 LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
 LIKE |= {"physical_units": "machines"}
 """The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
-PACKAGES = {"figures": "vibroimpact.figures", "figures of studies": "vibroimpact.studies.figures"}
-"""Packages of figures by the part of the code; a checkout may lack the studies."""
+SHARED = "own", "equations", "columns"
+"""Entries of a SPEC that may name a figure which has the same."""
+PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
+"""Packages of figures; a checkout may lack the second."""
 
 
 @cache
 def specs(root=None) -> dict[str, dict]:
     """Return SPEC by figure for all modules of figures, of a checkout if given; the plotted table is "csv"."""
     found = {}
-    folders = [Path(root, PARTS[part]) if root else folder(part) for part in PACKAGES]
-    for path in sorted(path for one in folders for path in one.glob("*.py")):
+    top = Path(root, "src") if root else SOURCES
+    for path in sorted(path for package in PACKAGES for path in (top / package.replace(".", "/")).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)
@@ -40,7 +42,7 @@ def specs(root=None) -> dict[str, dict]:
     for figure, spec in found.items():
         shared = {
             name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name)
-            for name in ("own", "equations", "columns")
+            for name in SHARED
         }
         file = spec.get("file", f"results/figures/{figure}.csv")
         plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}
@@ -48,14 +50,14 @@ def specs(root=None) -> dict[str, dict]:
             plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
         own = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
+        own["shares"] = sorted({spec[name] for name in SHARED if isinstance(spec.get(name), str)})
         complete[figure] = own | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
     return complete
 
 
 def module_of(figure: str) -> str:
     """Return the full name of the module of a figure."""
-    found = (package for part, package in PACKAGES.items() if (folder(part) / f"{figure}.py").is_file())
-    return f"{next(found)}.{figure}"
+    return next(name for package in PACKAGES if (name := f"{package}.{figure}") in modules())
 
 
 def drawing_module(figure: str, scene: dict, known: dict) -> str:

@@ -13,7 +13,8 @@ import pytest
 
 from vibroimpact_pipeline import code, jobs, result_records
 
-INPUT, OUTPUT, PAGE = Path("results/in.csv"), Path("results/out.csv"), Path("notebooks/page.ipynb")
+INPUT, OUTPUT, PAGE = Path("results/in.csv"), Path("results/out.csv"), Path("docs/page.md")
+SCRIPT = Path("workflow/scripts/script.py")
 
 
 @pytest.fixture
@@ -21,22 +22,28 @@ def job(tmp_path, monkeypatch):
     """A job of a small checkout, with one input and one output."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(code, "ROOT", tmp_path)
-    library = tmp_path / code.PARTS["library"]
+    monkeypatch.setattr(code, "SOURCES", tmp_path / "src")
+    library = tmp_path / "src/vibroimpact"
     library.mkdir(parents=True)
+    (library / "__init__.py").write_text('"""A library."""\n')
     (library / "theory.py").write_text("rho = 0.65\n")
+    (library / "orbits.py").write_text("from vibroimpact.theory import rho\n")
+    SCRIPT.parent.mkdir(parents=True)
+    SCRIPT.write_text("from vibroimpact import orbits\n")
+    code.modules.cache_clear(), code.module_files.cache_clear()
     INPUT.parent.mkdir()
     INPUT.write_text("1")
     result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
     PAGE.parent.mkdir()
     PAGE.write_text("{}")
-    params = {"code": {part: code.fingerprint_now(part) for part in ("library", str(PAGE))}}
+    params = {"code": code.code_of(str(SCRIPT), str(PAGE))}
     return SimpleNamespace(
         log=[], input=[str(INPUT), str(PAGE)], output={"csv": str(OUTPUT)}, params=params, wildcards={}, rule="rule"
     )
 
 
 def theory():
-    return code.ROOT / code.PARTS["library"] / "theory.py"
+    return code.SOURCES / "vibroimpact/theory.py"
 
 
 def edit():
@@ -49,12 +56,21 @@ def edit_and_put_back():
     os.replace(aside, theory())
 
 
-def add_a_module():
+def import_a_module():
+    (theory().parent / "another.py").write_text("")
+    theory().write_text("from vibroimpact import another\n\nrho = 0.65\n")
+
+
+def comment():
+    theory().write_text('"""Theory."""\n\n\n# of the chapter\nrho = 0.65\n')
+
+
+def add_a_module_that_nothing_imports():
     (theory().parent / "another.py").write_text("")
 
 
 def edit_a_style():
-    """Not all of the code is Python: fingerprints are of every file."""
+    """Not all of the code is Python: what lies beside a module counts."""
     (theory().parent / "look.mplstyle").write_text("lines.linewidth: 3\n")
 
 
@@ -80,7 +96,7 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
 
 
 @pytest.mark.parametrize(
-    "change", [edit, edit_and_put_back, add_a_module, edit_a_style, edit_under_an_old_date, edit_the_input]
+    "change", [edit, edit_and_put_back, import_a_module, edit_a_style, edit_under_an_old_date, edit_the_input]
 )
 def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
     with pytest.raises(SystemExit, match="changed while this job ran"), jobs.running(job) as out:
@@ -93,7 +109,7 @@ def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
     "change",
     [
         edit,
-        add_a_module,
+        import_a_module,
         edit_a_style,
         edit_under_an_old_date,
         lambda: INPUT.write_text("0"),
@@ -104,6 +120,13 @@ def test_a_job_does_not_start_with_other_code_or_inputs(job, change):
     change()
     with pytest.raises(SystemExit, match="Build again"), jobs.running(job):
         pytest.fail("the job has started")
+
+
+@pytest.mark.parametrize("change", [comment, add_a_module_that_nothing_imports])
+def test_a_comment_and_what_the_script_does_not_import_change_no_fingerprint(job, change):
+    change()
+    code.modules.cache_clear(), code.module_files.cache_clear()
+    assert code.code_of(str(SCRIPT), str(PAGE)) == job.params["code"]
 
 
 def test_an_output_that_was_not_written_fails_the_job(job):

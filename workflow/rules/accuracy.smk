@@ -21,7 +21,7 @@ rule work_precision:
         short=not FULL,
         config={f"accuracy.{name}": ACCURACY[name] for name in ("problems", "effort", "short_seconds", "full_seconds")}
         | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
-        code=FIGURES,
+        code=code("work_precision"),
     threads: ALL_CORES
     log:
         "results/logs/accuracy/work_precision.log",
@@ -40,7 +40,7 @@ rule hazards:
         figure="hazards",
         full=FULL,
         config={"accuracy.effort": ACCURACY["effort"]},
-        code=FIGURES,
+        code=code("hazards"),
     log:
         "results/logs/accuracy/hazards.log",
     benchmark:
@@ -73,7 +73,7 @@ rule scene_models:
         },
         simulations={case: values["simulation"] for case, values in config["cases"].items()},
         seconds=ACCURACY["short_seconds"],
-        code=FIGURES,
+        code=code("scene_models", *(spec(figure)["module"] for figure in MODELLED)),
     threads: ALL_CORES
     log:
         "results/logs/accuracy/scene_models.log",
@@ -92,7 +92,7 @@ rule method_comparison:
     output:
         **in_report({"csv": "results/accuracy/method_comparison.csv"}, "Accuracy and speed"),
     params:
-        code=LIBRARY,
+        code=code("method_comparison"),
     log:
         "results/logs/accuracy/method_comparison.log",
     benchmark:

@@ -24,7 +24,7 @@ rule archive:
     output:
         archive=f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
     params:
-        code=PIPELINE,
+        code=code("archive"),
     log:
         "results/logs/archive.log",
     benchmark:

@@ -10,7 +10,7 @@ rule figure_check:
         reference="figures",
         page="results/figure_check",
         strict=False,
-        code=PIPELINE,
+        code=code("figure_check"),
     threads: ALL_CORES
     log:
         "results/logs/figure_check.log",
@@ -27,7 +27,7 @@ use rule figure_check as figure_check_strict with:
         reference="figures",
         page="results/figure_check",
         strict=True,
-        code=PIPELINE,
+        code=code("figure_check"),
     log:
         "results/logs/figure_check_strict.log",
 

@@ -1,4 +1,4 @@
-# What every stage needs: where the files are, the checked config, fingerprints of the code, the figures' SPECs.
+# What every stage needs: where the files are, the checked config, the code behind jobs, the figures' SPECs.
 
 import importlib.util
 import inspect
@@ -38,9 +38,9 @@ if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.git import committed
-from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
+from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
-from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
+from vibroimpact_pipeline.code import INSTALLED, ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
 from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
@@ -107,14 +107,9 @@ if WITH_MODEL:
         refuse(error)
 
 
-def fingerprints(*parts):
-    """Fingerprints of parts of the checkout behind a job, which checks them again when it ends."""
-    return {part: fingerprint(part) for part in parts}
-
-
-LIBRARY = fingerprints("library", "scripts", "lock")
-FIGURES = LIBRARY | fingerprints("figures")
-PIPELINE = FIGURES | fingerprints("pipeline")
+def code(script, *others):
+    """The code behind a job: its script, and what this does not import by name, for example modules of figures."""
+    return code_of(f"workflow/scripts/{script}.py", "environment.lock", *others)
 
 
 def system_of(case):
@@ -201,7 +196,7 @@ def scene(figure, *paths, section="figures"):
     title = {"case": title_of(config, case)} if case else {}
     return params | {
         "scene": own_settings | title,
-        "code": PIPELINE | fingerprints(NOTEBOOKS[notebook]),
+        "code": code("notebook", NOTEBOOKS[notebook], spec(figure)["module"], *map(module_of, spec(figure)["shares"])),
     }
 
 

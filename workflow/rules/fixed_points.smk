@@ -6,7 +6,7 @@ rule fixed_points:
         csv="results/fixed_points/{case}.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=LIBRARY,
+        code=code("fixed_points"),
     priority: 10
     log:
         "results/logs/fixed_points/{case}.log",

@@ -17,7 +17,7 @@ rule index:
     params:
         config={name: config[name] for name in ("system", "cases", "figures")},
         studies=study_titles,
-        code=PIPELINE,
+        code=code("index", "report/data.yaml", *map(module_of, SPECS)),
     log:
         "results/logs/index.log",
     benchmark:

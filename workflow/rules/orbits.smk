@@ -7,7 +7,7 @@ rule orbits:
         search="results/orbits/{case}.search.json",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=LIBRARY,
+        code=code("orbits"),
     log:
         "results/logs/orbits/{case}.log",
     benchmark:
@@ -26,7 +26,7 @@ rule verdicts:
         csv="results/verdicts/{case}.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        code=LIBRARY,
+        code=code("verdicts"),
     log:
         "results/logs/verdicts/{case}.log",
     benchmark:
@@ -46,7 +46,7 @@ rule gather:
         **in_report({"csv": "results/fixed_points.csv"}, "Tables"),
         orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
     params:
-        code=LIBRARY,
+        code=code("gather"),
     log:
         "results/logs/gather.log",
     benchmark:

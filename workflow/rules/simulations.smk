@@ -10,7 +10,7 @@ rule simulation:
     params:
         system=lambda wildcards: system_of(wildcards.case),
         settings=lambda wildcards: config["cases"][wildcards.case]["simulation"],
-        code=LIBRARY,
+        code=code("simulate"),
     priority: 10
     log:
         "results/logs/simulations/{case}.log",

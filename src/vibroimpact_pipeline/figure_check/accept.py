@@ -83,7 +83,7 @@ def main(arguments=None) -> int:
     given = parser.parse_args(arguments)
     try:
         checks = {given.reference / SETS[check]: given.build / f"results/{check}/figure_check.json" for check in SETS}
-        sets = {folder: json.loads(path.read_text(encoding="utf-8")) for folder, path in checks.items() if path.is_file()}
+        sets = {folder: json.loads(path.read_text("utf-8")) for folder, path in checks.items() if path.is_file()}
         if not sets:
             raise ValueError("No figure has been checked: run `make check-figures` or `make check-studies` first.")
         known = {verdict["figure"]: verdict for verdicts in sets.values() for verdict in verdicts}

@@ -6,10 +6,10 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.measures.modulation import PER_CYCLE
-from vibroimpact.studies.sweeps import observations
 from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.studies.sweeps import observations
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.observations import COLUMNS, OBSERVATIONS, observed
 from vibroimpact.studies.sweeps.rows import columns, rows

@@ -11,7 +11,7 @@ use rule figure_check as study_check with:
         reference="figures/studies",
         page="results/study_check",
         strict=False,
-        code=STUDY_PIPELINE,
+        code=code("figure_check"),
     log:
         "results/logs/study_check.log",
 
@@ -24,6 +24,6 @@ use rule figure_check_strict as study_check_strict with:
         reference="figures/studies",
         page="results/study_check",
         strict=True,
-        code=STUDY_PIPELINE,
+        code=code("figure_check"),
     log:
         "results/logs/study_check_strict.log",

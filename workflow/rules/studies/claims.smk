@@ -38,7 +38,7 @@ rule claims:
         markdown="results/claims.md",
     params:
         config={name: config.get(name) for name in ("system", "cases", "stability", "regimes", "sweeps")},
-        code=STUDY_LIBRARY | fingerprints("pipeline", "pipeline of studies", "docs/studies/claims.yaml"),
+        code=code("studies/claims", "docs/studies/claims.yaml"),
     log:
         "results/logs/claims.log",
     benchmark:

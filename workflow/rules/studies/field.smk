@@ -9,7 +9,7 @@ rule field:
         evidence="results/field/chain_evidence.json",
     params:
         octave=str(ROOT / "workflow/scripts/studies/chain.m"),
-        code=STUDY_LIBRARY,
+        code=code("studies/field"),
     log:
         "results/logs/field.log",
     benchmark:

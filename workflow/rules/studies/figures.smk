@@ -95,7 +95,7 @@ for figure, found in MADE.items():
             **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures"),
         params:
             **found.params,
-            code=STUDY_FIGURES,
+            code=code("figure", module_of(figure)),
         log:
             f"results/logs/figures/{figure}.log",
         benchmark:
@@ -118,7 +118,7 @@ for figure, machines in config["machines"].items():
         output:
             **page_and_files(figure),
         params:
-            **scene(figure, section="machines") | {"code": STUDY_PIPELINE | fingerprints(NOTEBOOKS["physical_units"])},
+            **scene(figure, section="machines"),
         log:
             f"results/logs/figures/{figure}.log",
         benchmark:

@@ -17,7 +17,7 @@ for name, scene in MOVING["animations"].items():
         params:
             system=system_of(scene["case"]),
             cycles=scene["cycles"],
-            code=STUDY_FIGURES,
+            code=code("studies/animation"),
         log:
             f"results/logs/report/{name}.log",
         benchmark:
@@ -34,7 +34,7 @@ rule force_sweep:
     params:
         system=system_of(MOVING["force_sweep"]["case"]),
         settings=MOVING["force_sweep"],
-        code=STUDY_FIGURES,
+        code=code("studies/force_sweep"),
     log:
         "results/logs/report/force_sweep.log",
     benchmark:
@@ -50,7 +50,7 @@ rule nudge:
         **{kind: f"results/nudge/nudge.{kind}" for kind in (*PICTURES, "json")},
     params:
         system=system_of(MOVING["force_sweep"]["case"]),
-        code=STUDY_FIGURES,
+        code=code("studies/nudge"),
     log:
         "results/logs/report/nudge.log",
     benchmark:
@@ -79,7 +79,7 @@ rule report:
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
-        code=STUDY_PIPELINE | fingerprints("docs", "report"),
+        code=code("studies/report", "docs", "report", "src/vibroimpact"),
     log:
         "results/logs/report/report.log",
     benchmark:

@@ -9,7 +9,7 @@ rule proofs:
         json="results/proofs.json",
     params:
         systems=all_systems(),
-        code=STUDY_LIBRARY,
+        code=code("studies/proofs"),
     log:
         "results/logs/proofs.log",
     benchmark:
@@ -27,7 +27,7 @@ rule verdict_grid:
     params:
         system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid has the forces
         settings=config["stability"]["verdict_grid"],
-        code=STUDY_LIBRARY,
+        code=code("studies/verdict_grid"),
     log:
         "results/logs/verdict_grid.log",
     benchmark:
@@ -47,7 +47,7 @@ rule modulation:
     params:
         systems=all_systems(),
         settings=config["regimes"]["modulation"] | {"observation": config["regimes"]["observation"]},
-        code=STUDY_LIBRARY,
+        code=code("studies/modulation"),
     log:
         "results/logs/modulation.log",
     benchmark:
@@ -65,7 +65,7 @@ rule verdicts_by_epsilon:
     params:
         systems=all_systems(),
         epsilon=config["stability"]["verdict_grid"]["epsilon"],
-        code=STUDY_LIBRARY,
+        code=code("studies/verdicts_by_epsilon"),
     log:
         "results/logs/verdicts_by_epsilon.log",
     benchmark:

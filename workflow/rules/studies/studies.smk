@@ -1,10 +1,5 @@
 # What goes beyond the chapter: `snakemake --cores 2 studies`. Deleting every folder and file called `studies` removes it.
 
-STUDY_LIBRARY = LIBRARY | fingerprints("studies", "scripts of studies")
-STUDY_FIGURES = FIGURES | STUDY_LIBRARY | fingerprints("figures of studies")
-STUDY_PIPELINE = PIPELINE | STUDY_FIGURES | fingerprints("pipeline of studies")
-
-
 include: "stability.smk"
 include: "sweeps.smk"
 include: "figures.smk"
@@ -32,7 +27,7 @@ rule datapackage:
         json="results/datapackage.json",
     params:
         figures=SCENES,
-        code=STUDY_PIPELINE | fingerprints("report/data.yaml", "CITATION.cff"),
+        code=code("studies/datapackage", "report/data.yaml", "CITATION.cff", *map(module_of, SPECS)),
     log:
         "results/logs/datapackage.log",
     benchmark:

@@ -27,7 +27,7 @@ for name, sweep in SWEEPS.items():
             csv=f"results/sweeps/{name}/tiles/{{scatteritem}}.csv",
         params:
             request=sweep_request(sweep),
-            code=STUDY_LIBRARY,
+            code=code("studies/sweep_tile"),
         threads: 1
         log:
             f"results/logs/sweeps/{name}/{{scatteritem}}.log",
@@ -49,7 +49,7 @@ for name, sweep in SWEEPS.items():
         params:
             points=points(sweep["axes"]),
             along=[axis["along"] for axis in sweep["axes"]],
-            code=STUDY_LIBRARY,
+            code=code("studies/sweep_table"),
         log:
             f"results/logs/sweeps/{name}/table.log",
         benchmark:
@@ -70,7 +70,7 @@ for name, sweep in SWEEPS.items():
             figure="sweep",
             settings={"axes": sweep["axes"]},
             config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
-            code=STUDY_FIGURES,
+            code=code("figure", module_of("sweep")),
         log:
             f"results/logs/sweeps/{name}/figure.log",
         benchmark:
