@@ -1,16 +1,14 @@
 """The code behind a job, for the `params` of its rule: the modules that its script imports, and files that they read.
 
-A fingerprint is of compiled code without comments, docstrings and line numbers: a comment schedules nothing, a formula
+A fingerprint is of parsed code without comments and docstrings: a comment schedules nothing, a formula
 schedules the jobs that use it, two imports away as well. Standard library only.
 """
 
+import ast
 import hashlib
 import json
-from collections.abc import Iterator
-from dis import opmap
 from functools import cache
 from pathlib import Path
-from types import CodeType
 
 SOURCES = Path(__file__).resolve().parents[1]
 """The folder of the packages: `src` of a checkout, or where they are installed."""
@@ -22,6 +20,7 @@ ROOT = SHIPPED if INSTALLED else SOURCES.parent
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
 LEFT_OUT = "__pycache__", ".ipynb_checkpoints", "checkout"
 CODE = ".py", ".pyi", ".typed"
+DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
 
 def behind(*roots: str) -> list[Path]:
@@ -92,56 +91,31 @@ def module_files(name: str) -> list[Path]:
 
 
 def _imported(path: Path) -> set[str]:
-    """Return the names of this project's modules that a file may import: those that its code can name."""
-    return _named(path, path.stat().st_ctime_ns)
+    """Return the names of this project's modules that a file imports, anywhere in it."""
+    return _parsed(path, path.stat().st_ctime_ns)[1]
 
 
 @cache
-def _named(path: Path, time: int) -> set[str]:
-    found = set()
-    for code in _nested(_compiled(path, time)):
-        packages = [name for name in code.co_names if name.split(".")[0] in PACKAGES]
-        found |= {*packages, *(f"{package}.{name}" for package in packages for name in code.co_names)}
-    return found & modules().keys()
-
-
-@cache
-def _compiled(path: Path, time: int) -> CodeType:
-    """Return the code of a module, script or notebook, without docstrings."""
+def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
+    """Return the code of a module, script or notebook without comments and docstrings, and what it imports."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
         cells = json.loads(text)["cells"]
         text = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
-    return compile(text, path.name, "exec", optimize=2)
-
-
-def _nested(code: CodeType) -> Iterator[CodeType]:
-    yield code
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from _nested(constant)
+    tree, names = ast.parse(text), set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            del node.body[0]
+    return ast.dump(tree), names & modules().keys()
 
 
 def _content(path: Path) -> bytes:
     """Return what counts of a file: of a module its code, of any other all bytes."""
-    if path.suffix == ".py":
-        return repr(_plain(_compiled(path, path.stat().st_ctime_ns))).encode()
-    return path.read_bytes()
-
-
-def _plain(value):
-    """Return code as values with one text each, without names of files and numbers of lines."""
-    if isinstance(value, CodeType):
-        names = value.co_names, value.co_varnames, value.co_freevars, value.co_cellvars
-        counts = value.co_argcount, value.co_posonlyargcount, value.co_kwonlyargcount, value.co_flags
-        steps = [value.co_code[k : k + 2] for k in range(0, len(value.co_code), 2)]
-        kept = b"".join(step for step in steps if step[0] != opmap["NOP"])  # one stands where a docstring was
-        return (value.co_name, kept, value.co_exceptiontable, names, counts, _plain(value.co_consts))
-    if isinstance(value, tuple):
-        return tuple(map(_plain, value))
-    if isinstance(value, frozenset):  # in the order of their hashes, which differ from run to run
-        return sorted(map(repr, value))
-    return value
+    return _parsed(path, path.stat().st_ctime_ns)[0].encode() if path.suffix == ".py" else path.read_bytes()
 
 
 def changed(code: dict) -> bool:

@@ -28,6 +28,7 @@ def job(tmp_path, monkeypatch):
     (library / "__init__.py").write_text('"""A library."""\n')
     (library / "theory.py").write_text("rho = 0.65\n")
     (library / "orbits.py").write_text("from vibroimpact.theory import rho\n")
+    (library / "look.mplstyle").write_text("lines.linewidth: 1\n")
     SCRIPT.parent.mkdir(parents=True)
     SCRIPT.write_text("from vibroimpact import orbits\n")
     code.modules.cache_clear(), code.module_files.cache_clear()
