@@ -55,9 +55,9 @@ attack: set-up  ## attack what the certificates of runs say, 20 000 runs of each
 	.venv/bin/pytest -s tests/exact/engine/test_attack.py --attack=$(RUNS)
 
 # Tests that need no build of the figures: formulas, orbits, the core of the engine, the config, the map of the repository.
-QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) sweeps absorbers \
-	integrators/test_contact_laws.py regimes/test_classification.py figures/test_specs.py figures/test_notebooks.py \
-	pipeline/test_config_reading.py report/test_report_text.py docs/test_map.py
+QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) \
+	integrators/test_contact_laws.py figures/test_specs.py figures/test_notebooks.py pipeline/test_config_reading.py docs/test_map.py \
+	$(addprefix studies/,sweeps absorbers regimes/test_classification.py report/test_report_text.py)
 
 test-quick: set-up  ## lint, import contracts, tests of formulas, orbits, engine and config (under a minute)
 	.venv/bin/ruff check
