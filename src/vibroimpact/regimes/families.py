@@ -6,63 +6,38 @@ pair meets the unit circle (Neimark-Sacker, if the pair is complex). On symmetri
 a period and mirroring, and -1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld
 1984).
 
-Of a single machine the unknowns of the module that takes no part are 0, with the equations x = 0; its amplitude is NaN.
+The unknowns of a module that takes no part are held at the constants `rest`: its angles at 0 and its size, C_i or I_i,
+at 1, so that a size of 0 always means a ball without speed. Its amplitude is NaN.
 """
 
 from itertools import combinations
 
 import numpy as np
 
-from vibroimpact.exact.orbits import asymmetric
+from vibroimpact.exact.orbits import asymmetric, symmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
 from vibroimpact.regimes.continuation import Lost
 from vibroimpact.system.amplitude import sawtooth_amplitude
+from vibroimpact.theory import slow_flow
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
-from vibroimpact.theory.slow_flow import MODULES, equations, linearisation, slow_eigenvalues
+from vibroimpact.theory.slow_flow import linearisation, slow_eigenvalues
 
 FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_ZERO = 1e-9  # what rounding leaves of unknowns that are held at 0
+_HELD = 1e-12
 
 
-class Unknowns:
-    """Modules and their unknowns: `_sizes` are the C_i, or I_i, `_phases` one angle of each module."""
-
-    _sizes: slice
-    _phases: slice
-
-    @classmethod
-    def moving(cls, x) -> np.ndarray:
-        """True (2,) for each module that takes part in the response of a root."""
-        return (abs(x[cls._sizes]) > _ZERO) | (abs(x[cls._phases]) > _ZERO)
-
-    @classmethod
-    def speed(cls, x) -> float:
-        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
-        return x[cls._sizes][cls.moving(x)].min()
-
-    @classmethod
-    def _refuse_one_of_two(cls, system, x):
-        """Refuse the response of one module where both take part.
-
-        Raises:
-            Lost: it is one.
-        """
-        if system.modules == (1, 2) and not cls.moving(x).all():
-            raise Lost("both modules take part, and the response is that of one")
-
-
-class SymmetricOrbits(Unknowns):
+class SymmetricOrbits:
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
 
     name, angles = "symmetric orbit", slice(0, 2)
-    _sizes, _phases = slice(2, 4), slice(0, 2)
+    modules, rest = symmetric.MODULES, np.array([0.0, 0.0, 1.0, 1.0])
     _conditions, _orbit = SymmetricConditions, staticmethod(symmetric_orbit)
 
     @staticmethod
@@ -70,10 +45,10 @@ class SymmetricOrbits(Unknowns):
         """A full turn of the angles among the unknowns."""
         return system.period
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """All roots, shape (n, 4)."""
-        return symmetric_solutions(system)
+        return np.where(_idle(cls, system), cls.rest, symmetric_solutions(system))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
@@ -82,15 +57,24 @@ class SymmetricOrbits(Unknowns):
 
     @classmethod
     def equations(cls, system, x):
-        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,)."""
-        cls._refuse_one_of_two(system, x)
+        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,).
+
+        Raises:
+            Lost: both modules take part in the system, and x is a response of one.
+        """
+        _refuse_one_of_two(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
-        return residual[0], jacobian[0]
+        return np.where(_idle(cls, system), x - cls.rest, residual[0]), jacobian[0]
 
     @classmethod
-    def amplitudes(cls, system, x) -> np.ndarray:
+    def speed(cls, x) -> float:
+        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        return x[cls.angles.stop :].min()
+
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
-        return np.where(cls.moving(x), x[2:], np.nan)
+        return _of_modules(system, x[2:])
 
     @classmethod
     def member(cls, system, x):
@@ -124,26 +108,25 @@ class AsymmetricOrbits(SymmetricOrbits):
     """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
 
     name, angles = "asymmetric orbit", slice(0, 4)
-    _sizes, _phases = slice(4, 6), slice(0, 4, 2)
+    modules, rest = asymmetric.MODULES, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
     _conditions, _orbit = AsymmetricConditions, staticmethod(asymmetric_orbit)
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """Roots found, shape (n, 6)."""
-        return asymmetric_solutions(system)[0]
-
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
-        """Roots that are the same motion or its mirror image."""
-        image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
-        return [x, np.where(np.isin(asymmetric.MODULES, system.modules), image, 0.0)]
+        return np.where(_idle(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
-    def amplitudes(cls, system, x) -> np.ndarray:
+    def images(cls, system, x) -> list[np.ndarray]:
+        """Roots that are the same motion or its mirror image."""
+        image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
+        return [x, np.where(_idle(cls, system), x, image)]
+
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
         u = flight_fractions(system, x)
-        C = sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
-        return np.where(cls.moving(x), C, np.nan)
+        return _of_modules(system, sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
@@ -151,22 +134,22 @@ class AsymmetricOrbits(SymmetricOrbits):
         return _tests(orbit.multipliers, PERIOD_DOUBLING, orbit)
 
 
-class FixedPoints(Unknowns):
+class FixedPoints:
     """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
 
     name, angles = "fixed point", slice(1, 4, 2)
-    _sizes, _phases = slice(0, 4, 2), slice(1, 4, 2)
+    modules, rest = slow_flow.MODULES, np.array([1.0, 0.0, 1.0, 0.0])
 
     @staticmethod
     def turn(system) -> float:
         """A full turn of the angles among the unknowns."""
         return 2 * np.pi
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """All fixed points with C_1, C_2 >= 0, shape (n, 4)."""
         found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
-        return np.nan_to_num(found).reshape(-1, 4)
+        return np.where(_idle(cls, system), cls.rest, np.reshape(found, (-1, 4)))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
@@ -175,21 +158,30 @@ class FixedPoints(Unknowns):
 
     @classmethod
     def equations(cls, system, x):
-        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4)."""
-        cls._refuse_one_of_two(system, x)
-        residual, jacobian, part = x.copy(), np.eye(4), np.isin(MODULES, system.modules)
-        residual[part], jacobian[np.ix_(part, part)] = equations(system, x[1::2], x[0::2])
+        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4).
+
+        Raises:
+            Lost: both modules take part in the system, and x is a response of one.
+        """
+        _refuse_one_of_two(cls, system, x)
+        residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
+        residual[part], jacobian[np.ix_(part, part)] = slow_flow.equations(system, x[1::2], x[0::2])
         return residual, jacobian
 
-    @classmethod
-    def amplitudes(cls, system, x) -> np.ndarray:
-        """C_i, shape (2,)."""
-        return np.where(cls.moving(x), x[0::2], np.nan)
+    @staticmethod
+    def speed(x) -> float:
+        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        return x[0::2].min()
 
-    @classmethod
-    def member(cls, system, x):
+    @staticmethod
+    def amplitudes(system, x) -> np.ndarray:
+        """C_i, shape (2,)."""
+        return _of_modules(system, x[0::2])
+
+    @staticmethod
+    def member(system, x):
         """The FixedPoint of a root."""
-        C, psi = (np.where(cls.moving(x), of, np.nan) for of in (x[0::2], x[1::2]))
+        C, psi = _of_modules(system, x[0::2]), _of_modules(system, x[1::2])
         values = slow_eigenvalues(system, psi, C)
         return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
 
@@ -237,7 +229,28 @@ def flight_fractions(system, x) -> np.ndarray:
     It is 1/2 of a module that takes no part.
     """
     u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
-    return np.where(AsymmetricOrbits.moving(x), u, 0.5)
+    return np.where(np.isin([1, 2], system.modules), u, 0.5)
+
+
+def _idle(family, system):
+    """True (d,) for the unknowns of a module that takes no part."""
+    return ~np.isin(family.modules, system.modules)
+
+
+def _of_modules(system, values):
+    """Numbers of both modules, (2,), NaN of one that takes no part."""
+    return np.where(np.isin([1, 2], system.modules), values, np.nan)
+
+
+def _refuse_one_of_two(family, system, x):
+    """Refuse a response of one module where both take part.
+
+    Raises:
+        Lost: x is one.
+    """
+    held = np.abs(x - family.rest) < _HELD
+    if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
+        raise Lost("both modules take part, and the response is that of one")
 
 
 def _tests(mu, at_minus_one, orbit):
