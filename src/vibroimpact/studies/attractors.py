@@ -11,7 +11,7 @@ from vibroimpact.regimes.attractors import attractors as told_apart
 from vibroimpact.regimes.settling import Observation, settle
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals
-from vibroimpact.system.state import NAMES
+from vibroimpact.system.state import NAMES, states_array
 
 _PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
 """Coordinates of starts, and their places in the state; W_i = X_i - Y_i moves ball i."""
@@ -62,7 +62,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
         ValueError: an argument is malformed.
         ArithmeticError: a run could not be finished.
     """
-    states = reals("states", states)
+    states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     return _basins(system, states, states.shape[:1], {}, observation, progress)

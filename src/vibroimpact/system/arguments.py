@@ -72,6 +72,8 @@ def reals(name: str, values) -> np.ndarray:
         array = np.array(values)
     except (TypeError, ValueError):  # rows of different lengths
         array = None
+    if array is not None and array.dtype == object and all(map(_is_real, array.flat)):
+        array = np.array(array.tolist())  # a row of a table with columns of several types
     if array is None or array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: {shown(values)} is not an array of real numbers")
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):

@@ -43,8 +43,8 @@ from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
 from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, reals, whole
-from vibroimpact.system.state import STICK
+from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.state import STICK, states_array
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -97,8 +97,9 @@ def ensemble(
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).
-        states: (..., 8) starts, as for `simulate`. Systems and starts are combined as NumPy combines arrays: n systems
-            and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all with all.
+        states: (..., 8) starts, by position or by name as for `simulate`. Systems and starts are combined as NumPy
+            combines arrays: n systems and n starts pair by pair, one start with every system, systems (m, 1) with
+            starts (n, 8) all with all.
         cycles, tau0: as for `simulate`.
         settle: cycles before the observation, from 0 to cycles; if all, only the final state is returned.
         progress: count finished runs on standard error, about once a second.
@@ -157,7 +158,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 
 def _combined(systems, states):
     """Return the distinct systems and, in the combined shape, the index of each run's system and its initial state."""
-    states = reals("states", states)
+    states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
     systems, known = np.array(systems, dtype=object), {}

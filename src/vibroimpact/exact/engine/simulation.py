@@ -22,7 +22,7 @@ from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carrie
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, shown, whole
 from vibroimpact.system.representation import Representation, brief
-from vibroimpact.system.state import EVENT, KINDS
+from vibroimpact.system.state import EVENT, KINDS, states_array
 
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
@@ -39,7 +39,7 @@ def checked_state(state) -> np.ndarray:
     Raises:
         ValueError: it is none.
     """
-    state = reals("state", state)
+    state = states_array("state", state)
     values = state.tolist()
     if state.shape != (8,):
         raise ValueError(f"state: needs shape (8,), got {state.shape}")
@@ -254,7 +254,8 @@ def simulate(
 
     Args:
         system: parameters.
-        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
+        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless; or with these by name, in any order: a
+            mapping, or a row of a table as `to_frame` makes them.
         cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
             motion is a run from `run.final` with tau0=run.end.
         tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
@@ -288,7 +289,7 @@ def simulate_many(
 
     Args:
         system: parameters.
-        states: (n, 8) starts.
+        states: (n, 8) starts, each as for `simulate`, or a table with their columns by name.
         cycles, tau0: as for `simulate`.
         progress: report on standard error, about once a second.
 
@@ -300,7 +301,7 @@ def simulate_many(
         ArithmeticError: an invariant broke in one of the runs.
     """
     instance("system", system, System)
-    states = np.ascontiguousarray(reals("states", states))  # rows of another order would be compiled for anew
+    states = np.ascontiguousarray(states_array("states", states))  # rows of another order would be compiled for anew
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
