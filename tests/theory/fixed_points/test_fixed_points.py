@@ -245,13 +245,19 @@ def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     [
         RESONANT | {"sigma_e_hat": 0.0, "f20_hat": -1.0},  # boxes in phase, forces opposed
         RESONANT | {"sigma_e_hat": 1.0},  # boxes opposed, forces in phase
-        UNDAMPED | UNCOUPLED | {"sigma_e_hat": 0.0, "f10_hat": 0.0},
+        UNDAMPED | UNCOUPLED | {"sigma_e_hat": 0.0, "sigma20_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
         RESONANT | {"sigma_e_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
     ],
 )
 def test_a_free_motion_at_the_driving_frequency_is_refused(changes):
     with pytest.raises(ValueError, match=r"^sigma_e_hat: .* resonance"):
         vi.fixed_points(build(changes))
+
+
+def test_a_resonance_of_a_module_that_takes_no_part_is_none():
+    changes = UNCOUPLED | {"gamma1_hat": 0.0, "sigma_e_hat": 0.0, "f10_hat": 0.0}
+    damped, undamped = (vi.fixed_points(build(changes | {"gamma1_hat": gamma})) for gamma in (0.2, 0.0))
+    np.testing.assert_array_equal([point.C for point in undamped], [point.C for point in damped])
 
 
 def test_merging_points_are_reported_as_multiple():
