@@ -1,4 +1,4 @@
-"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture, the times of its Poincare section.
+"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture.
 
 None of pandas, xarray and Matplotlib is imported before it is needed.
 """
@@ -89,22 +89,10 @@ def of_run(run):
     return table
 
 
-def section_times(run, phase: float = 0.0) -> np.ndarray:
-    """Times within a Run at which the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
-
-    The states there are its stroboscopic Poincare section.
-    """
-    Omega, period = run.system.Omega, run.system.period
-    first = np.remainder(phase - Omega * run.tau0, 2 * np.pi) / Omega
-    first = 0.0 if period - first < 1e-9 * period else first  # the start itself, but for rounding
-    times = run.tau0 + first + period * np.arange(run.cycles + 1)
-    return times[times <= run.tau0 + run.cycles * period]
-
-
 def plot_times(run) -> np.ndarray:
-    """Times for a picture of a Run: 64 in a cycle, or fewer in a long run."""
+    """Times since the start for a picture of a Run: 64 in a cycle, or fewer in a long run."""
     count = min(_PER_CYCLE * run.cycles, _MOST)
-    return run.tau0 + np.linspace(0.0, run.cycles * run.system.period, count + 1)
+    return np.linspace(0.0, run.cycles * run.system.period, count + 1)
 
 
 def plot(system, times, samples):

@@ -217,7 +217,7 @@ def _alone(system, state, begin, stages, energy, final, statistics):
     (settle, cycles, length), flow = stages, flow_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
     for cycle, stop in pairwise(stops):
-        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES)
+        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES, 0.0)
         if status != FINISHED:
             return status
         state, begin, k = run.final.copy(), run.end, max(cycle - settle, 0) // max(length, 1)

@@ -16,7 +16,7 @@ from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.certificate import KNOWN, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.flow import flow_of, tables_of
-from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
@@ -225,15 +225,24 @@ class Run(Representation):
 
         A stroboscopic Poincare section; the motion is computed once more.
         """
-        return self._sampled(frames.section_times(self, real("phase", phase)))
+        system, phase = self.system, real("phase", phase)
+        (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
+        ahead = ((wanted - begin) + (part - tail)) % TWO_PI
+        rounding = math.ulp(max(abs(phase), TWO_PI))
+        if not isinstance(self.begin, Instant):  # of whole periods from tau = 0, say
+            rounding += system.Omega * math.ulp(self.begin)
+        at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
+        cycles = np.arange(self.cycles + at_start)
+        return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))
 
     def plot(self):
         """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i between its walls; the motion is computed again."""
-        times = frames.plot_times(self)
-        return frames.plot(self.system, times, self._sampled(times))
+        since = frames.plot_times(self)
+        return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
-    def _sampled(self, times):
-        return simulate(self.system, self.start, self.cycles, self.begin, times).samples
+    def _sampled(self, since):
+        """Return the states at some times since the start, which lose no digits far from tau = 0."""
+        return _run(self.system, self.start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
     def trajectory(self) -> tuple:
@@ -279,7 +288,7 @@ def simulate(
     if sample_times is not None:
         start = float(begin)
         times = checked_times("sample_times", sample_times, start, start + cycles * system.period)
-    return _run(system, state, cycles, begin, times)
+    return _run(system, state, cycles, begin, times, float(begin))
 
 
 def simulate_many(
@@ -311,24 +320,24 @@ def simulate_many(
             raise ValueError(f"states[{row}]: {error}") from None
     begin, cycles = checked_window(system, cycles, tau0)
     tables_of(system)  # built once, before the threads share it
-    pieces = [(system, state, cycles, begin, NO_TIMES) for state in states]
+    pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
     return on_all_cores(_run, pieces, [1] * len(pieces), progress)
 
 
-def _run(system, state, cycles, begin, times):
-    """Return one run from checked arguments."""
-    status, run = attempt(system, state, cycles, begin, times)
+def _run(system, state, cycles, begin, times, clock):
+    """Return one run from checked arguments; the sample times are on a clock that shows `clock` at the start."""
+    status, run = attempt(system, state, cycles, begin, times, clock)
     if status != kernel.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
         raise ArithmeticError(f"{kernel.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
     return run
 
 
-def attempt(system, state, cycles, begin, times):
+def attempt(system, state, cycles, begin, times, clock):
     """Return (status, the run as far as it came) from checked arguments."""
-    samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
+    samples, final = np.empty((len(times), 8)), np.empty(8)
     (rows, counters, checkpoint), pieces = kernel.memory(cycles), []
-    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
+    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, clock, times, samples, final
     while (status := kernel.integrate(*given, rows, counters, checkpoint)) == kernel.PAUSED:
         if kernel.is_full(rows, counters):
             pieces.append(rows[: int(counters[motion.EVENTS])])
