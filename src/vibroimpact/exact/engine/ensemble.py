@@ -26,7 +26,7 @@ from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Prog
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
-from vibroimpact.exact.engine.motion import APPROACH, ENTRIES, EVENTS, KIND, MODULE, ROW, TIME, Log, Motion, mode_of
+from vibroimpact.exact.engine.motion import ENTRIES, EVENTS, ROW, Log, Motion, mode_of
 from vibroimpact.exact.engine.observation import (
     IMPACTS,
     INTEGRALS,
@@ -37,14 +37,15 @@ from vibroimpact.exact.engine.observation import (
     STICKS,
     STORED,
     accumulate_statistics,
+    discount_rests,
     open_or_close,
 )
-from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, phase_at
 from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
-from vibroimpact.system.state import STICK, states_array
+from vibroimpact.system.state import states_array
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -189,7 +190,8 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
     single = np.flatnonzero(alone[owners] & (status == FINISHED))
     status[single] = LATER
-    piece = Piece(scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, statistics)
+    runs = owners, starts, stages, status, final, statistics, continues(begins[0])
+    piece = Piece(scalars, rates, phases, potentials, drifts, *runs)
     memory = _memory()
     while not _loop(piece, memory):
         stop_if_given_up()
@@ -226,7 +228,7 @@ def _alone(system, state, begin, stages, energy, final, statistics):
             _, flights, rows = run.trajectory
             end = run.cycles * system.period, flights[0, FORCING]
             observed, squares = statistics[k], Squares(*(part[0] for part in UNOBSERVED))
-            _watch(flow, squares, run.start, rows, run.final, end, cycle > 0, observed)
+            _watch(flow, squares, run.start, rows, run.final, end, continues(run.begin), observed)
             if energy:
                 energy_rows = np.zeros((1, ACCOUNTED))
                 accumulate_energy(flow, work_tables(system), flights, rows, np.zeros(1), energy_rows)
@@ -235,18 +237,15 @@ def _alone(system, state, begin, stages, energy, final, statistics):
 
 
 @compiled
-def _watch(flow, squares, start, rows, final, end, settled, statistics):
-    """Add the statistics of a finished run; end: its duration and phase; settled: it continues another run, so that a
-    ball at rest on its wall stuck there before.
-    """
+def _watch(flow, squares, start, rows, final, end, continued, statistics):
+    """Add the statistics of a finished run; end: its duration and phase; continued: it continues another run."""
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
     accumulate_statistics(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), statistics)
     open_or_close(flow, squares, last, 1.0, statistics)
-    for n in range(len(rows)):
-        if settled and rows[n, TIME] == 0.0 and rows[n, KIND] == STICK and rows[n, APPROACH] == 0.0:
-            statistics[STICKS + int(rows[n, MODULE]) - 1] -= 1.0
+    if continued:
+        discount_rests(rows, len(rows), statistics)
 
 
 class Piece(NamedTuple):
@@ -254,7 +253,7 @@ class Piece(NamedTuple):
 
     numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; starts (n, 8);
     stages: cycles before the observation, all, and in each of its k windows; status (n,); final (n, k, 8); statistics
-    (n, k, STATISTICS).
+    (n, k, STATISTICS); continued: the runs continue others.
     """
 
     numbers: np.ndarray
@@ -268,6 +267,7 @@ class Piece(NamedTuple):
     status: np.ndarray
     final: np.ndarray
     statistics: np.ndarray
+    continued: bool = False
 
 
 class Memory(NamedTuple):
@@ -501,6 +501,8 @@ def _by_events(piece, flow, squares, n, lane, m):
             accumulate_statistics(
                 flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.statistics
             )
+            if piece.continued:
+                discount_rests(m.rows, noted, m.statistics)
             _write(m, lane)
         sine, cosine = np.sin(progress.phase), np.cos(progress.phase)
         motion = Motion(motion.boxes, motion.balls, motion.walls, (0, 0), sine, cosine)

@@ -16,7 +16,8 @@ from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.certificate import KNOWN, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.flow import flow_of, tables_of
-from vibroimpact.exact.engine.phase import TWO_PI, Instant, exactly, phase_at
+from vibroimpact.exact.engine.observation import rests_at_start
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
@@ -164,11 +165,15 @@ class Run(Representation):
 
     @cached_property
     def events(self) -> np.ndarray:
-        table = np.empty(len(self.rows), EVENT)
-        table["tau"] = self.tau0 + self.rows[:, motion.TIME]
+        rows = self.rows
+        if continues(self.begin):  # the sticks of balls at rest on their walls are events of the run before
+            again = [n for n in range(min(kernel.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
+            rows = np.delete(rows, again, axis=0)
+        table = np.empty(len(rows), EVENT)
+        table["tau"] = self.tau0 + rows[:, motion.TIME]
         for name, column in (("module", motion.MODULE), ("wall", motion.WALL), ("kind", motion.KIND)):
-            table[name] = self.rows[:, column]
-        table["state"] = self.rows[:, 4 : motion.PHASE]
+            table[name] = rows[:, column]
+        table["state"] = rows[:, 4 : motion.PHASE]
         table.flags.writeable = False
         return table
 
@@ -268,7 +273,8 @@ def simulate(
         cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
             motion is a run from `run.final` with tau0=run.end.
         tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
-            the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
+            the end of a run, `run.end`, which this run then continues: a ball at rest on a wall sticks there already,
+            and this is no event again. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
     Returns:
