@@ -5,6 +5,7 @@ import ctypes
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -225,6 +226,30 @@ def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_pat
     assert "compiling" not in second.stderr
     assert first.stdout == second.stdout
     assert folder.stat().st_mode & 0o777 == 0o700
+
+
+@pytest.fixture
+def compiled_before(alone):
+    """What a program prints that compiles a part of the library beside it, as at its installation."""
+    compiled_code.share(alone.site / "vibroimpact")  # so that it need not be compiled again
+    yield alone("-c", ADVANCE).stdout
+    for code in (alone.site / "vibroimpact/__pycache__").glob("compiled-*"):
+        shutil.rmtree(code)
+
+
+def test_code_of_an_installation_that_is_read_only_by_now_is_used(alone, compiled_before, nowhere_to_write, tmp_path):
+    """As in a container: it is copied to where it can be written to, since Numba uses no other folder."""
+    for _ in range(2):
+        run = nowhere_to_write(ADVANCE)
+        assert "compiling" not in run.stderr
+        assert run.stdout == compiled_before
+    installed = alone("-c", WHERE).stdout.strip()
+    [copy] = tmp_path.glob(f"vibroimpact-*/{Path(installed).name}")
+    assert {*files(Path(installed))} == {*files(copy)} != set()
+
+
+def files(folder):
+    return ((path.relative_to(folder), path.read_bytes()) for path in folder.rglob("*.nb?"))
 
 
 def test_code_of_other_sources_is_not_used(alone):

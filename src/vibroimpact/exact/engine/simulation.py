@@ -247,7 +247,8 @@ class Run(Representation):
 
     def _sampled(self, since):
         """Return the states at some times since the start, which lose no digits far from tau = 0."""
-        return _run(self.system, self.start, self.cycles, self.begin, since, clock=0.0).samples
+        start = self.start.copy()  # for a read-only array the engine would be compiled anew
+        return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
     def trajectory(self) -> tuple:
