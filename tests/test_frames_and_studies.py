@@ -1,5 +1,7 @@
 """Results as frames, pictures and sections; branches, sweeps, proofs and absorbers by their public names."""
 
+import pickle
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -134,6 +136,29 @@ def test_branches_pass_the_fixed_points_of_any_value():
     ):  # fmt: skip
         with pytest.raises(ValueError, match=rf"^{name}:"):
             vi.branches(SYSTEM, *arguments)
+
+
+RANGES = (0.5, 1.0), (0.6, 0.7)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        vi.fixed_points,
+        vi.orbits,
+        lambda system: vi.branches(system, "kappa", RANGES[1], of="theory", seeds=1, progress=False),
+        lambda system: vi.bifurcation_curves(system, ("f10_hat", "kappa"), RANGES, seeds=1, progress=False),
+    ],
+    ids=["fixed points", "orbits", "branches", "curves"],
+)
+def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
+    """So much damping leaves no motion with two impacts per cycle."""
+    found, nothing = call(SYSTEM), call(SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0))
+    assert len(found) > 0 == len(nothing)
+    for empty in (nothing, pickle.loads(pickle.dumps(nothing))):
+        frame = vi.to_frame(empty)
+        assert frame.columns.tolist() == vi.to_frame(found).columns.tolist()
+        assert frame.empty
 
 
 def test_a_sweep_counts_the_fixed_points_of_every_system():

@@ -20,7 +20,7 @@ _PER_CYCLE, _MOST = 64, 20_000  # points of a picture
 
 def to_frame(result: Any) -> "pandas.DataFrame":
     """A pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits, branches,
-    bifurcation curves or rows.
+    bifurcation curves or rows. A list in which a function found nothing has the columns of its results.
 
     Raises:
         ValueError: the result is none of these.
@@ -33,7 +33,8 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     if isinstance(result, np.ndarray) and result.dtype.names:
         return _pandas().DataFrame(_columns(result.ravel()))
     if isinstance(result, list | tuple) and all(map(_has_rows, result)):
-        return _pandas().DataFrame([row for number, one in enumerate(result) for row in _rows(one, number)])
+        rows = [row for number, one in enumerate(result) for row in _rows(one, number)]
+        return _pandas().DataFrame(rows, columns=None if rows else getattr(result, "columns", None))
     kind = type(result).__name__
     raise ValueError(
         f"result: a {kind} is no run, no ensemble, no basins and no list of fixed points, orbits, branches or rows"

@@ -11,6 +11,8 @@ from vibroimpact.regimes.families import SPEED_ZERO, AsymmetricOrbits, flight_fr
 from vibroimpact.system.representation import Representation, brief
 
 _SAME = 1e-6
+COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special"
+"""Columns of a table of branches."""
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from vibroimpact.regimes.families import AsymmetricOrbits, FixedPoints, Symmetri
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
 from vibroimpact.system.progress import shown, tell
+from vibroimpact.system.representation import Found
 
 FAMILIES = {
     "theory": (FixedPoints,),
@@ -67,7 +68,7 @@ def branches(
         report = _report(f"{family.name}: {' = '.join(names)} =", progress)
         found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report)
     _end(progress)
-    return found
+    return Found(found, one_parameter.COLUMNS)
 
 
 def bifurcation_curves(
@@ -127,7 +128,7 @@ def bifurcation_curves(
         report = _report(f"{family.name}, special points: {', '.join(names)} =", progress)
         found += curves.bifurcation_curves(plane, started, widths.max() / _CURVE_STEPS, report)
     _end(progress)
-    return found
+    return Found(found, ("family", "curve", "special", *names, "C1", "C2"))
 
 
 def with_parameters(known, names) -> tuple[str, ...]:
