@@ -175,7 +175,7 @@ DESIGN = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9 --plot des
 def test_a_picture_without_its_extra_says_so(alone, shared_code):
     run = alone("-m", "vibroimpact", *shlex.split(DESIGN), check=False, **shared_code)
     assert run.returncode == 2
-    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib: pip install .*figures.*\n", run.stderr)
+    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib and pandas: pip install .*figures.*\n", run.stderr)
 
 
 def test_the_stub_names_what_the_package_exports():

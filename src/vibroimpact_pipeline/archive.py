@@ -97,6 +97,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
         with tarfile.open(fileobj=io.BytesIO(output("archive", commit, root=root))) as sources:
+            sources.extraction_filter = getattr(tarfile, "data_filter", None)  # Python 3.11.4 brought it
             sources.extractall(staged)
         for result in results:
             (staged / result).parent.mkdir(parents=True, exist_ok=True)
