@@ -42,7 +42,7 @@ def fingerprint_now(part: str) -> str:
 
 
 def files(part: str) -> list[Path]:
-    """Return all files of a part, sorted, without hidden ones, those of hidden folders (editors' copies) and bytecode."""
+    """Return all files of a part, sorted, without bytecode, hidden files and hidden folders (copies of editors)."""
     top, left_out = folder(part), {"library": folder("figures"), "pipeline": SHIPPED}.get(part)
     found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
     found = (path for path in found if path.is_file())

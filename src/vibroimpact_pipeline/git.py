@@ -13,7 +13,7 @@ SETTINGS = {
     "log.showSignature": "false",
     "tar.umask": "0002",
 }
-"""Settings that change what git prints or the bytes of a checkout. Others of the user, such as safe.directory, count."""
+"""Settings that change the output of git or the bytes of a checkout. Others of the user count, as safe.directory."""
 ABSENT = "not a git repository"
 """What git prints outside a repository."""
 SHOWN = 4
