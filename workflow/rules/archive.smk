@@ -15,14 +15,15 @@ def made_with_now(name, wildcards):
     """Params and inputs of a rule; those of the inputs that are results."""
     if not hasattr(rules, name):
         raise LookupError(name)
-    given, rule = SimpleNamespace(**wildcards), getattr(rules, name)
-    params = {key: value(given) if callable(value) else value for key, value in rule.params.items()}
-    return params, [path for path in expand(rule.input, **wildcards) if is_result(path)]
+    made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
+    params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
+    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
 
 
 def results_of_a_commit(wildcards):
     """Results of the default build; refused, before anything is built, where they would not be those of the commit."""
     from vibroimpact_pipeline.archive import differences, made_otherwise
+    from vibroimpact_pipeline.config import checked, read
 
     try:
         committed(ROOT)
