@@ -42,11 +42,13 @@ def _job(record):
 def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
     """Yield a line for each result behind the targets, as far as it exists, that was made with something else than now.
 
+    Those that were only made from another input come last, as that may follow from one of the others.
+
     Args:
         targets: paths of results.
         now: params and inputs of a rule with wildcards; raises LookupError if there is no such rule any more.
     """
-    known, seen, pending = records(), set(), list(targets)
+    known, seen, pending, following = records(), set(), list(targets), []
     while pending:
         path = pending.pop()
         if path in seen or path not in known:
@@ -60,13 +62,15 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
             continue
         if inputs.keys() != {*paths}:
             yield f"{path}: made from other inputs"
-        elif other := [one for one in inputs if one in known and known[one].get("sha256") != inputs[one]]:
-            yield f"{path}: made from another {other[0]}"
+            continue
+        if other := [one for one in inputs if one in known and known[one].get("sha256") != inputs[one]]:
+            following.append(f"{path}: made from another {other[0]}")
         else:
             for place, was, is_now in differences(record["params"], json.loads(json.dumps(params))):
                 yield f"{path}: made with {place} {was}, now {is_now}"
                 break
         pending += inputs
+    yield from following
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:
