@@ -17,7 +17,7 @@ done
 while IFS== read -r key value; do
     name=${key^^}
     name=PIP_${name//-/_}
-    [[ -v $name ]] || export "$name=$value"
+    [[ -n ${!name:-} ]] || export "$name=$value"
 done < <(PIP_USER=0 .venv/bin/python -I -m pip config list | sort --reverse |
     sed -nE "s/^(global|install)\.($reach)='(.*)'$/\2=\3/p" | sed 's/\\n/ /g')
 # What pip itself needs meanwhile lies in the checkout, too.
