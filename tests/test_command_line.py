@@ -104,6 +104,16 @@ def test_a_run_that_fails_is_one_line(capsys):
     assert "time stands still" in line
 
 
+def test_a_table_that_cannot_be_saved_is_printed(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["fixed-points", "--output", "/dev/full"])
+    printed = capsys.readouterr()
+    assert end.value.code == 1
+    assert len(printed.out.splitlines()) == 4
+    assert "output: /dev/full cannot be written, so the table is printed: No space left" in printed.err
+    assert printed.err.count("\n") == 1
+
+
 def test_a_reader_that_has_seen_enough_is_no_error():
     command = f"{sys.executable} -m vibroimpact simulate --cycles 1000 | head -2"
     run = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False)

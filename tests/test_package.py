@@ -17,7 +17,7 @@ import pytest
 
 import compiled_code
 import vibroimpact as vi
-from pipeline_trees import ROOT
+from pipeline_trees import ROOT, copied
 
 
 def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_matplotlib():
@@ -44,8 +44,12 @@ def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
+    sources = copied(ROOT, folder / "sources")
+    for name in ("notebooks", "docs", "workflow/scripts", "src/vibroimpact"):
+        (sources / name / ".ipynb_checkpoints").mkdir()
+        (sources / name / ".ipynb_checkpoints/copy.py").touch()
     build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    subprocess.run(build, cwd=sources.path, check=True, capture_output=True)
     [path] = folder.glob("*.whl")
     return path
 
@@ -131,7 +135,7 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
         "vibroimpact/py.typed",
         "vibroimpact/__init__.pyi",
     } <= {*names}
-    assert not [name for name in names if "__pycache__" in name]
+    assert not [name for name in names if "__pycache__" in name or ".ipynb_checkpoints" in name]
 
 
 LIBRARY_SECTION = (ROOT / "README.md").read_text(encoding="utf-8").split("## As a library")[1].split("\n## ")[0]
@@ -176,7 +180,7 @@ DESIGN = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9 --plot des
 def test_a_picture_without_its_extra_says_so(alone, shared_code):
     run = alone("-m", "vibroimpact", *shlex.split(DESIGN), check=False, **shared_code)
     assert run.returncode == 2
-    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib: pip install .*figures.*\n", run.stderr)
+    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib and pandas: pip install .*figures.*\n", run.stderr)
 
 
 def test_the_stub_names_what_the_package_exports():

@@ -38,12 +38,11 @@ elif importlib.util.find_spec("vibroimpact_pipeline") is None:
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact_pipeline.git import committed
 from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.result_records import PARTIAL, distrust
+from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"
@@ -241,12 +240,3 @@ def existing_outputs():
 onstart:
     if missing := missing_libraries():
         refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
-
-
-def results_of_a_commit(wildcards):
-    """Return the results of the default build; refuse a changed checkout before anything is built."""
-    try:
-        committed(ROOT)
-    except ValueError as error:
-        refuse(str(error))
-    return rules.all.input
