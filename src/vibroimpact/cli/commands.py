@@ -48,10 +48,10 @@ class Table(NamedTuple):
     """Draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write CSV to an open text file, every number with as many digits as identify it."""
+        """Write CSV to an open text file, every number with as many digits as identify it, NaN as an empty field."""
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
-        writer.writerows(self.rows)
+        writer.writerows([["" if value != value else value for value in row] for row in self.rows])
 
 
 class Command(NamedTuple):

@@ -107,7 +107,9 @@ def symmetry_breaking(system, x) -> float:
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
     jacobian = AsymmetricConditions(system)(root[None])[1][0]
-    return np.linalg.det(np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE)
+    opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE
+    part = np.isin([1, 2], system.modules)
+    return np.linalg.det(opposite[part][:, part])
 
 
 _OPPOSITE = np.array([[1, -1, 0, 0], [0, 0, 1, -1]]).T

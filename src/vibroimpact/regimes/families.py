@@ -5,31 +5,64 @@ through their zeros: prod (1 - mu) at a fold, prod (1 + mu) at a period doubling
 pair meets the unit circle (Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half
 a period and mirroring, and -1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld
 1984).
+
+Of a single machine the unknowns of the module that takes no part are 0, with the equations x = 0; its amplitude is NaN.
 """
 
 from itertools import combinations
 
 import numpy as np
 
+from vibroimpact.exact.orbits import asymmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
+from vibroimpact.regimes.continuation import Lost
 from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
-from vibroimpact.theory.slow_flow import linearisation, rates, slow_eigenvalues
+from vibroimpact.theory.slow_flow import MODULES, equations, linearisation, slow_eigenvalues
 
 FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
+_ZERO = 1e-9  # what rounding leaves of unknowns that are held at 0
 
 
-class SymmetricOrbits:
+class Unknowns:
+    """Modules and their unknowns: `_sizes` are the C_i, or I_i, `_phases` one angle of each module."""
+
+    _sizes: slice
+    _phases: slice
+
+    @classmethod
+    def moving(cls, x) -> np.ndarray:
+        """True (2,) for each module that takes part in the response of a root."""
+        return (abs(x[cls._sizes]) > _ZERO) | (abs(x[cls._phases]) > _ZERO)
+
+    @classmethod
+    def speed(cls, x) -> float:
+        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        return x[cls._sizes][cls.moving(x)].min()
+
+    @classmethod
+    def _refuse_one_of_two(cls, system, x):
+        """Refuse the response of one module where both take part.
+
+        Raises:
+            Lost: it is one.
+        """
+        if system.modules == (1, 2) and not cls.moving(x).all():
+            raise Lost("both modules take part, and the response is that of one")
+
+
+class SymmetricOrbits(Unknowns):
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
 
     name, angles = "symmetric orbit", slice(0, 2)
+    _sizes, _phases = slice(2, 4), slice(0, 2)
     _conditions, _orbit = SymmetricConditions, staticmethod(symmetric_orbit)
 
     @staticmethod
@@ -50,18 +83,14 @@ class SymmetricOrbits:
     @classmethod
     def equations(cls, system, x):
         """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,)."""
+        cls._refuse_one_of_two(system, x)
         residual, jacobian = cls._conditions(system)(x[None])
         return residual[0], jacobian[0]
 
     @classmethod
-    def speed(cls, x) -> float:
-        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
-        return x[cls.angles.stop :].min()
-
-    @staticmethod
-    def amplitudes(system, x) -> np.ndarray:
+    def amplitudes(cls, system, x) -> np.ndarray:
         """C_i, shape (2,)."""
-        return x[2:]
+        return np.where(cls.moving(x), x[2:], np.nan)
 
     @classmethod
     def member(cls, system, x):
@@ -95,6 +124,7 @@ class AsymmetricOrbits(SymmetricOrbits):
     """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
 
     name, angles = "asymmetric orbit", slice(0, 4)
+    _sizes, _phases = slice(4, 6), slice(0, 4, 2)
     _conditions, _orbit = AsymmetricConditions, staticmethod(asymmetric_orbit)
 
     @staticmethod
@@ -105,13 +135,15 @@ class AsymmetricOrbits(SymmetricOrbits):
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
         """Roots that are the same motion or its mirror image."""
-        return [x, np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])]
+        image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
+        return [x, np.where(np.isin(asymmetric.MODULES, system.modules), image, 0.0)]
 
-    @staticmethod
-    def amplitudes(system, x) -> np.ndarray:
+    @classmethod
+    def amplitudes(cls, system, x) -> np.ndarray:
         """C_i, shape (2,)."""
         u = flight_fractions(system, x)
-        return sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
+        C = sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
+        return np.where(cls.moving(x), C, np.nan)
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
@@ -119,10 +151,11 @@ class AsymmetricOrbits(SymmetricOrbits):
         return _tests(orbit.multipliers, PERIOD_DOUBLING, orbit)
 
 
-class FixedPoints:
+class FixedPoints(Unknowns):
     """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
 
     name, angles = "fixed point", slice(1, 4, 2)
+    _sizes, _phases = slice(0, 4, 2), slice(1, 4, 2)
 
     @staticmethod
     def turn(system) -> float:
@@ -132,34 +165,31 @@ class FixedPoints:
     @staticmethod
     def roots(system) -> np.ndarray:
         """All fixed points with C_1, C_2 >= 0, shape (n, 4)."""
-        return np.array([np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]).reshape(-1, 4)
+        found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
+        return np.nan_to_num(found).reshape(-1, 4)
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
         """Roots that are the same motion or its mirror image."""
         return [x]
 
-    @staticmethod
-    def equations(system, x):
+    @classmethod
+    def equations(cls, system, x):
         """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4)."""
-        C, psi = x[0::2], x[1::2]
-        residual = np.stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C), axis=1).ravel()
-        return residual, linearisation(system, psi, C)[0]
+        cls._refuse_one_of_two(system, x)
+        residual, jacobian, part = x.copy(), np.eye(4), np.isin(MODULES, system.modules)
+        residual[part], jacobian[np.ix_(part, part)] = equations(system, x[1::2], x[0::2])
+        return residual, jacobian
 
-    @staticmethod
-    def speed(x) -> float:
-        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
-        return x[0::2].min()
-
-    @staticmethod
-    def amplitudes(system, x) -> np.ndarray:
+    @classmethod
+    def amplitudes(cls, system, x) -> np.ndarray:
         """C_i, shape (2,)."""
-        return x[0::2]
+        return np.where(cls.moving(x), x[0::2], np.nan)
 
-    @staticmethod
-    def member(system, x):
+    @classmethod
+    def member(cls, system, x):
         """The FixedPoint of a root."""
-        C, psi = x[0::2], x[1::2]
+        C, psi = (np.where(cls.moving(x), of, np.nan) for of in (x[0::2], x[1::2]))
         values = slow_eigenvalues(system, psi, C)
         return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
 
@@ -175,16 +205,16 @@ class FixedPoints:
         sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
         return {
             FOLD: np.linalg.det(J),
-            HOPF: float(np.prod(sums).real * np.linalg.det(M) ** 3),
-            **{f"{MANIFOLD_FOLD}, module {i + 1}": slope(point.C[i], r) for i in range(2)},
-            **{f"{SYMMETRY_BREAKING}, module {i + 1}": SYMMETRY_BREAKING_C - point.C[i] for i in range(2)},
+            HOPF: float(np.prod(sums).real * np.linalg.det(M) ** (len(M) - 1)),
+            **{f"{MANIFOLD_FOLD}, module {k}": slope(point.C[k - 1], r) for k in system.modules},
+            **{f"{SYMMETRY_BREAKING}, module {k}": SYMMETRY_BREAKING_C - point.C[k - 1] for k in system.modules},
         }
 
     @staticmethod
     def stable(system, point) -> bool:
         """True if slow flow and impact map are both stable."""
-        fast = (C_min(rho(system.kappa)) < point.C) & (point.C < SYMMETRY_BREAKING_C)
-        return bool(fast.all() and (point.slow_eigenvalues.real < 0).all())
+        beyond = (point.C <= C_min(rho(system.kappa))) | (point.C >= SYMMETRY_BREAKING_C)
+        return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod
     def admissible(point) -> bool:
@@ -202,8 +232,12 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,)."""
-    return wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
+    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,).
+
+    It is 1/2 of a module that takes no part.
+    """
+    u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
+    return np.where(AsymmetricOrbits.moving(x), u, 0.5)
 
 
 def _tests(mu, at_minus_one, orbit):

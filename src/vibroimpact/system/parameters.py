@@ -111,6 +111,18 @@ class System:
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
         return (1, 2) if coupled and forced else tuple(forced)
 
+    def with_idle_damped(self) -> "System":
+        """The same system, with damping at the box of a module that takes no part, so that it has no resonance.
+
+        That box stays at rest whatever its damping.
+
+        Returns:
+            A new System for a single machine, else this one.
+        """
+        if len(self.modules) != 1:
+            return self
+        return self.with_(**{f"gamma{3 - self.modules[0]}_hat": 1.0})
+
     def with_(self, **changes: float) -> "System":
         """The same system with some parameters changed.
 

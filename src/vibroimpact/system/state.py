@@ -13,6 +13,8 @@ BOXES = np.array([0, 2, 4, 6])
 """Places of X1, X2, X1', X2' in the state."""
 BALLS = np.array([1, 3, 5, 7])
 """Places of Y1, Y2, Y1', Y2' in the state."""
+MODULES = np.array([1, 1, 2, 2, 1, 1, 2, 2])
+"""Modules to which the components of the state belong."""
 
 IMPACT, STICK, RELEASE = 0, 1, 2
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}

@@ -21,7 +21,7 @@ def forced_amplitude(system) -> np.ndarray:
         ValueError: the undamped boxes are at a resonance, so that they have such motions of any amplitude.
     """
     try:
-        return np.linalg.solve(dynamic_stiffness(system), system.forcing.astype(complex))
+        return np.linalg.solve(dynamic_stiffness(system.with_idle_damped()), system.forcing.astype(complex))
     except np.linalg.LinAlgError:
         raise ValueError(_resonance(system, "")) from None
 
@@ -113,7 +113,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
     """The impulse response of a system, kept for reuse: it is the same under all forces."""
-    return _kept(system.with_(f10_hat=0.0, f20_hat=0.0), sign)
+    return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 
 _kept = lru_cache(maxsize=16)(ImpulseResponse)
@@ -144,6 +144,7 @@ class HarmonicResponse:
     """
 
     def __init__(self, system, highest: int, free_mass: bool = False):
+        system = system.with_idle_damped()
         if highest < 1 or highest % 2 == 0:
             raise ValueError(
                 f"highest: {highest} is no odd number from 1 on; symmetric motions have odd harmonics only"
