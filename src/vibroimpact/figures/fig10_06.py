@@ -120,7 +120,7 @@ def verdict(table: pd.DataFrame, label: str) -> str:
     borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]
     if not any(map(len, places)):
         return ""
-    stable = all(C > border for place, border in zip(places, borders, strict=True) for C in place)
+    stable = all(border < C for place, border in zip(places, borders, strict=True) for C in place)
     return f"{'stable' if stable else 'unstable'} by (10.26)"
 
 

@@ -213,7 +213,7 @@ class FixedPoints(Unknowns):
     @staticmethod
     def stable(system, point) -> bool:
         """True if slow flow and impact map are both stable."""
-        beyond = (point.C <= C_min(rho(system.kappa))) | (point.C >= SYMMETRY_BREAKING_C)
+        beyond = (C_min(rho(system.kappa)) >= point.C) | (point.C >= SYMMETRY_BREAKING_C)
         return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod

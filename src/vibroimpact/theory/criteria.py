@@ -1,8 +1,9 @@
 """Stability criteria for a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
 Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
-threshold. Both modules must be stable; C of a module that takes no part is NaN and is left out. A verdict has one name everywhere: fast (Masri's analysis, derived anew), slow
-(the slow flow), theory (both together) and exact (the Floquet multipliers of the exact orbit).
+threshold. Both modules must be stable; C of a module that takes no part is NaN and is left out. A verdict has one name
+everywhere: fast (Masri's analysis, derived anew), slow (the slow flow), theory (both together) and exact (the Floquet
+multipliers of the exact orbit).
 """
 
 import warnings

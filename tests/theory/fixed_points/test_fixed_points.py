@@ -209,7 +209,9 @@ def test_blind_multistart_finds_nothing_else(name):
 
 
 def single_module(e, force, kappa):
-    """Real C of one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic in C."""
+    """Real C of one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic in C; NaN without a force."""
+    if force == 0:
+        return np.array([np.nan])
     rate = 8 / np.pi**2 - e * (1 + 2j * (1 - kappa) / (np.pi * (1 + kappa)))
     roots = np.roots([abs(rate) ** 2, 2 * (e * np.conj(rate)).real, abs(e) ** 2 - force**2])
     return np.sort(roots.real) if np.isreal(roots).all() else np.empty(0)
@@ -221,9 +223,10 @@ def test_uncoupled_modules_stand_alone(changes):
     e = -2 * system.sigma_e_hat + 1j * system.gamma1_hat, -2 * system.sigma_e_hat + 1j * system.gamma2_hat
     first = single_module(e[0], system.f10_hat, system.kappa)
     second = single_module(e[1] + system.sigma20_hat, system.f20_hat, system.kappa)
-    expected = sorted((a, b) for a in first for b in second)
-    found = sorted(np.round(point.C, 12).tolist() for point in everything(system))
-    assert np.array(found).reshape(-1, 2) == pytest.approx(np.array(expected).reshape(-1, 2), abs=1e-11)
+    expected = np.reshape([(a, b) for a in first for b in second], (-1, 2))
+    found = np.reshape([point.C for point in everything(system)], (-1, 2))
+    order = [np.lexsort(np.nan_to_num(points).T[::-1].round(9)) for points in (expected, found)]
+    np.testing.assert_allclose(found[order[1]], expected[order[0]], atol=1e-11)
 
 
 @pytest.mark.parametrize("loss", [1e-3, 1e-5, 3e-6, 1e-7, 1e-10])
@@ -245,19 +248,12 @@ def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     [
         RESONANT | {"sigma_e_hat": 0.0, "f20_hat": -1.0},  # boxes in phase, forces opposed
         RESONANT | {"sigma_e_hat": 1.0},  # boxes opposed, forces in phase
-        UNDAMPED | UNCOUPLED | {"sigma_e_hat": 0.0, "sigma20_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
         RESONANT | {"sigma_e_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
     ],
 )
 def test_a_free_motion_at_the_driving_frequency_is_refused(changes):
     with pytest.raises(ValueError, match=r"^sigma_e_hat: .* resonance"):
         vi.fixed_points(build(changes))
-
-
-def test_a_resonance_of_a_module_that_takes_no_part_is_none():
-    changes = UNCOUPLED | {"gamma1_hat": 0.0, "sigma_e_hat": 0.0, "f10_hat": 0.0}
-    damped, undamped = (vi.fixed_points(build(changes | {"gamma1_hat": gamma})) for gamma in (0.2, 0.0))
-    np.testing.assert_array_equal([point.C for point in undamped], [point.C for point in damped])
 
 
 def test_merging_points_are_reported_as_multiple():

@@ -9,8 +9,8 @@ all kicks gives per module two conditions of restitution and one of distance,
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
     I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i),
 
-six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. A module that takes
-no part has p_i = q_i = I_i = 0.
+six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. A module that
+takes no part has p_i = q_i = I_i = 0.
 
 The starts cover the flight fractions and the lag p_2 - p_1 evenly; for each of them the equations are linear in I and
 in the forcing phase, so the other unknowns start at their least-squares values. Nothing proves the list complete.

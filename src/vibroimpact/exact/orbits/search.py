@@ -42,8 +42,8 @@ class Orbit(Representation):
     symmetric: whether state(tau + T/2) = -state(tau).
     impact_phases: (2, 2), impact times as fractions of the period in [0, 1).
     ball_speeds: (2, 2), speed of the flight that starts at this wall; negative for a root that is no motion.
-    multipliers: (8,), of a single machine (4,), complex, by descending modulus. Where both modules impact in the same instant and gamma12 is not 0
-        they belong to perturbations that let module 1 impact first.
+    multipliers: (8,), of a single machine (4,), complex, by descending modulus. Where both modules impact in the same
+        instant and gamma12 is not 0 they belong to perturbations that let module 1 impact first.
     state: (8,) at tau = 0, just after the impact if there is one.
     passage: the motion followed once round, from `state` through all its impacts.
     excursion: the largest |W_i| at its extrema between impacts, at a wall 1; 0 if no flight has an extremum.

@@ -55,7 +55,8 @@ class EnclosedPassage:
     def monodromy(self) -> arb_mat:
         """Derivative (8, 8) of the state before the first impact of a period by that before the same one earlier.
 
-        Of a single machine it is that of the state (4,) of the module that takes part. Entries are not finite where an impact may be without relative velocity.
+        Of a single machine it is that of the state (4,) of the module that takes part. Entries are not finite where an
+        impact may be without relative velocity.
         """
         maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
         whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
