@@ -27,6 +27,7 @@ _STEEP = 0.2  # part of p in the tangent from which on p is kept: a new p costs 
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # step, before the curve is given up
 _RESOLVED = 1e-6  # arclength to which bisection goes: Newton's method then keeps 10 digits beside a branch point
+_CORNER = 1e-5  # step past a corner
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
@@ -109,12 +110,11 @@ class Curve:
         place, length = start, longest / 4
         yield place
         for _ in range(points):
-            ahead = self._ahead(place, length)
-            while not ahead:
+            while not (ahead := self._ahead(place, length)) and length > _SHORTEST:
                 length /= 2
-                if length < _SHORTEST:
-                    return
-                ahead = self._ahead(place, length)
+            ahead = ahead or ([] if self.singular(place.z) else self._round(place))
+            if not ahead:
+                return
             *crossing, after = ahead
             yield from crossing
             left = np.linalg.norm(place.z - start.z) > 2 * _RESOLVED
@@ -130,15 +130,12 @@ class Curve:
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
         """The point between a place and z = end, a later point of the curve, at which function(z) vanishes.
-
-        Raises:
-            ValueError: the function has the same sign at both.
         """
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
             return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
-        except Lost:  # beside a branch point
+        except (Lost, ValueError):  # beside a branch point, or across a corner
             after, sign = self.place(end, place.tangent), np.sign(function(place.z))
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
@@ -226,6 +223,21 @@ class Curve:
                 break
             if np.linalg.norm(place.z - z) < _RESOLVED:
                 return [place]
+        return []
+
+    def _round(self, place):
+        """A place beyond a corner just ahead, where F has a kink, as a list; [] if there is no corner.
+
+        There dF/dz jumps, as for orbits where impacts of both modules change places.
+        """
+        try:
+            across = self.place(place.z + _CORNER * place.tangent, place.tangent)
+            for way in (across, across.reversed()):
+                after = self.place(self.step(way._replace(z=place.z), _CORNER), way.tangent)
+                if abs(place.tangent @ after.tangent) < np.cos(_TURN):
+                    return [after]
+        except Lost:
+            pass
         return []
 
     def _bisected(self, place, after, before: Callable):
