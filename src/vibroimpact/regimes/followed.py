@@ -6,13 +6,14 @@ import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
-from vibroimpact.regimes.branches import same_root
+from vibroimpact.regimes.branches import images
 from vibroimpact.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
 """Orbits are sought at the values these parts of the way along the list."""
 NEAR = 0.1
 """Within this of the root at the last value is that at the next: the same branch, by steps as short as a slider's."""
+SAME = 1e-6
 
 
 def followed(systems: dict) -> Iterator[tuple[float, object]]:
@@ -49,8 +50,8 @@ def _stable(system):
 
 def _known(x, roots, system):
     """True if a root or its mirror image is among others."""
-    images = AsymmetricOrbits.images(system, x)
-    return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
+    near = (image - root for root in roots for image in images(AsymmetricOrbits, system, x, root))
+    return any(np.abs(gap).max() < SAME for gap in near)
 
 
 def _along(values, systems, x):

@@ -66,7 +66,7 @@ def branches(
     found = []
     for family in _families(of):
         report = _report(f"{family.name}: {' = '.join(names)} =", progress)
-        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report)
+        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report, found)
     _end(progress)
     return Found(found, one_parameter.COLUMNS)
 
