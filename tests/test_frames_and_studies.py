@@ -45,7 +45,7 @@ def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
         assert vi.prove(orbit).stability == proved.stability
     frame = vi.to_frame(found)
     np.testing.assert_array_equal(frame["phase2_minus"], [orbit.impact_phases[1, 1] for orbit in found])
-    with pytest.raises(ValueError, match=r"^orbit: .* is not a Orbit"):
+    with pytest.raises(ValueError, match=r"^orbit: .* is not an Orbit$"):
         vi.prove(SYSTEM)
 
 

@@ -5,6 +5,8 @@ import numbers
 
 import numpy as np
 
+MOST_SEED = 2**32 - 1
+"""Largest seed of random numbers that is taken."""
 _SHOWN = 60
 
 
@@ -15,9 +17,10 @@ def instance(name: str, value, kind: type):
         ValueError: it is not; where it would be after `dimensionless()`, the message says so.
     """
     if not isinstance(value, kind):
-        if hasattr(value, "dimensionless"):
-            raise ValueError(f"{name}: a {type(value).__name__} is not a {kind.__name__}; call .dimensionless()")
-        raise ValueError(f"{name}: {shown(value)} is not a {kind.__name__}")
+        if kind.__name__ == "System" and hasattr(value, "dimensionless"):
+            raise ValueError(f"{name}: a {type(value).__name__} is not a System; call .dimensionless()")
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise ValueError(f"{name}: {shown(value)} is not {article} {kind.__name__}")
     return value
 
 

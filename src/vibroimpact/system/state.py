@@ -70,3 +70,16 @@ def _labels(values):
     numbered = [*labels] == [*range(len(labels))]
     of_rows = numbered and labels is not index and not _COMPONENTS.keys().isdisjoint(map(str, index))
     return None if numbered and not of_rows else [*labels]  # states in columns are refused, too
+
+
+def takes_part(system) -> np.ndarray:
+    """Return True for each component of the state of a module that takes part (`System.modules`), shape (8,).
+
+    Where no module does, both decay freely: True for all.
+    """
+    return np.isin(MODULES, system.modules or (1, 2))
+
+
+def idle_at_rest(system, states) -> np.ndarray:
+    """Return states (..., 8) with a module that takes no part at rest, whatever is given for it."""
+    return np.where(takes_part(system), states, 0.0)
