@@ -48,19 +48,23 @@ module that is on a wall, or -1; the phase at the beginning, revolutions, and th
 may be its largest displacement (`find_turns`): boxes and forcing at a time near it, roughly the time from then to the
 turn, a bound on its displacement, 1 if there is one."""
 
-CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
-BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(42, 51), 58)
+REPEATED = 24
+CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(48, 66)
+BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(66, 75), 82)
 CONSTANTS = DROPS + 12 * (STATISTICS - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h; h;
-scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
+"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six, and the same of what its floats
+leave out, which would add up, being the same in every step; cos - 1 and sin of Omega h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
 lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """What a pass did in a lane: DOUBTFUL asks for the event loop."""
 
-ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
-TERMS = 7  # of them that are enough for the time of a turn in a step
 LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
+ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
+"""Order of the Taylor polynomials. What is left out of a velocity is below the bound on its next derivative times t^n / n!:
+with the energy E of the boxes and the drive F, rates of both below r and t <= LONGEST_STEP / r, r^n E + n r^(n - 1) F. Of a
+position it is less by 1 / (n + 1)."""
+TERMS = 7  # of them that are enough for the time of a turn in a step
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
 LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
 ROUNDED = 8.0 * 2.0**-52
@@ -80,8 +84,15 @@ def _most(a, b):
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
     """Return a row of six constants times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
-    boxes = fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
-    return boxes + fused(load(c, k + 5), cosine, load(c, k + 4) * s)
+    places, speeds, forces = _pair(c, k, x1, x2), _pair(c, k + 2, v1, v2), _pair(c, k + 4, s, cosine)
+    return (places + speeds) + forces
+
+
+@inlined
+def _pair(c, k, one, other):
+    """Return the products with two constants, in pairs."""
+    rest = fused(load(c, REPEATED + k + 1), other, load(c, REPEATED + k) * one)
+    return fused(load(c, k + 1), other, fused(load(c, k), one, rest))
 
 
 @inlined
