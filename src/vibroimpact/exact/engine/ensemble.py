@@ -311,7 +311,7 @@ def _memory():
         np.empty((2 * kernel.MOST_AT_ONCE, ROW)),
         np.zeros((WIDTH, ENTRIES)),
         np.zeros(STATISTICS),
-        np.zeros((6, 6)),
+        np.zeros((2, 6, 6)),
     )
 
 
@@ -456,8 +456,10 @@ def _fill_constants(piece, owner, flow, change, step, c):
     q, phase = flow.coefficients, piece.phases[owner]
     for row in range(4):
         for k in range(6):
-            c[6 * row + k] = change[row, k]
-    c[march.CA], c[march.SA], c[march.STEP] = change[4, 4], change[4, 5], step
+            c[6 * row + k] = change[0, row, k]
+        for k in range(4):
+            c[march.LOW_PARTS + 4 * row + k] = change[1, row, k]
+    c[march.CA], c[march.SA], c[march.STEP] = change[0, 4, 4], change[0, 4, 5], step
     c[march.K11], c[march.K12], c[march.K22], c[march.C11], c[march.C12], c[march.C22] = (
         q.k11, q.k12, q.k22, q.c11, q.c12, q.c22
     )  # fmt: skip
