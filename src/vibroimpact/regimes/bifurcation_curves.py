@@ -7,7 +7,7 @@ antisymmetric changes of the impact times; by the theory, the distance of C_i fr
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import partial
 
 import numpy as np
 
@@ -99,9 +99,10 @@ def bifurcation_curves(
                 continue
             z, of = np.array([*node.x, node.p, q]), (branch.family, node.kind)
             curve = _curve(plane, *of)
-            pairs = (pair for one, places in passed if one == of for pair in pairwise(places))
-            if plane.margin(z) >= 0 and all(curve.held(*pair, z) is None for pair in pairs):
-                points, places = _through(plane, branch.family, curve, z, longest, tell)
+            known = any(curve.passes(places, z) for one, places in passed if one == of)
+            if plane.margin(z) >= 0 and not known:
+                points, places = curve.both_ways(z, partial(_half, plane, branch.family, curve, longest, tell))
+                points = np.array(points)
                 passed.append((of, places))
                 systems = [plane(*point) for point in points[:, -2:]]
                 amplitudes = [branch.family.amplitudes(*one) for one in zip(systems, points[:, :-2], strict=True)]
@@ -159,17 +160,7 @@ def _curve(plane, family, kind):
     return Curve(extended, same)
 
 
-def _through(plane, family, curve, z, longest, tell):
-    """Points (n, d) and places of the curve through a point, followed both ways; of a closed one once round."""
-    start = curve.place(z, np.eye(len(z))[-1])
-    there, places = _half(plane, family, curve, start, longest, tell)
-    if not places[-1].closing:
-        back, behind = _half(plane, family, curve, start.reversed(), longest, tell)
-        there, places = back[:0:-1] + there, [place.reversed() for place in behind[:0:-1]] + places
-    return np.array(there), places
-
-
-def _half(plane, family, curve, start, longest, tell):
+def _half(plane, family, curve, longest, tell, start):
     """Points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
 
     def margin(z):

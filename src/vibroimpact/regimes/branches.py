@@ -4,6 +4,7 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -134,22 +135,23 @@ def branches(
         return [np.append(x, z[-1]) for x in images(family, path(z[-1]), z[:-1], near[:-1])]
 
     curve = Curve(equations(family, path), same)
-    low, high = interval
-    starts = deque(_seeds(family, path, curve, seeds, tell))
+    half = partial(_half, family, path, interval, curve, longest, tell)
+    starts = deque(_seeds(family, path, seeds, tell))
     for branch in symmetric if family is AsymmetricOrbits else ():
-        for node in branch.special:
-            if branch.family is SymmetricOrbits and node.kind == SYMMETRY_BREAKING:
-                arms = _arms(curve, np.append(asymmetric_root(path(node.p), node.x), node.p))
-                starts += [z for z in arms if not _symmetric(path(z[-1]), z[:-1])]
+        breaking = [node for node in branch.special if node.kind == SYMMETRY_BREAKING]
+        for node in breaking if branch.family is SymmetricOrbits else ():
+            arms = curve.arms(np.append(asymmetric_root(path(node.p), node.x), node.p))
+            starts += [z for z in arms if not _symmetric(family, path(z[-1]), z[:-1])]
     found = []
     while starts:
         z = starts.popleft()
-        pairs = (pair for branch in found for pair in pairwise(branch.places))
-        new = low <= z[-1] <= high and family.speed(z[:-1]) > 0
-        if new and all(curve.held(*pair, z) is None for pair in pairs):
-            found.append(_branch(family, path, interval, curve, z, longest, tell))
-            for node in found[-1].special:
-                starts += _arms(curve, np.append(node.x, node.p)) if node.kind == BRANCH_POINT else []
+        new = interval[0] <= z[-1] <= interval[1] and family.speed(z[:-1]) > 0
+        if new and not any(curve.passes(branch.places, z) for branch in found):
+            nodes, places = curve.both_ways(z, half)
+            if len(places) > 1:  # else a seed at a branch point
+                found.append(Branch(family, nodes, places[-1].closing, places))
+            crossings = [np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT]
+            starts += [arm for crossing in crossings for arm in curve.arms(crossing)]
     return found
 
 
@@ -173,40 +175,19 @@ def images(family, system, x, near) -> list[np.ndarray]:
     return found
 
 
-def _seeds(family, path, curve, seeds, tell):
-    """Roots z at the seeds; of several that coincide at a branch point, one on each branch beside it."""
+def _seeds(family, path, seeds, tell):
+    """Roots z = (x, p) at the seeds."""
     for p in seeds:
         tell(p)
         try:
-            roots = [np.append(root, p) for root in family.roots(path(p))]
-            regular = [z for z in roots if not curve.singular(z)]
+            roots = family.roots(path(p))
         except (ValueError, ArithmeticError) as error:
             warnings.warn(f"no {family.name} sought at {' = '.join(path.names)} = {p:.6g}: {error}", stacklevel=4)
             continue
-        yield from regular
-        yield from (z for root in roots if not any(root is one for one in regular) for z in _arms(curve, root))
+        yield from (np.append(root, p) for root in roots)
 
 
-def _arms(curve, z):
-    """Points on the branches that leave a branch point."""
-    try:
-        return curve.arms(z)
-    except Lost:  # it is one within the tolerance only
-        return []
-
-
-def _branch(family, path, interval, curve, z, longest, tell):
-    """The branch through a root, followed both ways; a closed one once round."""
-    start = curve.place(z, np.eye(len(z))[-1])
-    nodes, places = _half(family, path, interval, curve, start, longest, tell)
-    closed = places[-1].closing
-    if not closed:
-        back, behind = _half(family, path, interval, curve, start.reversed(), longest, tell)
-        nodes, places = back[:0:-1] + nodes, [place.reversed() for place in behind[:0:-1]] + places
-    return Branch(family, nodes, closed, places)
-
-
-def _half(family, path, interval, curve, start, longest, tell):
+def _half(family, path, interval, curve, longest, tell, start):
     """Nodes and places on one side of the start."""
     low, high = interval
     nodes, places, tests, crossing = [], [], {}, []
@@ -215,25 +196,26 @@ def _half(family, path, interval, curve, start, longest, tell):
         tell(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
-            crossing = [_node(family, path, z, kind=_crossing(family, system, z[:-1]))]
-            if crossing[0].kind == SYMMETRY_BREAKING:
-                return nodes + crossing, [*places, place]
+            crossing = [place] if family.speed(z[:-1]) > 0 else []
+            if _symmetric(family, system, z[:-1]):
+                return [*nodes, _node(family, path, z, kind=SYMMETRY_BREAKING)], [*places, place]
             continue
         before, tests_before = places[-1] if places else None, tests
         places.append(place)
         if family.speed(z[:-1]) <= 0:
-            end = curve.zero(lambda at: family.speed(at[:-1]), before, z)
-            return [*nodes, *crossing, _node(family, path, end, kind=SPEED_ZERO)], places
+            end = curve.place(curve.zero(lambda at: family.speed(at[:-1]), before, z), before.tangent)
+            nodes += _special(family, path, curve, before, {}, end, {}, crossing)
+            return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
-        tests = {FOLD: place.tangent[-1], **family.tests(system, member)}
+        tests = family.tests(system, member)
         if before is not None:
-            nodes += _special(family, path, curve, (before, tests_before), (place, tests), crossing)
+            nodes += _special(family, path, curve, before, tests_before, place, tests, crossing)
         nodes.append(_node(family, path, z, member=member))
         crossing = []
     z = places[-1].z
     if low + _EQUAL < z[-1] < high - _EQUAL and not places[-1].closing:
-        kind = _crossing(family, path(z[-1]), z[:-1]) if curve.singular(z) else LOST
-        nodes.append(_node(family, path, z, kind=kind))
+        end = SYMMETRY_BREAKING if _symmetric(family, path(z[-1]), z[:-1]) else BRANCH_POINT
+        nodes.append(_node(family, path, z, kind=end if curve.singular(z) else LOST))
     return nodes, places
 
 
@@ -250,32 +232,26 @@ def _node(family, path, z, kind="", member=None):
     )
 
 
-def _crossing(family, system, x):
-    """Kind of a branch point: asymmetric orbits meet their mirror images on a symmetric one."""
-    return SYMMETRY_BREAKING if family is AsymmetricOrbits and _symmetric(system, x) else BRANCH_POINT
+def _symmetric(family, system, x):
+    """True for a root of the asymmetric equations with equal flights, where their branches meet mirror images."""
+    return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
-def _symmetric(system, x):
-    return bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
+def _special(family, path, curve, before, tests, after, values, crossing):
+    """Special points between two neighbouring places of the curve, in their order, a branch point among them."""
 
-
-def _special(family, path, curve, before, after, crossing):
-    """Special points between two neighbouring points of the curve, in their order, a branch point among them."""
-    place, tests = before
-    end, values = after
-
-    def test(at, kind):
+    def test(z, kind):
         if kind == FOLD:
-            return curve.place(at, place.tangent).tangent[-1]
-        system = path(at[-1])
-        return family.tests(system, family.member(system, at[:-1]))[kind]
+            return curve.place(z, before.tangent).tangent[-1]
+        system = path(z[-1])
+        return family.tests(system, family.member(system, z[:-1]))[kind]
 
-    found = [np.append(node.x, node.p) for node in crossing]
-    found = [(place.tangent @ z, node) for z, node in zip(found, crossing, strict=True)]
-    for kind in tests:
+    tests, values = ({FOLD: at.tangent[-1], **rest} for at, rest in ((before, tests), (after, values)))
+    found = [(before.tangent @ place.z, _node(family, path, place.z, kind=BRANCH_POINT)) for place in crossing]
+    for kind in values:
         if tests[kind] * values[kind] < 0:
-            zero = curve.zero(lambda at, kind=kind: test(at, kind), place, end.z)
-            apart = all(np.abs(zero - np.append(node.x, node.p)).max() > _APART for node in crossing)
+            zero = curve.zero(lambda z, kind=kind: test(z, kind), before, after.z)
+            apart = all(np.abs(zero - place.z).max() > _APART for place in crossing)
             if apart and family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
-                found.append((place.tangent @ zero, _node(family, path, zero, kind=kind)))
+                found.append((before.tangent @ zero, _node(family, path, zero, kind=kind)))
     return [node for _, node in sorted(found, key=lambda pair: pair[0])]

@@ -46,10 +46,6 @@ class Place(NamedTuple):
     determinant: float
     closing: bool = False
 
-    def before(self, z: np.ndarray) -> bool:
-        """True if z is ahead of it."""
-        return self.tangent @ (z - self.z) > 0
-
     def reversed(self) -> "Place":
         """The same point, passed the other way."""
         return Place(self.z, -self.tangent, -self.determinant)
@@ -76,7 +72,7 @@ class Curve:
     def singular(self, z: np.ndarray) -> bool:
         """True if dF/dz has not full rank at a point, so that there is no one tangent."""
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
-        return bool(sizes[-1] <= _RESOLVED * sizes[0])
+        return bool(sizes[-1] <= _RESOLVED * (1 + sizes[0]))
 
     def step(self, place: Place, length: float) -> np.ndarray:
         """The point z of the curve next to a step of this length along the tangent.
@@ -129,8 +125,7 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """The point between a place and z = end, a later point of the curve, at which function(z) vanishes.
-        """
+        """The point between a place and z = end, a later point of the curve, at which function(z) vanishes."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
@@ -138,6 +133,22 @@ class Curve:
         except (Lost, ValueError):  # beside a branch point, or across a corner
             after, sign = self.place(end, place.tangent), np.sign(function(place.z))
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
+
+    def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
+        """Points and places of the curve through a root z, in their order; of a closed curve once round.
+
+        half(start) returns those on one side of a place.
+        """
+        start = self.place(z, np.eye(len(z))[-1])
+        points, places = half(start)
+        if places[-1].closing:
+            return points, places
+        back, behind = half(start.reversed())
+        return back[:0:-1] + points, [place.reversed() for place in behind[:0:-1]] + places
+
+    def passes(self, places: list[Place], z: np.ndarray) -> bool:
+        """True if a root z lies on the curve through some places."""
+        return any(self.held(*pair, z) is not None for pair in pairwise(places))
 
     def held(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
         """The image of a root z that lies on the curve between two neighbouring places, if one does."""
@@ -148,17 +159,15 @@ class Curve:
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
                 # Beside a branch point a long step may end on the other branch.
-                found = self._foot(place, image) or self._bisected(place, after, lambda at, z=image: at.before(z))
+                found = self._foot(place, image) or self._bisected(
+                    place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
+                )
                 if found and np.linalg.norm(found[0].z - image) < 2 * _RESOLVED:
                     return image
         return None
 
     def arms(self, z: np.ndarray) -> list[np.ndarray]:
-        """Points near a branch point z, one on each of the branches that leave it.
-
-        Raises:
-            Lost: the branches do not cross at this point.
-        """
+        """Points near a branch point z, one on each of the branches that leave it."""
         left, _, right = np.linalg.svd(self._by_z(z))
         unbalanced, plane = left[:, -1:], right[-2:]
 
@@ -173,9 +182,12 @@ class Curve:
                 y, part = y - change[:-1], part - change[-1]
             return y, part
 
-        signs = [np.sign(at(angle)[1]) for angle in _ANGLES]
-        turns = [(a, b) for (a, b), (one, two) in zip(pairwise(_ANGLES), pairwise(signs), strict=True) if one != two]
-        return [at(brentq(lambda angle: at(angle)[1], a, b, xtol=1e-9))[0] for a, b in turns]
+        try:
+            signs = [np.sign(at(angle)[1]) for angle in _ANGLES]
+            turns = [_ANGLES[k : k + 2] for k in np.flatnonzero(np.diff(signs))]
+            return [at(brentq(lambda angle: at(angle)[1], *ends, xtol=1e-9))[0] for ends in turns]
+        except Lost:  # F ends here
+            return []
 
     def _by_p(self, z):
         """dF/dp, shape (d,), at z; one-sided where F ends."""
