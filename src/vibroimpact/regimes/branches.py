@@ -198,7 +198,7 @@ def _half(family, path, interval, curve, longest, tell, start):
         tell(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
-            crossing = [place]
+            crossing = [place] if family.speed(z[:-1]) > 0 else []
             if _symmetric(family, system, z[:-1]):
                 return [*nodes, _node(family, path, z, kind=SYMMETRY_BREAKING)], [*places, place]
             continue
@@ -206,12 +206,10 @@ def _half(family, path, interval, curve, longest, tell, start):
         places.append(place)
         if family.speed(z[:-1]) <= 0:
             end = curve.place(curve.zero(lambda at: family.speed(at[:-1]), before, z), before.tangent)
-            nodes += _special(
-                family, path, curve, before, {FOLD: before.tangent[-1]}, end, {FOLD: end.tangent[-1]}, crossing
-            )
+            nodes += _special(family, path, curve, before, {}, end, {}, crossing)
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
-        tests = {FOLD: place.tangent[-1], **family.tests(system, member)}
+        tests = family.tests(system, member)
         if before is not None:
             nodes += _special(family, path, curve, before, tests_before, place, tests, crossing)
         nodes.append(_node(family, path, z, member=member))
@@ -250,6 +248,7 @@ def _special(family, path, curve, before, tests, after, values, crossing):
         system = path(z[-1])
         return family.tests(system, family.member(system, z[:-1]))[kind]
 
+    tests, values = ({FOLD: at.tangent[-1], **rest} for at, rest in ((before, tests), (after, values)))
     found = [(before.tangent @ place.z, _node(family, path, place.z, kind=BRANCH_POINT)) for place in crossing]
     for kind in values:
         if tests[kind] * values[kind] < 0:
