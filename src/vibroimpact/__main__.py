@@ -2,7 +2,7 @@
 
 import sys
 
-from vibroimpact.system.interrupt import without_traceback
+from vibroimpact.interrupt import without_traceback
 
 
 def main() -> int:

@@ -5,7 +5,7 @@ Numba keeps the code beside the library, else in the user's cache, else in a tem
 
 import sys
 
-from vibroimpact.system.interrupt import without_traceback
+from vibroimpact.interrupt import without_traceback
 
 
 def main() -> None:

@@ -2,6 +2,7 @@
 
 import math
 import numbers
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -260,7 +261,7 @@ class Run(Representation):
 
 def simulate(
     system: System,
-    state: ArrayLike,
+    state: ArrayLike | Mapping[str, float],
     cycles: int,
     tau0: float | Fraction | Instant = 0.0,
     sample_times: ArrayLike | None = None,
@@ -284,7 +285,8 @@ def simulate(
         compilation of the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
 
     Raises:
-        ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
+        ValueError: an argument is malformed, the start has a ball beyond a wall (|X_i - Y_i| > 1), or names of other
+            components.
         ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
             were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
