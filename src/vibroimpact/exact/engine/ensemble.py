@@ -520,7 +520,7 @@ def _by_events(piece, flow, squares, n, lane, m):
     runs[march.SINE, lane], runs[march.COSINE, lane] = motion.sine, motion.cosine
     runs[march.DUE, lane], runs[march.STALLED, lane] = progress.due, progress.stalled
     runs[march.TRIAL, lane] = runs[march.REACH, lane] = runs[march.PASSED, lane] = 0.0
-    runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = 0.0
+    runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = runs[march.Y1_LOW, lane] = runs[march.Y2_LOW, lane] = 0.0
     return ended
 
 

@@ -35,13 +35,13 @@ from vibroimpact.exact.engine.phase import (
 )
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
-PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
-PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(18, 28)
+Y1_LOW, Y2_LOW, PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 20)
+PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(20, 30)
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
-"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; the
-time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
+"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; what
+the floats of the balls' positions leave out; the time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
 the event loop); a bound on the boxes' energy, that for Bernstein's coefficients; the walls that the balls leave; the
 module that is on a wall, or -1; the phase at the beginning, revolutions, and those at which the run stops; 1 for a run,
 1 if it is observed; its events, its flights without progress; what a pass did; its statistics; for each box a turn that
@@ -199,7 +199,8 @@ def meet(runs, c, work, integrals):
     b1, d1 = _at(work, 0, t)
     b2, d2 = _at(work, n, t)
     time = passed + t
-    z1, z2 = fused(time, u1, load(runs, Y1)), fused(time, u2, load(runs, Y2))
+    z1, low1 = _drifted(load(runs, Y1), load(runs, Y1_LOW), u1, time)
+    z2, low2 = _drifted(load(runs, Y2), load(runs, Y2_LOW), u2, time)
     size, square, third = fused(time, drive, load(runs, SIZE)), t * t, t * (1 / 3)
     rounding = _rounding(c, size, u1, u2)
     limit = 1.0 - fused(fused(load(c, BEND), size, load(c, BEND_FORCE)), square * square, rounding)
@@ -259,6 +260,8 @@ def meet(runs, c, work, integrals):
     _replace(runs, there, V2, e2)
     _replace(runs, there, Y1, z1)
     _replace(runs, there, Y2, z2)
+    _replace(runs, there, Y1_LOW, where(impact & one, 0.0, low1))
+    _replace(runs, there, Y2_LOW, where(impact & ~one, 0.0, low2))
     _replace(runs, there, U1, o1)
     _replace(runs, there, U2, o2)
     _replace(runs, there, SINE, s)
@@ -286,6 +289,15 @@ def meet(runs, c, work, integrals):
 @inlined
 def _replace(runs, mask, row, value):
     store(runs, row, where(mask, value, load(runs, row)))
+
+
+@inlined
+def _drifted(y, low, u, time):
+    """Return the position of a ball, a pair, after a time. Flights of one length would round its drift alike each time."""
+    way = fused(time, u, low)
+    there = y + way
+    part = there - y
+    return there, (y - (there - part)) + (way - part)
 
 
 @inlined
