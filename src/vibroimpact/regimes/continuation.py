@@ -22,11 +22,12 @@ from scipy.optimize import brentq
 _DIFFERENCE = 1e-6  # step in p; these differences then tell dF/dp to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
-_SETTLED, _STALLED = 1e-13, 1e-8  # the second for steps that shrink no more: rounding, near a singular Jacobian
+_SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, near a singular Jacobian
 _STEEP = 0.2  # part of p in the tangent from which on p is kept: a new p costs more than a new x
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # step, before the curve is given up
 _RESOLVED = 1e-6  # arclength to which bisection goes: Newton's method then keeps 10 digits beside a branch point
+_SINGULAR = 1e-5  # relative size of a singular value that rounding may leave of 0
 _CORNER = 1e-5  # step past a corner
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
@@ -70,9 +71,9 @@ class Curve:
         return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
     def singular(self, z: np.ndarray) -> bool:
-        """True if dF/dz has not full rank at a point, so that there is no one tangent."""
+        """True if dF/dz has not full rank at a point, to rounding, so that there is no one tangent."""
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
-        return bool(sizes[-1] <= _RESOLVED * (1 + sizes[0]))
+        return bool(sizes[-1] <= _SINGULAR * (1 + sizes[0]))
 
     def step(self, place: Place, length: float) -> np.ndarray:
         """The point z of the curve next to a step of this length along the tangent.
@@ -244,13 +245,10 @@ class Curve:
         """
         try:
             across = self.place(place.z + _CORNER * place.tangent, place.tangent)
-            for way in (across, across.reversed()):
-                after = self.place(self.step(way._replace(z=place.z), _CORNER), way.tangent)
-                if abs(place.tangent @ after.tangent) < np.cos(_TURN):
-                    return [after]
         except Lost:
-            pass
-        return []
+            return []
+        after = (self._next(way._replace(z=place.z), _CORNER) for way in (across, across.reversed()))
+        return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
         """Two places between two others, so near to each other that they are one; None if the curve does not join them.
@@ -263,7 +261,7 @@ class Curve:
             steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))  # one may meet a branch point
             middle = next(filter(None, steps), None)
             if middle is None:
-                return None
+                return (place, after) if self.singular(place.z) else None
             place, after = (middle, after) if before(middle) else (place, middle)
         return place, after
 
