@@ -370,6 +370,9 @@ def test_an_undamped_resonance_of_the_module_at_rest_is_no_obstacle():
         assert completeness_proof.certify(resonant).complete
         assert certify.certify(resonant).complete
         assert vi.prove(vi.orbits(resonant)[0]).stability == "unstable"
+    resonant = SECOND.with_(gamma1_hat=0)  # Omega = 1 is the natural frequency of box 1
+    same_numbers(vi.fixed_points(resonant), vi.fixed_points(SECOND), 2, ["C", "psi"])
+    same_numbers(vi.orbits(resonant), vi.orbits(SECOND), 2, ["C", "impact_phases", "ball_speeds"])
 
 
 def test_a_table_has_empty_fields_for_the_module_at_rest():
