@@ -25,6 +25,7 @@ from vibroimpact.regimes.families import (
     FixedPoints,
     SymmetricOrbits,
 )
+from vibroimpact.regimes.followed import followed
 from vibroimpact.system.matrices import rate_matrix
 
 INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
@@ -272,6 +273,16 @@ def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
         assert matched([C for one in found for C in crossings(one, p)], roots)
 
 
+def test_a_slider_skips_a_resonance(chapter):
+    """At Omega = 1/2 the second harmonic of the impacts is at the resonance of the undamped boxes, 1."""
+    undamped = dict(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
+    systems = {value: chapter(sigma_e_hat=value, **undamped) for value in (-5.1, -5.0, -4.9)}
+    with pytest.raises(ValueError, match="resonance"):
+        vi.orbits(systems[-5.0])
+    with pytest.warns(UserWarning, match=r"^no asymmetric orbit sought: [^\n]*resonance[^\n]*$"):
+        assert {value for value, _ in followed(systems)} <= {-5.1, -4.9}
+
+
 def test_a_parameter_may_begin_at_the_end_of_its_domain(chapter):
     """Damping is not negative, so that differences at 0 are one-sided."""
     found = vi.branches(chapter(), "gamma12_hat", (0.0, 0.3), of="theory", seeds=2)
@@ -291,21 +302,22 @@ def random_path(seed):
         unlike = random.choice([0.0, -1.0, 1.0]) * 10 ** random.uniform(-9, -2)
         values |= dict(gamma2_hat=values["gamma1_hat"], f20_hat=values["f10_hat"], sigma20_hat=unlike)
     along = (("sigma_e_hat",), ("kappa",), ("alpha12_hat",), ("f10_hat", "f20_hat"))[random.integers(4)]
-    interval = low[along[0]], high[along[0]]
+    ends = np.linspace(low[along[0]], high[along[0]], 3)
+    interval = ends[:2] if random.integers(2) else ends[1:]
     return Path(vi.System(**values), along), interval, random.uniform(*interval, 3)
 
 
 def check_random_path(seed, of, families):
     """At any value, the branches are what the searches find; one they do not cross passes no seed on its way."""
     path, interval, values = random_path(seed)
-    found = vi.branches(path.system, path.names, interval, of=of)
+    found = vi.branches(path.system, path.names, interval, of=of, seeds=3)
     assert LOST not in {node.kind for branch in found for node in branch.special}
     for family in families:
         for p in values:
             known = [C for one in found if one.family is family for C in crossings(one, p)]
             roots = roots_at(family, path(p))
             if len(known) < len(roots):
-                at_seeds = np.linspace(*interval, 5)
+                at_seeds = np.linspace(*interval, 3)
                 own = branches(family, path, interval, [p], (interval[1] - interval[0]) / 10)
                 alone = [one for one in own if not any(crossings(one, seed) for seed in at_seeds)]
                 known += [C for one in alone for C in crossings(one, p)]

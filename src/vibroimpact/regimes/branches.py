@@ -24,7 +24,6 @@ from vibroimpact.regimes.families import (
 from vibroimpact.system.representation import Representation, brief
 
 _EQUAL = 1e-6  # flights of unequal length differ by more; this near to an end of the interval a branch ends there
-_APART = 1e-4  # another special point this near to a branch point is that point, by rounding
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
@@ -192,28 +191,29 @@ def _seeds(family, path, seeds, tell):
 def _half(family, path, interval, curve, longest, tell, start):
     """Nodes and places on one side of the start."""
     low, high = interval
-    nodes, places, tests, crossing = [], [], {}, []
+    nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
         tell(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
-            crossing = [place] if family.speed(z[:-1]) > 0 else []
-            if _symmetric(family, system, z[:-1]):
-                return [*nodes, _node(family, path, z, kind=SYMMETRY_BREAKING)], [*places, place]
+            kind = SYMMETRY_BREAKING if _symmetric(family, system, z[:-1]) else BRANCH_POINT
+            nodes.append(_node(family, path, z, kind=kind))
+            if kind == SYMMETRY_BREAKING:
+                return nodes, [*places, place]
             continue
         before, tests_before = places[-1] if places else None, tests
         places.append(place)
         if family.speed(z[:-1]) <= 0:
             end = curve.place(curve.zero(lambda at: family.speed(at[:-1]), before, z), before.tangent)
-            nodes += _special(family, path, curve, before, {}, end, {}, crossing)
+            nodes += _special(family, path, curve, before, {}, end, {})
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None:
-            nodes += _special(family, path, curve, before, tests_before, place, tests, crossing)
+        if before is not None and not kind:  # on both sides of a branch point all that changes is there
+            nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
-        crossing = []
+        kind = ""
     z = places[-1].z
     if low + _EQUAL < z[-1] < high - _EQUAL and not places[-1].closing:
         end = SYMMETRY_BREAKING if _symmetric(family, path(z[-1]), z[:-1]) else BRANCH_POINT
@@ -239,8 +239,8 @@ def _symmetric(family, system, x):
     return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
-def _special(family, path, curve, before, tests, after, values, crossing):
-    """Special points between two neighbouring places of the curve, in their order, a branch point among them."""
+def _special(family, path, curve, before, tests, after, values):
+    """Special points between two neighbouring places of the curve, in their order."""
 
     def test(z, kind):
         if kind == FOLD:
@@ -248,12 +248,11 @@ def _special(family, path, curve, before, tests, after, values, crossing):
         system = path(z[-1])
         return family.tests(system, family.member(system, z[:-1]))[kind]
 
+    found = []
     tests, values = ({FOLD: at.tangent[-1], **rest} for at, rest in ((before, tests), (after, values)))
-    found = [(before.tangent @ place.z, _node(family, path, place.z, kind=BRANCH_POINT)) for place in crossing]
     for kind in values:
         if tests[kind] * values[kind] < 0:
             zero = curve.zero(lambda z, kind=kind: test(z, kind), before, after.z)
-            apart = all(np.abs(zero - place.z).max() > _APART for place in crossing)
-            if apart and family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
+            if family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
                 found.append((before.tangent @ zero, _node(family, path, zero, kind=kind)))
     return [node for _, node in sorted(found, key=lambda pair: pair[0])]

@@ -206,9 +206,10 @@ class Curve:
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """The place a step ahead, after the branch point before it, if any; [] if the curve turns too much or is lost.
+        """The place a step ahead, last; [] if the curve turns too much or is lost.
 
-        A change of sign without a branch point is a step to another curve.
+        Before it a branch point, if there is one, between two places beside it. A change of sign without a branch point
+        is a step to another curve.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -218,7 +219,12 @@ class Curve:
             return []
         a, b = pair
         part = a.determinant / (a.determinant - b.determinant)
-        return [Place(a.z + part * (b.z - a.z), a.tangent, 0.0), after]
+        crossing = Place(a.z + part * (b.z - a.z), a.tangent, 0.0)
+        behind, beyond = self._next(a.reversed(), _CIRCLE), self._next(b, _CIRCLE)
+        found = [behind and behind.reversed(), crossing, beyond, after]
+        return [
+            at for at in found if at and 0 < place.tangent @ (at.z - place.z) <= place.tangent @ (after.z - place.z)
+        ]
 
     def _next(self, place, length):
         """The place a step ahead; None if it is not found or the curve turns too much."""
