@@ -175,9 +175,9 @@ def _start(rng, base, distance):
     return state, float(event["tau"])
 
 
-def _graze(rng, base, distance):
-    """A ball turns next to a wall: it moves with its box at some time, at this distance from the wall."""
-    begin = rng.uniform(0, (base.cycles - 1) * base.system.period)
+def _graze(rng, base, distance, begin=None):
+    """A ball turns next to a wall: it moves with its box at some time of a run, at this distance from the wall."""
+    begin = rng.uniform(0, (base.cycles - 1) * base.system.period) if begin is None else begin
     turn = begin + rng.uniform(0.05, 0.5) * base.system.period
     start, later, after = vi.simulate(
         base.system, base.start, base.cycles, sample_times=[begin, turn, turn + 1e-4]
@@ -264,7 +264,7 @@ def bred(genes):
 
 
 def in_lanes(system, gene):
-    """The system with Omega from a quarter of the boxes' largest rate to four times that: an ensemble runs it in lanes."""
+    """The system with Omega within a factor of four of the largest rate of the boxes: an ensemble runs it in lanes."""
     (numbers,), _ = numbers_of([system], 2)
     return system.with_(sigma_e_hat=(numbers[RATE] * 3.9 ** (2 * gene - 1) - 1) / system.epsilon)
 
@@ -356,6 +356,18 @@ def _hostile(rng, count):
     return systems, states, 1, float(rng.choice([0.0, 0.7]))
 
 
+def _grazing(rng, count):
+    """Within some 1e-13 of a wall, on either side."""
+    systems, states = [], []
+    while len(states) < count:
+        system = random_system(rng)
+        base, distance = vi.simulate(system, random_start(rng), 1), rng.choice([-1, 1]) * 10 ** rng.uniform(-15, -12)
+        if found := _graze(rng, base, distance, begin=0.0):
+            systems.append(system)
+            states.append(found[0])
+    return systems, states, 1, 0.0
+
+
 ensembles = {
     **{name: _of_case(name) for name in FORCES},
     "settled": _near_a_settled_motion,
@@ -363,6 +375,7 @@ ensembles = {
     "stiff": _stiff,
     "fast": _fast,
     "hostile": _hostile,
+    "grazing": _grazing,
 }
 """Systems, starts, cycles and tau0 of many runs, as functions of a generator and their number, by the kind of scene."""
 

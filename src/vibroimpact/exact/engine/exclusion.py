@@ -153,8 +153,8 @@ def spread(c, remainder, t):
 RESOLUTION = 4.0 * np.finfo(float).eps
 MET = 2.0  # margins: a constraint that falls below them is met, as proofs would go on in ever smaller steps
 DOUBTED = 2.0 * MET
-"""Margins below which a turn, or the depth of an impact, is decided by rounding: by other steps (in a lane, or continued
-from a sample) the same motion may come as near as MET, or miss what is met here."""
+"""Margins below which rounding decides a turn, or an impact of so little depth: by other steps, as in a lane of an
+ensemble, the same motion may come as near as MET, or miss what is met here."""
 LOOKAHEAD = 2.5
 NOTHING = 1e-300  # a margin of a force that stays zero
 SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding

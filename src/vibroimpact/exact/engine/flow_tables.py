@@ -91,7 +91,7 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Fill in series[mode] and the rotations of `tables`, and the change of the state in so many steps, in pairs (2, 6, 6)."""
+    """Fill in series[mode] and the rotations of `tables`, and the change of the state in `step` steps, (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))

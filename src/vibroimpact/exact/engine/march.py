@@ -40,20 +40,21 @@ PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_A
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
-"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; what
-the floats of the balls' positions leave out; the time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
-the event loop); a bound on the boxes' energy, that for Bernstein's coefficients; the walls that the balls leave; the
-module that is on a wall, or -1; the phase at the beginning, revolutions, and those at which the run stops; 1 for a run,
-1 if it is observed; its events, its flights without progress; what a pass did; its statistics; for each box a turn that
-may be its largest displacement (`find_turns`): boxes and forcing at a time near it, roughly the time from then to the
-turn, a bound on its displacement, 1 if there is one."""
+"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase;
+what the floats of the positions of the balls leave out; the time passed since that beginning, and that to the end; the
+length of the next step (0: begin a flight, -1: leave it to the event loop); a bound on the boxes' energy, that for
+Bernstein's coefficients; the walls that the balls leave; the module that is on a wall, or -1; the phase at the
+beginning, revolutions, and those at which the run stops; 1 for a run, 1 if it is observed; its events, its flights
+without progress; what a pass did; its statistics; for each box a turn that may be its largest displacement
+(`find_turns`): boxes and forcing at a time near it, roughly the time from then to the turn, a bound on its
+displacement, 1 if there is one."""
 
 LOW_PARTS = 24
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(40, 58)
 BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(58, 67), 74)
 CONSTANTS = DROPS + 12 * (STATISTICS - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; what its floats leave out in the
-columns of the boxes, four rows of four, or their free motion would go wrong by as much in every step; cos - 1 and sin of
+"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; four rows of four, what the
+floats in the columns of the boxes leave out, an error that would add up as each step repeats it; cos - 1 and sin of
 Omega h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
 impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
 
@@ -62,9 +63,12 @@ NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 
 LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
 ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
-"""Order n of the Taylor polynomials. With a bound r on the rates of boxes and forcing, E on the root of twice the energy
-and F on the force, the next derivative of a velocity is at most r^n E + n r^(n - 1) F. So in a step t <= LONGEST_STEP / r a
-velocity misses less than a rounding of E / n + F / r, and a position t / (n + 1) times as much."""
+"""Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
+
+The derivative of order n of a velocity is at most r^n E + n r^(n - 1) F, with E the root of twice the energy of the
+boxes and F the force. So the polynomial of a velocity leaves out less than a rounding of E / n + F / r, and that of a
+position t / (n + 1) times as much.
+"""
 TERMS = 7  # of them that are enough for the time of a turn in a step
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
 LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
@@ -293,7 +297,7 @@ def _replace(runs, mask, row, value):
 
 @inlined
 def _drifted(y, low, u, time):
-    """Return the position of a ball, a pair, after a time. Flights of one length would round its drift alike each time."""
+    """Return the position of a ball after a time as a pair of floats: flights of equal length round a drift alike."""
     way = fused(time, u, low)
     there = y + way
     part = there - y

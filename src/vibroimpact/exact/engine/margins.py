@@ -165,7 +165,6 @@ def _note(flow, motion, i, times, rates, least_of):
         force = walls[i] * 2.0 * (jet(q, mode, x, s, c)[0 if i == 0 else 1])[2]
         if walls[i] * early < 0.0:
             least_of[FORCE] = min(least_of[FORCE], force)
-            least_of[DOUBTS] += force <= DOUBTED * acceleration_rounding(q, x, i)
         return
     y = drift_balls(balls, walls, x, t)
     relative = x[i] - y[i]
