@@ -320,6 +320,21 @@ def test_branches_of_fixed_points_pass_special_points_in_closed_form(machine):
         assert inner.stable == (point.stability.theory == "stable")
 
 
+def test_an_undamped_branch_ends_where_the_ball_has_no_speed_in_phase_with_the_force():
+    undamped = MACHINE.with_(gamma1_hat=0, gamma2_hat=0, sigma_e_hat=-0.5)
+    (branch,) = vi.branches(undamped, "f10_hat", (0.3, 2.0), of="theory", seeds=3)
+    (end,) = (node for node in branch.special if node.kind == "speed zero")
+    assert end.p == pytest.approx(loaded(undamped, 0.0), abs=1e-9)
+    assert abs(end.amplitudes[0]) < 1e-9
+
+
+def test_a_path_on_which_the_other_module_takes_part_says_so():
+    with pytest.warns(UserWarning, match=r"fixed point at f20_hat = 0 not followed: both modules take part"):
+        found = vi.branches(MACHINE, "f20_hat", (0.0, 1.2), of="theory", seeds=2)
+    assert all(np.isfinite(node.amplitudes).all() for branch in found for node in branch.nodes)
+    assert found
+
+
 def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_does():
     path, interval = Path(SECOND, ("f20_hat",)), (1.07, 1.12)
     found = [

@@ -42,12 +42,16 @@ def fingerprint_now(part: str) -> str:
 
 
 def files(part: str) -> list[Path]:
-    """Return all files of a part, sorted, without hidden ones and bytecode."""
+    """Return all files of a part, sorted, without bytecode, hidden files and hidden folders (copies of editors)."""
     top, left_out = folder(part), {"library": folder("figures"), "pipeline": SHIPPED}.get(part)
-    found = [top] if top.is_file() else top.rglob("*")
-    found = (path for path in found if path.is_file() and not path.name.startswith("."))
-    found = (path for path in found if "__pycache__" not in path.parts)
+    found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
+    found = (path for path in found if path.is_file())
     return sorted(path for path in found if left_out is None or not path.is_relative_to(left_out))
+
+
+def is_source(path: Path) -> bool:
+    """Return True for a path below a folder of sources that is neither hidden nor bytecode."""
+    return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
 def folder(part: str) -> Path:

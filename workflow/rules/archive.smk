@@ -2,10 +2,13 @@
 
 import tomllib
 
-from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.git import GitRefused, git
 
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
+try:
+    COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
+except GitRefused:
+    COMMIT = None
 
 
 rule archive:

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import listfiles, update_config, validate
+from snakemake.utils import listfiles, validate
 
 # Snakemake evaluates a module in a namespace of its own, under its name; since 9.27 the workflow itself under none.
 IS_MODULE = __name__ not in ("snakemake.workflow", None)
@@ -43,7 +43,7 @@ from vibroimpact_pipeline.specs import at, case_parameters, spec_of, specs
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, fingerprint
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.result_records import PARTIAL, distrust
+from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/*.*")):
     name = f"{path.parent.name}/{path.name}"
@@ -73,17 +73,16 @@ def checked_config(given):
         validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
         return given
     last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
-    whole = read(CONFIG_FILE) if IS_MODULE else {}
-    update_config(whole, given)
+    sources = [*SOURCES, last]
     try:
-        return checked(whole, [*SOURCES, last])
+        return checked(merged(sources), sources)
     except ConfigError as error:
         refuse(error)
 
 
 WITH_MODEL = all(map(importlib.util.find_spec, ("pydantic", "numpy")))
 if WITH_MODEL:
-    from vibroimpact_pipeline.config import ConfigError, checked, read
+    from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 
     try:
         SOURCES = [(file, read(file)) for file in config_files()]  # before Snakemake does, whose complaints are longer
@@ -244,10 +243,28 @@ onstart:
         refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
 
 
+def made_with_now(name, wildcards):
+    """Params and inputs of a rule; those of the inputs that are results."""
+    if not hasattr(rules, name):
+        raise LookupError(name)
+    made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
+    params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
+    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
+
+
 def results_of_a_commit(wildcards):
-    """Return the results of the default build; refuse a changed checkout before anything is built."""
+    """Results of the default build; refused, before anything is built, where they would not be those of the commit."""
+    from vibroimpact_pipeline.archive import differences, made_otherwise
+    from vibroimpact_pipeline.config import checked, read
+
     try:
         committed(ROOT)
     except ValueError as error:
-        refuse(str(error))
+        refuse(f"archive: {error}")
+    of_commit = checked(read(ROOT / "config/config.yaml"))
+    for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
+        refuse(f"archive: {place} is {here}, in config/config.yaml {there}. Build without another config.")
+    if others := list(made_otherwise(rules.all.input, made_with_now)):
+        more = f" ({len(others) - 1} more)" if others[1:] else ""
+        refuse(f"archive: {others[0]}{more}. Build first: snakemake --cores {workflow.resource_settings.cores or 1}")
     return rules.all.input

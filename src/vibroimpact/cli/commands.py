@@ -164,7 +164,7 @@ def _design(options):
     if options.plot is not None and options.plot.suffix not in PICTURES:
         raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:
-        need("figures", "matplotlib")
+        need("figures", "matplotlib", "pandas")
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
         raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")

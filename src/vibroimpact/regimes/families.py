@@ -1,10 +1,10 @@
 """Families of 1:1 responses as continuation sees them: equations, members, functions whose zeros are special points.
 
 The functions are polynomials in the entries of a monodromy matrix, written in its multipliers, so that they pass
-through their zeros: prod (1 - mu) at a fold, prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a
-pair meets the unit circle (Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half
-a period and mirroring, and -1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld
-1984).
+through their zeros: prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a pair meets the unit circle
+(Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half a period and mirroring, and
+-1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld 1984). Folds and branch points,
+mu = 1, are those of the curve.
 
 The unknowns of a module that takes no part are held at the constants `rest`: its angles at 0 and its size, C_i or I_i,
 at 1, so that a size of 0 always means a ball without speed. Its amplitude is NaN.
@@ -19,14 +19,15 @@ from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
 from vibroimpact.regimes.continuation import Lost
-from vibroimpact.system.amplitude import sawtooth_amplitude
+from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.theory import slow_flow
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 from vibroimpact.theory.slow_flow import linearisation, slow_eigenvalues
 
-FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
+FOLD, BRANCH_POINT, LOST = "fold", "branch point", "lost"
+SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
@@ -192,11 +193,10 @@ class FixedPoints:
         Where the manifold folds, one eigenvalue of the slow flow is infinite; its pole is multiplied away.
         """
         r = rho(system.kappa)
-        J, M = linearisation(system, point.psi, point.C)
+        M = linearisation(system, point.psi, point.C)[1]
         finite = np.isfinite(point.slow_eigenvalues).all()
         sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
         return {
-            FOLD: np.linalg.det(J),
             HOPF: float(np.prod(sums).real * np.linalg.det(M) ** (len(M) - 1)),
             **{f"{MANIFOLD_FOLD}, module {k}": slope(point.C[k - 1], r) for k in system.modules},
             **{f"{SYMMETRY_BREAKING}, module {k}": SYMMETRY_BREAKING_C - point.C[k - 1] for k in system.modules},
@@ -253,8 +253,14 @@ def _refuse_one_of_two(family, system, x):
         raise Lost("both modules take part, and the response is that of one")
 
 
+def asymmetric_root(system, x) -> np.ndarray:
+    """A symmetric orbit's root (tau_1, tau_2, C_1, C_2) as one of the asymmetric equations, (6,)."""
+    times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
+    root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
+    return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
+
+
 def _tests(mu, at_minus_one, orbit):
     """Functions of an orbit's multipliers mu and of its excursion; `at_minus_one`: the name of the point at mu = -1."""
-    found = {FOLD: 1 - mu, at_minus_one: 1 + mu}
-    found[NEIMARK_SACKER] = np.array([1 - a * b for a, b in combinations(mu, 2)])
+    found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()} | {GRAZING: 1 - orbit.excursion}

@@ -136,10 +136,15 @@ class System:
         return replace(self, **changes)
 
     def _resonates(self) -> bool:
+        """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
+        # Of the terms that cancel at a resonance: both boxes may be in one, and nothing is left.
+        springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
+        dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
+        rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))
         (a, b), (c, d) = stiffness.tolist()
-        if abs(a * d - b * c) > 1e-12 * (abs(a) ** 2 + abs(b) ** 2 + abs(c) ** 2 + abs(d) ** 2):
-            return False  # the ratio of the singular values is larger yet
+        if abs(a * d - b * c) > rounding * 1e12 * rounding:
+            return False  # both singular values are above the rounding
         left, values, _ = np.linalg.svd(stiffness)
-        loaded = abs(left[:, -1].conj() @ self.forcing) > 1e-12 * np.linalg.norm(self.forcing)
-        return bool(values[-1] < 1e-12 * values[0] and loaded)
+        loads = abs(left[:, values <= rounding].conj().T @ self.forcing)
+        return bool((loads > 1e-12 * np.linalg.norm(self.forcing)).any())

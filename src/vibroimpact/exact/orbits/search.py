@@ -14,7 +14,7 @@ from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
-from vibroimpact.system.representation import Representation, brief
+from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.system.state import BALLS, BOXES, MODULES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
@@ -22,6 +22,13 @@ _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermit
 _SAMPLES = 4096  # of each flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
+_SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
+COLUMNS = (
+    *("symmetric", "admissible", "C1", "C2"),
+    *(f"{what}{side}" for what in ("phase", "speed") for side in _SIDES),
+    *("largest_multiplier", "residual", "exact", "proved"),
+)
+"""Columns of a table of orbits."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -82,19 +89,10 @@ class Orbit(Representation):
 
     def row(self) -> dict:
         """Numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
-        sides = ("1_plus", "1_minus", "2_plus", "2_minus")
-        names = [f"{what}{side}" for what in ("phase", "speed") for side in sides]
         numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
-        return {
-            "symmetric": self.symmetric,
-            "admissible": self.admissible,
-            **dict(zip(("C1", "C2"), self.C.tolist(), strict=True)),
-            **dict(zip(names, numbers, strict=True)),
-            "largest_multiplier": float(abs(self.multipliers[0])),
-            "residual": self.residual,
-            "exact": self.stability,
-            "proved": self.proved,
-        }
+        largest = float(abs(self.multipliers[0]))
+        verdicts = largest, self.residual, self.stability, self.proved
+        return dict(zip(COLUMNS, (self.symmetric, self.admissible, *self.C.tolist(), *numbers, *verdicts), strict=True))
 
     def _shown(self):
         return {
@@ -141,7 +139,7 @@ def orbits(system: System) -> list[Orbit]:
     Raises:
         ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
     """
-    return search(system).orbits
+    return Found(search(system).orbits, COLUMNS)
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:

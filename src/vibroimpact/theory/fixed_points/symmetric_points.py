@@ -14,7 +14,7 @@ import numpy as np
 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
-from vibroimpact.system.representation import Representation, brief
+from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.theory.criteria import FAST, SLOW, THEORY, Stability, of_fixed_point
 from vibroimpact.theory.fixed_points.balance import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
@@ -28,6 +28,9 @@ _SAME = 1e-9
 _NEAR = 1e-3  # a fixed point this far from where the search left off belongs to another zero
 _OPEN = 1e-3  # by this share of its perimeter a triangle stays open at every C that rounding confuses with a zero
 _REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
+_AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
+COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
+"""Columns of a table of fixed points."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,11 +67,11 @@ class FixedPoint(Representation):
 
     def row(self) -> dict:
         """Numbers and verdicts by name, the columns of `to_frame`."""
-        numbers = {f"{name}{i}": float(x) for name in ("C", "B", "psi") for i, x in enumerate(getattr(self, name), 1)}
+        numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
-        verdicts = {FAST: fast, SLOW: slow, THEORY: stability.theory}
-        return {"label": self.label, **numbers, **verdicts, "slow_growth": growth, "multiple": self.multiple}
+        verdicts = fast, slow, stability.theory
+        return dict(zip(COLUMNS, (self.label, *numbers, *verdicts, growth, self.multiple), strict=True))
 
     def _shown(self):
         numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
@@ -93,7 +96,7 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Raises:
         ValueError: system is not a System; else as `search`.
     """
-    return search(system).points
+    return Found(search(system).points, COLUMNS)
 
 
 def search(system: System) -> FixedPointSearch:
