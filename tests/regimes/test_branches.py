@@ -227,6 +227,18 @@ def test_branches_of_identical_machines_pass_the_points_where_they_part(chapter,
         assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
 
 
+@pytest.mark.parametrize("beside", [0.0, 1e-12, -1e-9])
+def test_a_seed_at_a_branch_point_finds_its_branches(chapter, beside):
+    """There the search merges the roots that meet, known to half the digits, and each branch still comes once."""
+    path, interval = Path(chapter(sigma20_hat=0.0), ("kappa",)), (0.37, 0.42)
+    crossing = special({FixedPoints: branches(FixedPoints, path, interval, [0.4], 0.01)}, FixedPoints, BRANCH_POINT)[
+        0
+    ].p
+    found = branches(FixedPoints, path, interval, [crossing + beside], 0.01)
+    for p in (0.38, 0.4):
+        assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
+
+
 def test_branches_of_nearly_identical_machines_do_not_cross(chapter):
     found = vi.branches(chapter(sigma20_hat=-0.001), ("f10_hat", "f20_hat"), (1.15, 1.5), of="theory")
     assert not [node for branch in found for node in branch.special if node.kind in (BRANCH_POINT, LOST)]

@@ -24,6 +24,7 @@ from vibroimpact.regimes.families import (
 from vibroimpact.system.representation import Representation, brief
 
 _EQUAL = 1e-6  # flights of unequal length differ by more; this near to an end of the interval a branch ends there
+_APART = 1e-3  # branch points less far apart are one, found again
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
@@ -143,7 +144,7 @@ def branches(
         for node in breaking if branch.family is SymmetricOrbits else ():
             arms = curve.arms(np.append(asymmetric_root(path(node.p), node.x), node.p))
             starts += [z for z in arms if not _symmetric(family, path(z[-1]), z[:-1])]
-    found = []
+    found, crossings = [], []
     while starts:
         z = starts.popleft()
         new = interval[0] <= z[-1] <= interval[1] and family.speed(z[:-1]) > 0
@@ -156,8 +157,10 @@ def branches(
                 continue
             if len(places) > 1:  # else a seed at a branch point
                 found.append(Branch(family, nodes, places[-1].closing, places))
-            crossings = [np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT]
-            starts += [arm for crossing in crossings for arm in curve.arms(crossing)]
+            for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
+                if all(np.abs(crossing - known).max() > _APART for known in crossings):
+                    crossings.append(crossing)
+                    starts += curve.arms(crossing)
     return found
 
 

@@ -23,6 +23,7 @@ _DIFFERENCE = 1e-6  # step in p; these differences then tell dF/dp to about 1e-1
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
 _SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, near a singular Jacobian
+_REFINED = 1e-10
 _STEEP = 0.2  # part of p in the tangent from which on p is kept: a new p costs more than a new x
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # step, before the curve is given up
@@ -138,8 +139,13 @@ class Curve:
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
         """Points and places of the curve through a root z, in their order; of a closed curve once round.
 
-        half(start) returns those on one side of a place.
+        half(start) returns those on one side of a place. A multiple root, known to half the digits, is first refined.
         """
+        for _ in range(_STEPS):
+            change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
+            if np.abs(change).max() < _REFINED:
+                break
+            z = z - change
         start = self.place(z, np.eye(len(z))[-1])
         points, places = half(start)
         if places[-1].closing:
