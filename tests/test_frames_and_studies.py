@@ -87,6 +87,13 @@ def test_a_section_far_from_the_origin_of_time_is_that_of_the_same_run_from_ther
         np.testing.assert_allclose(there, expected, rtol=0, atol=1e-6)
 
 
+@pytest.mark.parametrize("before", [5, 1e6])
+def test_a_section_of_a_continued_run_has_its_first_row(before):
+    """The start inherits the rounding of a float tau0, meant as whole periods."""
+    run = vi.simulate(SYSTEM, [0.0] * 8, 3, tau0=before * SYSTEM.period)
+    assert len(run.section()) == len(vi.simulate(SYSTEM, run.final, 3, tau0=run.end).section()) == 4
+
+
 @pytest.mark.parametrize("cycles", [0, 1, 1000])
 def test_a_section_of_whole_cycles_begins_at_the_start_and_ends_at_the_end(cycles):
     run = vi.simulate(SYSTEM, RUN.start, cycles, tau0=RUN.end)

@@ -100,7 +100,7 @@ def test_a_null_takes_nothing_else_away(text, key):
 
 
 def test_a_null_removes_once():
-    with pytest.raises(ConfigError, match=r"\A2.yaml: sweeps.design: nothing is given, and there is nothing to remove"):
+    with pytest.raises(ConfigError, match=r"\A2.yaml: sweeps.design: has no value, and no earlier source defines it"):
         combined("sweeps: {design: null}", "sweeps: {design: null}")
 
 

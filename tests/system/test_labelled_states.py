@@ -113,3 +113,10 @@ def test_pandas_is_not_imported_for_it():
     code += "states('state', dict.fromkeys(NAMES, 0.0)); print(*sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "pandas" not in run.stdout.split()
+
+
+def test_an_array_of_xarray_with_labels_is_refused():
+    xarray = pytest.importorskip("xarray")
+    labelled = xarray.DataArray(VALUES, dims="component", coords={"component": SHUFFLED})
+    with pytest.raises(ValueError, match="state: an array labelled by 'component'; give a table"):
+        vi.simulate(SYSTEM, labelled, 1)

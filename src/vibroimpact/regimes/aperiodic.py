@@ -10,7 +10,7 @@ from vibroimpact.regimes.modulation import bursts_in
 CERTAIN = 3.0
 """Errors that count as the uncertainty of an exponent."""
 RESOLVED = 0.02
-"""Largest uncertainty of an exponent, per forcing period, that counts as 0."""
+"""Largest uncertainty, per forcing period, at which an exponent that may be 0 is called 0."""
 RECURRENT = 0.1
 """A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)

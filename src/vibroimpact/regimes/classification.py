@@ -191,7 +191,7 @@ def _of_modules(system, places):
     return [place for place in places if moves[place]]
 
 
-def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
+def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
     """Starts spread evenly over displacements, relative displacements and velocities, and the start from rest.
 
     Shape (count, 8): rest first, then scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach, |W_i| < 1.

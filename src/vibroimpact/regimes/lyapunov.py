@@ -32,16 +32,22 @@ _MOST_RESAMPLES = 1_000_000
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    scatter: standard error from block means. error: the same with what growth in proportion to time shows between the
-    ends t0 and t1 of the blocks, ln(t1 / t0) / (t1 - t0), though its exponent is 0: that of a ball at rest, say.
+    error: the root of the sum of two squares, of the standard error from block means and of ln(t1 / t0) / (t1 - t0),
+    the apparent rate between the ends t0 and t1 of the blocks of a perturbation that grows linearly in time. The true
+    exponent of such a perturbation, of a ball at rest for example, is 0.
     """
 
     mean: float
     error: float
+
+
+class Measured(Exponent):
+    """An exponent with its `scatter`, the standard error from block means alone."""
+
     scatter: float
 
 
-def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Exponent:
+def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Measured:
     """Largest Lyapunov exponent, with its error.
 
     On a periodic motion this is the log of its largest multiplier's modulus, over the period. The error takes the
@@ -66,7 +72,9 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * cycles, 1), (discarded + blocks) * cycles
     with_time = np.log(last / first) / (blocks * cycles)
-    return Exponent(float(mean), float(np.hypot(scatter, with_time)), float(scatter))
+    found = Measured(float(mean), float(np.hypot(scatter, with_time)))
+    found.scatter = float(scatter)
+    return found
 
 
 @dataclass(frozen=True, eq=False)

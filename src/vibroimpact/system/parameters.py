@@ -104,8 +104,8 @@ class System:
     def modules(self) -> tuple[int, ...]:
         """Numbers of the modules that take part: a force drives them, or the module to which they are coupled.
 
-        A module without force and coupling takes no part: it stays at rest, or comes to rest. This is the only place
-        that decides it. A single machine has (1,), see `PhysicalSystem.single`.
+        Nothing drives a module without force and coupling, and analyses leave it out; `simulate` moves it from its
+        start. This is the only place that decides it. A single machine has (1,), see `PhysicalSystem.single`.
         """
         forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0

@@ -43,6 +43,9 @@ def _ordered(name, values):
     if isinstance(values, list | tuple) and not hasattr(values, "_asdict"):
         states = len(values) > 0 and not isinstance(values[0], int | float)
         return [_ordered(f"{name}[{row}]", one) for row, one in enumerate(values)] if states else values
+    dimensions = getattr(values, "dims", ())  # of xarray
+    if dimensions and dimensions[-1] in getattr(values, "coords", ()):
+        raise ValueError(f"{name}: an array labelled by {dimensions[-1]!r}; give a table, a mapping or plain numbers")
     labels = _labels(values)
     if labels is None:
         return values

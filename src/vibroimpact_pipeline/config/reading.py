@@ -21,7 +21,7 @@ class ConfigError(ValueError):
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader with keys as they are written; refuses duplicate keys and octal and sexagesimal numbers."""
+    """A YAML loader with keys as written; refuses duplicate keys, and numbers in octal or base 60."""
 
     def construct_mapping(self, node, deep=False):
         seen = set()
@@ -120,7 +120,7 @@ def _update(whole, content, above):
                 del whole[key]
             else:
                 comma = "; a decimal number has a point" if key.isdecimal() else ""
-                what = f"nothing is given, and there is nothing to remove{comma}{hint(key, whole)}"
+                what = f"has no value, and no earlier source defines it{comma}{hint(key, whole)}"
                 problems.append(((*above, key), what))
         elif isinstance(value, dict):
             within = whole.get(key)

@@ -93,10 +93,10 @@ def ensemble(
 ) -> np.ndarray:
     """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
 
-    A run that the certificate of `simulate` calls decided has the same impacts and sticks here, and the error of its
-    final state is at most 2.6 times the estimate of that certificate (docs/engine.md). A graze that rounding decides,
-    which the certificate counts as undecided, may go either way. So may impacts behind which the ball hops within four
-    units of rounding of its wall. For events, samples or a certificate use `simulate`.
+    Impacts and sticks are those of `simulate`, except for grazes that its certificate counts as undecided, and for
+    impacts after which the ball hops by less than four units of rounding. The error of a decided run's final state is
+    at most 2.6 times the estimate of that certificate (docs/engine.md). For events, samples or a certificate use
+    `simulate`.
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).

@@ -234,9 +234,8 @@ class Run(Representation):
         system, phase = self.system, real("phase", phase)
         (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
         ahead = ((wanted - begin) + (part - tail)) % TWO_PI
-        rounding = math.ulp(max(abs(phase), TWO_PI))
-        if not isinstance(self.begin, Instant):  # of whole periods from tau = 0, say
-            rounding += system.Omega * math.ulp(self.begin)
+        # A start that is a float, or continues a run from one, may be meant as whole periods from tau = 0.
+        rounding = math.ulp(max(abs(phase), TWO_PI)) + system.Omega * math.ulp(self.tau0)
         at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
         cycles = np.arange(self.cycles + at_start)
         return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))

@@ -259,7 +259,7 @@ def _carried_by_cycles(flow, flights, events, period, frame, places, factors, co
 def _orthonormalize(a, places, sizes):
     """Replace the rows of a (m, k) at some places by the Q of those rows = QR, and fill |diag R| into sizes (k,).
 
-    Without the other rows, which are 0: rounding would leave something in them, or all of a direction that is lost.
+    Leave out the other rows, which are 0: QR would fill them with rounding errors.
     """
     q, r = np.linalg.qr(a[places])
     for row in range(len(places)):
