@@ -14,9 +14,9 @@ import pytest
 import yaml
 from packaging.requirements import Requirement
 
-import compile as script
 from chapter import PARAMETERS
 from pipeline_trees import ROOT, Tree
+from vibroimpact.compile import event_loop
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
@@ -240,7 +240,7 @@ def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):
     simulate(system, [0] * 8, 1, tau0=1, sample_times=[2])
     ensemble(system, [0] * 8, 1)
     monkeypatch.setattr(integrate, "compile", asked.append)
-    script.engine()
+    event_loop()
     assert [tuple(signature) for signature in asked] == list(integrate.signatures)
 
 
