@@ -5,10 +5,9 @@ RUNS ?= 20000
 TEMPORARY = TMPDIR="$(CURDIR)/.cache"
 PIN = $(TEMPORARY) .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
-unexport PYTHONDONTWRITEBYTECODE
+unexport PYTHONDONTWRITEBYTECODE PYTHONHOME CDPATH
 export OMP_NUM_THREADS := 1
 export WHEELS
-export PIP_CACHE_DIR ?= $(CURDIR)/.cache/pip
 # Snakemake gives up where neither this nor the list of users tells a home.
 export HOME ?= $(CURDIR)/.cache/home
 
@@ -99,11 +98,11 @@ lock: set-up  ## pin every package anew into environment.lock, what a cluster ne
 wheels:  ## fill a folder with all packages (WHEELS=folder), from which set-up needs no network
 	@test -n "$$WHEELS" || { echo "Name the folder: make wheels WHEELS=folder" >&2; exit 1; }
 	WHEELS= workflow/set_up.sh
-	$(TEMPORARY) .venv/bin/python -m pip download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
+	workflow/pip.sh download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
 		-r environment.lock -r cluster.lock
 
 cluster-tools: set-up  ## install what Snakemake needs for Slurm, cluster.lock (docs/running.md; again after each new set-up)
-	$(TEMPORARY) .venv/bin/python -m pip install --quiet --no-deps --require-hashes \
+	workflow/pip.sh install --quiet --no-deps --require-hashes \
 		$(if $(WHEELS),--no-index --find-links "$$WHEELS") --requirement cluster.lock
 
 clean:  ## delete results and caches, keep the environment

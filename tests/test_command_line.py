@@ -104,12 +104,59 @@ def test_a_run_that_fails_is_one_line(capsys):
     assert "time stands still" in line
 
 
+def test_a_table_that_cannot_be_saved_is_printed(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["fixed-points", "--output", "/dev/full"])
+    printed = capsys.readouterr()
+    assert end.value.code == 1
+    assert len(printed.out.splitlines()) == 4
+    assert "output: /dev/full cannot be written, so the table is printed: No space left" in printed.err
+    assert printed.err.count("\n") == 1
+
+
 def test_a_reader_that_has_seen_enough_is_no_error():
     command = f"{sys.executable} -m vibroimpact simulate --cycles 1000 | head -2"
     run = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False)
     assert run.returncode == 0
     assert len(run.stdout.splitlines()) == 2
     assert run.stderr == ""
+
+
+INTERRUPTED = """
+import os, signal, sys, threading, time
+import vibroimpact.compile
+from vibroimpact.__main__ import main
+from vibroimpact.cli.commands import COMMANDS
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background has its commands ignore it
+machine = "--M 1 --m 0.1 --k 1 --c 0.1 --F 1 --from 0.1 --to 0.2"
+words = {"simulate": "--events --cycles 10000000 --state 0 0 0 0 0 0.5 0 -0.5", "design": machine}
+
+def interrupt(*_):
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(60)
+
+for command in [*COMMANDS, "compile"]:
+    if not os.fork():
+        sys.argv = ["vibroimpact", command, *words.get(command, "").split()]
+        if command == "simulate":  # in the middle of a long run
+            threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
+        elif command == "compile":
+            vibroimpact.compile.main = interrupt
+        else:
+            COMMANDS[command] = COMMANDS[command]._replace(compute=interrupt)
+        sys.exit(main())
+    print(command, os.waitstatus_to_exitcode(os.wait()[1]), flush=True)
+"""
+
+
+def test_an_interrupt_is_one_line_and_ends_the_command_by_the_signal():
+    """Of every command; a shell takes that for the status 130 and ends its loop, if the command is in one."""
+    run = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=False, timeout=300)
+    ends = dict(line.split() for line in run.stdout.splitlines())
+    assert ends == dict.fromkeys(("fixed-points", "orbits", "simulate", "design", "compile"), "-2")
+    said = [line for line in run.stderr.splitlines() if ": compiling " not in line]
+    assert said == ["vibroimpact: interrupted"] * len(ends)
 
 
 def test_every_command_has_its_help(capsys):

@@ -1,5 +1,7 @@
 """Results as frames, pictures and sections; branches, sweeps, proofs and absorbers by their public names."""
 
+import pickle
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -42,7 +44,7 @@ def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
         assert vi.prove(orbit).stability == proved.stability
     frame = vi.to_frame(found)
     np.testing.assert_array_equal(frame["phase2_minus"], [orbit.impact_phases[1, 1] for orbit in found])
-    with pytest.raises(ValueError, match=r"^orbit: .* is not a Orbit"):
+    with pytest.raises(ValueError, match=r"^orbit: .* is not an Orbit$"):
         vi.prove(SYSTEM)
 
 
@@ -58,11 +60,47 @@ def test_a_run_as_a_frame_of_its_events():
 
 @pytest.mark.parametrize("phase", [0.0, 1.0, 2.0 * SYSTEM.Omega, -7.0])
 def test_a_section_is_taken_at_one_phase_of_the_forcing(phase):
-    times = frames.section_times(RUN, phase)
-    away = np.angle(np.exp(1j * (SYSTEM.Omega * times - phase)))
-    assert np.abs(away).max() < 1e-12 * times.max()
-    assert len(times) in (RUN.cycles, RUN.cycles + 1)
-    assert (len(times) == RUN.cycles + 1) == (phase == 2.0 * SYSTEM.Omega)  # from the start to the end
+    turns = np.arange(-5, 70)
+    times = (phase + 2 * np.pi * turns) / SYSTEM.Omega
+    inside = (times > RUN.tau0 - 1e-9) & (times < RUN.tau0 + RUN.cycles * SYSTEM.period + 1e-9)
+    times = np.clip(times[inside], RUN.tau0, RUN.tau0 + RUN.cycles * SYSTEM.period)
+    expected = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
+    np.testing.assert_allclose(RUN.section(phase), expected, rtol=0, atol=1e-11)
+    assert len(times) == RUN.cycles + (phase == 2.0 * SYSTEM.Omega)  # from the start to the end
+
+
+@pytest.mark.parametrize("sigma", [0.3, -0.17, 0.0, 1.1, -2.3, 4.0])
+@pytest.mark.parametrize("before", [9_999_999, 123_457, 1])
+def test_a_section_far_from_the_origin_of_time_is_that_of_the_same_run_from_there(sigma, before):
+    """The forcing repeats, so that whole periods earlier or later the section is the same."""
+    system = SYSTEM.with_(sigma_e_hat=sigma)
+    start, cycles = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, -0.5], 3
+    run = vi.simulate(system, start, cycles)
+    end = vi.simulate(system, start, 0).end.later(before, system.Omega)
+    for phase in (0.0, 1.0, -2.0):
+        expected = run.section(phase)
+        assert len(expected) == cycles + (phase == 0.0)
+        np.testing.assert_array_equal(vi.simulate(system, start, cycles, tau0=end).section(phase), expected)
+        there = vi.simulate(system, start, cycles, tau0=before * system.period).section(phase)  # to a float's rounding
+        assert there.shape == expected.shape
+        np.testing.assert_allclose(there, expected, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("before", [5, 1e6])
+def test_a_section_of_a_continued_run_has_its_first_row(before):
+    """The start inherits the rounding of a float tau0, meant as whole periods."""
+    run = vi.simulate(SYSTEM, [0.0] * 8, 3, tau0=before * SYSTEM.period)
+    assert len(run.section()) == len(vi.simulate(SYSTEM, run.final, 3, tau0=run.end).section()) == 4
+
+
+@pytest.mark.parametrize("cycles", [0, 1, 1000])
+def test_a_section_of_whole_cycles_begins_at_the_start_and_ends_at_the_end(cycles):
+    run = vi.simulate(SYSTEM, RUN.start, cycles, tau0=RUN.end)
+    section = run.section()
+    assert len(section) == cycles
+    section = run.section(2.0 * SYSTEM.Omega)
+    assert len(section) == cycles + 1
+    np.testing.assert_array_equal(section[[0, -1]], [run.start, run.final])
 
 
 def test_the_section_of_an_orbit_is_one_point():
@@ -72,13 +110,13 @@ def test_the_section_of_an_orbit_is_one_point():
 
 
 def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
-    times = frames.plot_times(RUN)
+    times = RUN.tau0 + frames.plot_times(RUN)
     samples = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
     figure = RUN.plot()
     for i, axes in enumerate(figure.axes):
         W, X = (line.get_ydata() for line in axes.get_lines())
-        np.testing.assert_array_equal(W, samples[:, 2 * i] - samples[:, 2 * i + 1])
-        np.testing.assert_array_equal(X, samples[:, 2 * i])
+        np.testing.assert_allclose(W, samples[:, 2 * i] - samples[:, 2 * i + 1], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(X, samples[:, 2 * i], rtol=0, atol=1e-12)
         assert np.abs(W).max() <= 1 + 1e-9
 
 
@@ -104,6 +142,29 @@ def test_branches_pass_the_fixed_points_of_any_value():
     ):  # fmt: skip
         with pytest.raises(ValueError, match=rf"^{name}:"):
             vi.branches(SYSTEM, *arguments)
+
+
+RANGES = (0.5, 1.0), (0.6, 0.7)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        vi.fixed_points,
+        vi.orbits,
+        lambda system: vi.branches(system, "kappa", RANGES[1], of="theory", seeds=1, progress=False),
+        lambda system: vi.bifurcation_curves(system, ("f10_hat", "kappa"), RANGES, seeds=1, progress=False),
+    ],
+    ids=["fixed points", "orbits", "branches", "curves"],
+)
+def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
+    """So much damping leaves no motion with two impacts per cycle."""
+    found, nothing = call(SYSTEM), call(SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0))
+    assert len(found) > 0 == len(nothing)
+    for empty in (nothing, pickle.loads(pickle.dumps(nothing))):
+        frame = vi.to_frame(empty)
+        assert frame.columns.tolist() == vi.to_frame(found).columns.tolist()
+        assert frame.empty
 
 
 def test_a_sweep_counts_the_fixed_points_of_every_system():

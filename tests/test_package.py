@@ -5,6 +5,7 @@ import ctypes
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -16,7 +17,7 @@ import pytest
 
 import compiled_code
 import vibroimpact as vi
-from pipeline_trees import ROOT
+from pipeline_trees import ROOT, copied
 
 
 def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_matplotlib():
@@ -43,8 +44,12 @@ def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
+    sources = copied(ROOT, folder / "sources")
+    for name in ("notebooks", "docs", "workflow/scripts", "src/vibroimpact"):
+        (sources / name / ".ipynb_checkpoints").mkdir()
+        (sources / name / ".ipynb_checkpoints/copy.py").touch()
     build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    subprocess.run(build, cwd=sources.path, check=True, capture_output=True)
     [path] = folder.glob("*.whl")
     return path
 
@@ -130,7 +135,7 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
         "vibroimpact/py.typed",
         "vibroimpact/__init__.pyi",
     } <= {*names}
-    assert not [name for name in names if "__pycache__" in name]
+    assert not [name for name in names if "__pycache__" in name or ".ipynb_checkpoints" in name]
 
 
 LIBRARY_SECTION = (ROOT / "README.md").read_text(encoding="utf-8").split("## As a library")[1].split("\n## ")[0]
@@ -175,7 +180,7 @@ DESIGN = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9 --plot des
 def test_a_picture_without_its_extra_says_so(alone, shared_code):
     run = alone("-m", "vibroimpact", *shlex.split(DESIGN), check=False, **shared_code)
     assert run.returncode == 2
-    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib: pip install .*figures.*\n", run.stderr)
+    assert re.fullmatch(r"vibroimpact design: .*needs matplotlib and pandas: pip install .*figures.*\n", run.stderr)
 
 
 def test_the_stub_names_what_the_package_exports():
@@ -225,6 +230,30 @@ def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_pat
     assert "compiling" not in second.stderr
     assert first.stdout == second.stdout
     assert folder.stat().st_mode & 0o777 == 0o700
+
+
+@pytest.fixture
+def compiled_before(alone):
+    """What a program prints that compiles a part of the library beside it, as at its installation."""
+    compiled_code.share(alone.site / "vibroimpact")  # so that it need not be compiled again
+    yield alone("-c", ADVANCE).stdout
+    for code in (alone.site / "vibroimpact/__pycache__").glob("compiled-*"):
+        shutil.rmtree(code)
+
+
+def test_code_of_an_installation_that_is_read_only_by_now_is_used(alone, compiled_before, nowhere_to_write, tmp_path):
+    """As in a container: it is copied to where it can be written to, since Numba uses no other folder."""
+    for _ in range(2):
+        run = nowhere_to_write(ADVANCE)
+        assert "compiling" not in run.stderr
+        assert run.stdout == compiled_before
+    installed = alone("-c", WHERE).stdout.strip()
+    [copy] = tmp_path.glob(f"vibroimpact-*/{Path(installed).name}")
+    assert {*files(Path(installed))} == {*files(copy)} != set()
+
+
+def files(folder):
+    return ((path.relative_to(folder), path.read_bytes()) for path in folder.rglob("*.nb?"))
 
 
 def test_code_of_other_sources_is_not_used(alone):

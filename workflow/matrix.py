@@ -15,6 +15,8 @@ import tomllib
 from glob import glob
 from pathlib import Path
 
+from vibroimpact_pipeline.git import GitRefused, changes, output
+
 ROOT = Path(__file__).resolve().parents[1]
 PLACE = Path(".cache/matrix")
 LINES = 12
@@ -86,7 +88,7 @@ def run(version: str, python: str, packages: str) -> dict[str, str]:
         name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", "PYTHON"))
     }
     with open(f"{clone}.log", "w", encoding="utf-8") as log:
-        subprocess.run(["git", "clone", "--quiet", ROOT, clone], check=True)
+        output("clone", "--quiet", "--template=", ROOT, clone, root=ROOT)
         for step, command in STEPS.items():
             print(f"{version}, {packages}: {step}", flush=True)
             log.write(f"\n$ {' '.join(command)}\n")
@@ -131,8 +133,11 @@ def main(arguments=None) -> int:
     if missing and (given.python or len(missing) == len(found)):
         parser.error(f"argument --python: {', '.join(missing)} not found, neither on the PATH nor below pyenv")
     print(*(f"Python {version}: not found, not run" for version in missing), sep="\n", end="\n" * bool(missing))
-    if subprocess.run(["git", "status", "--porcelain"], cwd=ROOT, capture_output=True, text=True).stdout:
-        print("What is not committed takes no part.")
+    try:
+        if changes(ROOT):
+            print("What is not committed takes no part.")
+    except GitRefused as refused:
+        parser.error(str(refused))
     rows = [
         {"Python": version, "packages": packages, **run(version, found[version], packages)}
         for version, packages in itertools.product([v for v in found if found[v]], given.packages)

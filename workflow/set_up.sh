@@ -2,7 +2,11 @@
 # Create .venv from environment.lock, unless it is there already. One at a time; an interrupted set-up starts over.
 # With WHEELS=folder all packages come from that folder, which `make wheels` fills, and nothing from the network.
 set -euo pipefail
-cd -P "$(dirname "$0")/.."
+# Another PYTHONHOME, PYTHONPATH or PYTHONUSERBASE would bring modules from elsewhere, CDPATH lead to another folder.
+for name in "${!PYTHON@}" CDPATH; do
+    [[ $name == PYTHON ]] || unset "$name"
+done
+cd -P -- "$(dirname -- "$0")/.."
 
 usable='import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))'
 version='import platform, sys; print(sys.implementation.name, *platform.python_version_tuple()[:2], platform.machine())'
@@ -47,10 +51,9 @@ if [[ -n "${WHEELS:-}" ]]; then
     source=(--no-index --find-links "$WHEELS")
 fi
 
-# Whatever it needs meanwhile lies in the checkout, too; bytecode is made of what is imported.
+# Bytecode is made of what is imported.
 install() {
-    TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}" .venv/bin/python -m pip install \
-        --disable-pip-version-check -qq --no-compile --no-deps --no-build-isolation "$@"
+    workflow/pip.sh install -qq --no-compile --no-deps --no-build-isolation "$@"
 }
 
 packages=$(grep -c '^[a-z].*==' environment.lock)
@@ -64,8 +67,8 @@ echo "2 of 3  installing this project"
 install "${source[@]}" --editable .
 # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
 echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
-conflicts=$(.venv/bin/python -m pip check) || { echo "$conflicts" >&2; exit 1; }
+conflicts=$(workflow/pip.sh check) || { echo "$conflicts" >&2; exit 1; }
 echo "3 of 3  compiling the simulation engine, its certificate and other methods (half a minute)"
-env --unset=PYTHONDONTWRITEBYTECODE .venv/bin/python workflow/scripts/compile.py
+.venv/bin/python workflow/scripts/compile.py
 echo "$stamp" >.venv/.complete
 echo "Set up in $((SECONDS / 60)) min $((SECONDS % 60)) s."

@@ -1,4 +1,4 @@
-"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture, the times of its Poincare section.
+"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture.
 
 None of pandas, xarray and Matplotlib is imported before it is needed.
 """
@@ -20,7 +20,7 @@ _PER_CYCLE, _MOST = 64, 20_000  # points of a picture
 
 def to_frame(result: Any) -> "pandas.DataFrame":
     """A pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits, branches,
-    bifurcation curves or rows.
+    bifurcation curves or rows. A list in which a function found nothing has the columns of its results.
 
     Raises:
         ValueError: the result is none of these.
@@ -33,7 +33,8 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     if isinstance(result, np.ndarray) and result.dtype.names:
         return _pandas().DataFrame(_columns(result.ravel()))
     if isinstance(result, list | tuple) and all(map(_has_rows, result)):
-        return _pandas().DataFrame([row for number, one in enumerate(result) for row in _rows(one, number)])
+        rows = [row for number, one in enumerate(result) for row in _rows(one, number)]
+        return _pandas().DataFrame(rows, columns=None if rows else getattr(result, "columns", None))
     kind = type(result).__name__
     raise ValueError(
         f"result: a {kind} is no run, no ensemble, no basins and no list of fixed points, orbits, branches or rows"
@@ -89,22 +90,10 @@ def of_run(run):
     return table
 
 
-def section_times(run, phase: float = 0.0) -> np.ndarray:
-    """Times within a Run at which the phase Omega tau of the forcing is `phase` [rad], one in each cycle.
-
-    The states there are its stroboscopic Poincare section.
-    """
-    Omega, period = run.system.Omega, run.system.period
-    first = np.remainder(phase - Omega * run.tau0, 2 * np.pi) / Omega
-    first = 0.0 if period - first < 1e-9 * period else first  # the start itself, but for rounding
-    times = run.tau0 + first + period * np.arange(run.cycles + 1)
-    return times[times <= run.tau0 + run.cycles * period]
-
-
 def plot_times(run) -> np.ndarray:
-    """Times for a picture of a Run: 64 in a cycle, or fewer in a long run."""
+    """Times since the start for a picture of a Run: 64 in a cycle, or fewer in a long run."""
     count = min(_PER_CYCLE * run.cycles, _MOST)
-    return run.tau0 + np.linspace(0.0, run.cycles * run.system.period, count + 1)
+    return np.linspace(0.0, run.cycles * run.system.period, count + 1)
 
 
 def plot(system, times, samples):

@@ -1,23 +1,26 @@
 """The archive of a build, to cite and to run elsewhere: committed sources, results, an RO-Crate with their sums."""
 
 import gzip
-import subprocess
+import io
+import json
 import tarfile
 import tempfile
+from collections.abc import Callable, Iterator
+from importlib.metadata import version
 from pathlib import Path
 
 import yaml
 from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
-from vibroimpact_pipeline.git import committed, git
+from vibroimpact_pipeline.git import committed, git, output
 from vibroimpact_pipeline.result_records import digest_of, records
 
 WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return all results of the rules that made the targets, and their inputs, as the records say.
+    """Return all results of the jobs that made the targets, and their inputs, as the records say.
 
     What was made on demand and is not behind them stays out: it may be of an older commit.
     """
@@ -28,18 +31,65 @@ def results_behind(targets: list[str]) -> list[Path]:
         if path in known and path not in behind:
             behind.add(path)
             pending += known[path].get("inputs", ())
-    rules = {known[path].get("rule") for path in behind}
-    return sorted(Path(path) for path, record in known.items() if record.get("rule") in rules)
+    jobs = [_job(known[path]) for path in behind]
+    return sorted(Path(path) for path, record in known.items() if _job(record) in jobs)
 
 
-def write(root: Path, results: list[Path], titles: dict[str, str], output) -> None:
+def _job(record):
+    return record.get("rule"), record.get("wildcards")
+
+
+def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
+    """Yield a line for each result behind the targets, as far as it exists, that was made with something else than now.
+
+    Those that were only made from another input come last, as that may follow from one of the others.
+
+    Args:
+        targets: paths of results.
+        now: params and inputs of a rule with wildcards; raises LookupError if there is no such rule any more.
+    """
+    known, seen, pending, following = records(), set(), list(targets), []
+    while pending:
+        path = pending.pop()
+        if path in seen or path not in known:
+            continue
+        seen.add(path)
+        record, inputs = known[path], known[path].get("inputs", {})
+        try:
+            params, paths = now(record["rule"], record["wildcards"])
+        except LookupError:
+            yield f"{path}: no record of what it was made with"
+            continue
+        if inputs.keys() != {*paths}:
+            yield f"{path}: made from other inputs"
+            continue
+        if other := [one for one in inputs if one in known and known[one].get("sha256") != inputs[one]]:
+            following.append(f"{path}: made from another {other[0]}")
+        else:
+            for place, was, is_now in differences(record["params"], json.loads(json.dumps(params))):
+                yield f"{path}: made with {place} {was}, now {is_now}"
+                break
+        pending += inputs
+    yield from following
+
+
+def differences(one, other, place: str = "") -> Iterator[tuple]:
+    """Yield place, value and other value where two trees of mappings differ; a value that is not there is None."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        for name in one | other:
+            yield from differences(one.get(name), other.get(name), f"{place}.{name}".removeprefix("."))
+    elif one != other:
+        yield place, one, other
+
+
+def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None:
     """Write the archive of a clean checkout.
 
     Args:
-        root: the checkout, in which the build worked.
-        results: paths of the results from the root.
+        root: the checkout.
+        results: paths of the results from the working directory.
         titles: of the figures, by their names.
-        output: path of the archive, a .tar.gz.
+        path: of the archive, a .tar.gz.
 
     Raises:
         ValueError: the checkout is no git checkout, or differs from its commit.
@@ -47,17 +97,18 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
     commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
     time, date = git("log", "-1", "--format=%ct %cI", root=root).split()
-    with tempfile.TemporaryDirectory(dir=Path(output).parent) as folder:
+    with tempfile.TemporaryDirectory(dir=Path(path).parent) as folder:
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
-        sources = subprocess.run(["git", "archive", commit], cwd=root, stdout=subprocess.PIPE, check=True).stdout
-        subprocess.run(["tar", "--extract", "--directory", staged], input=sources, check=True)
-        for path in results:
-            (staged / path).parent.mkdir(parents=True, exist_ok=True)
-            (staged / path).hardlink_to(root / path)
+        with tarfile.open(fileobj=io.BytesIO(output("archive", commit, root=root))) as sources:
+            sources.extraction_filter = getattr(tarfile, "data_filter", None)  # Python 3.11.4 brought it
+            sources.extractall(staged)
+        for result in results:
+            (staged / result).parent.mkdir(parents=True, exist_ok=True)
+            (staged / result).hardlink_to(result)
         crate(staged, cited, commit, date, titles).metadata.write(staged)
         with (
-            gzip.GzipFile(output, "wb", compresslevel=6, mtime=int(time)) as packed,
+            gzip.GzipFile(path, "wb", compresslevel=6, mtime=int(time)) as packed,
             tarfile.open(fileobj=packed, mode="w") as archive,
         ):
             archive.add(staged, staged.name, filter=lambda member: _plain(member, int(time)))
@@ -66,7 +117,8 @@ def write(root: Path, results: list[Path], titles: dict[str, str], output) -> No
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
     """Return the RO-Crate of a folder: authors, licence, and a description of each file."""
     described = ROCrate()
-    workflow = described.add_workflow(None, WORKFLOW, main=True, lang="snakemake", properties={"name": "The pipeline"})
+    written_in = {"lang": "snakemake", "lang_version": version("snakemake")}
+    workflow = described.add_workflow(None, WORKFLOW, main=True, **written_in, properties={"name": "The pipeline"})
     authors = [
         ContextEntity(described, f"#author-{number}", properties={"@type": "Organization", "name": author["name"]})
         for number, author in enumerate(cited["authors"], 1)

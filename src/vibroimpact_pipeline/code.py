@@ -18,7 +18,6 @@ INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
 """The checkout, or the files of it in an installed pipeline."""
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
-LEFT_OUT = "__pycache__", ".ipynb_checkpoints", "checkout"
 CODE = ".py", ".pyi", ".typed"
 DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
@@ -64,19 +63,24 @@ def _paths(root: str) -> list[Path]:
     top = ROOT / root
     if not top.exists():
         raise FileNotFoundError(f"{root}: neither a module nor a file of the checkout")
-    found = [top] if top.is_file() else top.rglob("*")
-    return [path for path in found if path.is_file() and _counts(path)]
+    found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
+    return [
+        path for path in found if path.is_file() and (not path.is_relative_to(SHIPPED) or top.is_relative_to(SHIPPED))
+    ]
 
 
-def _counts(path: Path) -> bool:
-    return not path.name.startswith(".") and not {*LEFT_OUT} & {*path.parts}
+def is_source(path: Path) -> bool:
+    """Return True for a path below a folder of sources that is neither hidden nor bytecode."""
+    return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
 @cache
 def modules() -> dict[str, Path]:
     """Return the file of every module of this project by its name."""
-    files = [path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if _counts(path)]
-    return {".".join(path.relative_to(SOURCES).with_suffix("").parts).removesuffix(".__init__"): path for path in files}
+    files = [path.relative_to(SOURCES) for package in PACKAGES for path in (SOURCES / package).rglob("*.py")]
+    shipped = SHIPPED.relative_to(SOURCES)
+    files = [path for path in files if is_source(path) and not path.is_relative_to(shipped)]
+    return {".".join(path.with_suffix("").parts).removesuffix(".__init__"): SOURCES / path for path in files}
 
 
 @cache
@@ -87,7 +91,7 @@ def module_files(name: str) -> list[Path]:
     parts = name.split(".")
     around = [modules()[".".join(parts[:depth])] for depth in range(1, len(parts) + 1)]
     beside = [path for path in around[-1].parent.iterdir() if path.is_file() and path.suffix not in CODE]
-    return [*around, *filter(_counts, beside)]
+    return [*around, *(path for path in beside if is_source(path.relative_to(SOURCES)))]
 
 
 def _imported(path: Path) -> set[str]:
@@ -126,4 +130,3 @@ def changed(code: dict) -> bool:
 def code_of(*roots: str) -> dict:
     """Return the code behind a job for the params of its rule: the roots of `behind`, and their fingerprint."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}
-

@@ -14,6 +14,9 @@ CACHES = {
 }
 """Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
 
+OF_THE_USER = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
+"""Beginnings of variables that would bring kernels, page templates, a backend of Matplotlib or code from elsewhere."""
+
 NEEDED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
 """Modules without which jobs fail; Snakemake alone parses, lints and lists the workflow."""
 
@@ -36,6 +39,8 @@ def set_environment(checkout: Path | None) -> None:
     if checkout:
         paths = [str(checkout / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
         os.environ["PYTHONPATH"] = os.pathsep.join(dict.fromkeys(paths))
+    for variable in [name for name in os.environ if name.startswith(OF_THE_USER)]:
+        del os.environ[variable]
     os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:

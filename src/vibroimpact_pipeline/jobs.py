@@ -44,6 +44,7 @@ def running(job) -> Iterator[SimpleNamespace]:
             if behind["of"] and code.changed(behind):
                 raise Refused("the code has changed since the build began. Build again.")
             inputs = checked_digests(job.input)
+            made_with = {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": dict(job.params.items())}
             partial = {name: partial_path(path) for name, path in job.output.items()}
             for path in partial.values():
                 stack.callback(shutil.rmtree, path.parent)
@@ -54,7 +55,7 @@ def running(job) -> Iterator[SimpleNamespace]:
                 raise Refused("an input has changed while this job ran. Build again.")
             for name, path in job.output.items():
                 put_in_place(partial[name], Path(path))
-                write_record(path, {"rule": job.rule, "inputs": inputs})
+                write_record(path, made_with | {"inputs": inputs})
         except (Refused, ModifiedResult) as error:
             sys.exit(str(error))
         except ValueError as error:

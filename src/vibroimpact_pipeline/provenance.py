@@ -9,16 +9,14 @@ import os
 import platform
 import sys
 from collections.abc import Iterator
-from importlib.metadata import version
 from pathlib import Path
 
 from vibroimpact_pipeline import code
-from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.git import origin
 from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
 CONFIG = "config/config.yaml"
-PACKAGES = ("numpy", "scipy", "numba", "matplotlib")
 
 
 def write(job, out) -> None:
@@ -26,20 +24,20 @@ def write(job, out) -> None:
 
     Args:
         job: the Snakemake job.
-        out: temporary paths of its outputs.
+        out: temporary paths of its outputs. Its drawing has left the versions of packages at `out.provenance`.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name not in ("html", "provenance")}
-    changes = git("status", "--porcelain", root=code.ROOT)
+    commit, tree = origin(code.ROOT)
     record = {
         "figure": job.params.figure,
         "config": job.params.config,
         "code": dict(job.params.code),
         "inputs": {os.path.relpath(path, folder): digest_of(path) for path in job.input if is_result(path)},
         "files": {os.path.relpath(path, folder): digest_of(partial) for path, partial in outputs.items()},
-        "versions": {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}},
-        "commit": git("rev-parse", "HEAD", root=code.ROOT),
-        "tree": {None: None, "": "clean"}.get(changes, "modified"),
+        **json.loads(Path(out.provenance).read_text(encoding="utf-8")),
+        "commit": commit,
+        "tree": tree,
     }
     Path(out.provenance).write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
@@ -100,7 +98,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
     parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
     file = parser.parse_args().file
-    build = next((folder.parent for folder in file.resolve().parents if folder.name == RESULTS), code.ROOT)
+    # Not resolved: `results` may be a link to another disk.
+    parents = Path(os.path.abspath(file)).parents
+    build = next((folder.parent for folder in parents if folder.name == RESULTS), code.ROOT)
     settings = next(path for path in (build / CONFIG, code.ROOT / CONFIG) if path.is_file())
     try:
         record, config = read(file), checked(read_config(settings))

@@ -1,8 +1,8 @@
 """Results on disk: written whole or not at all, each with a record of its content and origin.
 
-The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule, and the
-SHA-256 of every input. It lies beside Snakemake's own records, so that nobody copies it in together with results of
-another config.
+The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule with its
+wildcards and params, and the SHA-256 of every input. It lies beside Snakemake's own records, so that nobody copies it
+in together with results of another config.
 """
 
 import base64

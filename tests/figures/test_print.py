@@ -1,6 +1,9 @@
 """All published figures, drawn of their tables: fit for print, told without colour, the same bytes every time."""
 
+import json
+import sys
 from importlib import import_module
+from types import SimpleNamespace
 
 import matplotlib
 import matplotlib.colors
@@ -8,11 +11,14 @@ import numpy as np
 import pytest
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
+from PIL import Image
 
 from pipeline_trees import ROOT
+from scripts import Given
 from vibroimpact import tables
 from vibroimpact.figures import fig10_04
 from vibroimpact.figures.plotting import style
+from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
@@ -78,3 +84,20 @@ def test_a_table_keeps_every_digit(tmp_path):
     values = np.array([0.1, 1 / 3, 5e-324, 1.7976931348623157e308, -0.0, np.pi])
     tables.write(tables.join([tables.curve("p", "s", x=values, y=values[::-1])]), tmp_path / "t.csv")
     assert (tables.read(tmp_path / "t.csv")["x"].to_numpy().view("i8") == values.view("i8")).all()
+
+
+def test_versions_are_recorded_by_the_process_that_draws(tmp_path, monkeypatch):
+    """Matplotlib writes its own into a picture."""
+    outputs = {"png": tmp_path / "figure.png", "provenance": tmp_path / "figure.provenance.json"}
+    style.save(style.new_figure(20, 20), outputs)
+    versions = json.loads(outputs["provenance"].read_text())["versions"]
+    assert Image.open(outputs["png"]).text["Software"].startswith(f"Matplotlib version{versions['matplotlib']},")
+    assert versions["python"] == sys.version.split()[0]
+    monkeypatch.setattr(provenance, "origin", lambda root: ("0123", "clean"))
+    job = SimpleNamespace(
+        output=Given(png="figure.png", provenance="figure.provenance.json"),
+        params=SimpleNamespace(figure="figure", config={}, code={}),
+        input=[],
+    )
+    provenance.write(job, SimpleNamespace(**outputs))
+    assert json.loads(outputs["provenance"].read_text())["versions"] == versions

@@ -9,6 +9,7 @@ import time
 from dataclasses import fields
 
 import pytest
+import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +17,7 @@ from configs import FREE, GOOD, ONE_CASE, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSU
 from pipeline_trees import CORES, ROOT, run_module
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.system import System
-from vibroimpact_pipeline.config import ConfigError, checked, read
+from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 from vibroimpact_pipeline.config.model import PREFIXES, RULES, Config, Parameters
 from vibroimpact_pipeline.jobs import with_key
 from vibroimpact_pipeline.specs import case_parameters
@@ -55,10 +56,67 @@ def test_an_undamped_system_without_isolated_responses_is_refused(edits, key):
     assert (list(found), "resonance" in found[key]) == ([key], True)
 
 
-def test_numbers_are_read_from_texts_and_entries_taken_away():
-    made = checked(edited("system.kappa = '4e-1' & cases.weak.simulation.digits = '60' & figures.fig10_10 = null"))
+def test_numbers_are_read_from_texts():
+    made = checked(edited("system.kappa = '4e-1' & cases.weak.simulation.digits = '60'"))
     assert (made["system"]["kappa"], made["cases"]["weak"]["simulation"]["digits"]) == (0.4, 60)
-    assert "fig10_10" not in made["figures"]
+
+
+def combined(*texts: str) -> dict:
+    """The config after some files over it."""
+    sources = [("config.yaml", GOOD), *((f"{n}.yaml", yaml.safe_load(text)) for n, text in enumerate(texts, 1))]
+    return checked(merged(sources), sources)
+
+
+@pytest.mark.parametrize("nothing", ["null", "~", "", "'null'"])
+def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
+    before = copy.deepcopy(GOOD)
+    made = combined(
+        f"figures: {{fig10_10: {nothing}}}", f"cases: {{weak: {{simulation: {{digits: {nothing}}}, kappa: 0.7}}}}",
+        f"cases: {{weak: {{kappa: {nothing}}}}}\nregimes: {{epsilon: {{mixed: {nothing}}}}}",
+    )  # fmt: skip
+    assert made == checked(
+        edited("figures.fig10_10 = ... & cases.weak.simulation.digits = ... & regimes.epsilon.mixed = ...")
+    )
+    assert before == GOOD
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("cases: {weak: {f20_hat: 0,4}}", "cases.weak.4: .*; a decimal number has a point"),
+        ("system: {gamma1_hat: 1,2}", "system.2: .*; a decimal number has a point"),
+        ("sweeps: {regime_mapp: }", "sweeps.regime_mapp: .*, did you mean 'regime_map'\\?"),
+        ("figures: {fig10_12: null}", "figures.fig10_12: "),
+        ("cases: {weak: {sigma_e_hat: null}}", "cases.weak.sigma_e_hat: "),
+        ("cases:", None),
+        ("system: {kappa: null}", "system.kappa: missing"),
+    ],
+)  # fmt: skip
+def test_a_null_takes_nothing_else_away(text, key):
+    """Neither what is not there, nor what is needed; the error names the file and the key."""
+    with pytest.raises(ConfigError, match=rf"\A(2.yaml|config.yaml): {key or 'cases'}") as refusal:
+        combined("cases: {weak: {kappa: 0.7}}", text)
+    assert "\n" not in str(refusal.value) or key is None
+
+
+def test_a_null_removes_once():
+    with pytest.raises(ConfigError, match=r"\A2.yaml: sweeps.design: has no value, and no earlier source defines it"):
+        combined("sweeps: {design: null}", "sweeps: {design: null}")
+
+
+def test_a_key_that_is_a_word_for_false_is_named_as_it_is_written(tmp_path):
+    whole, other = tmp_path / "config.yaml", tmp_path / "try.yaml"
+    whole.write_text(TEXT)
+    other.write_text("system: {no: 1, yes: 2}\nsweeps: {off: }\n")
+    sources = [(path, read(path)) for path in (whole, other)]
+    with pytest.raises(ConfigError, match=rf"\A{other}: sweeps.off: nothing is given"):
+        merged(sources)
+    sources[1] = (other, {"system": read(other)["system"]})
+    with pytest.raises(ConfigError) as refusal:
+        checked(merged(sources), sources)
+    assert [line.rpartition(": ")[0] for line in str(refusal.value).split("\n")] == [
+        f"{other}: system.no", f"{other}: system.yes"
+    ]  # fmt: skip
 
 
 def test_a_misspelt_name_is_one_problem_with_a_question():

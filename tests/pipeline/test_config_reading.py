@@ -17,6 +17,10 @@ BAD = {
     "no date": ("a: 2001-99-99\n", ""),
     "an endless number": (f"a: {'9' * 5000}\n", ""),
     "a number beyond floats": (f"a: 1{':01' * 900}.5\n", ""),
+    "an octal number": ("system:\n  kappa: 0200\n", "line 2, column 10: 0200 is 128 in YAML; write a decimal number"),
+    "a negative octal number": ("a: [-0_17]\n", "line 1, column 5: -0_17 is -15 in YAML"),
+    "a number to base 60": ("a: {cycles: 3:20}\n", "line 1, column 13: 3:20 is 200 in YAML"),
+    "a fraction to base 60": ("a: 1:30.5\n", "line 1, column 4: 1:30.5 is 90.5 in YAML"),
     "a zero byte": ("a: 1\0\n", ""),
     "deep nesting": (f"a: {'[' * 9000}\n", "maximum recursion depth"),
     "a list": ("- 1\n", "[1] is not a mapping"),
@@ -67,6 +71,13 @@ def test_values_that_no_config_holds_are_refused_in_lines(what, tmp_path):
 def test_a_file_that_cannot_be_opened_is_refused_in_a_line(name, tmp_path):
     with pytest.raises(ConfigError, match=r"^[^\n]+: (No such file or directory|Is a directory)$"):
         read(tmp_path / name)
+
+
+def test_numbers_are_read_as_they_are_written(tmp_path):
+    """Those that YAML 1.1 reads otherwise are texts in quotes, and have to be good numbers then."""
+    numbers = {"0": 0, "-7": -7, "1_000": 1000, "0.25": 0.25, "1.0e-3": 0.001, "0x10": 16, "'0200'": "0200"}
+    (tmp_path / "config.yaml").write_text(f"a: [{', '.join(numbers)}]\n")
+    assert read(tmp_path / "config.yaml") == {"a": [*numbers.values()]}
 
 
 @pytest.mark.parametrize("change", [lambda text: "\ufeff" + text, lambda text: text.replace("\n", "\r\n")])

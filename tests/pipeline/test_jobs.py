@@ -75,6 +75,15 @@ def edit_a_style():
     (theory().parent / "look.mplstyle").write_text("lines.linewidth: 3\n")
 
 
+@pytest.mark.parametrize(
+    "name", [".ipynb_checkpoints/theory-checkpoint.py", ".theory.py.swp", "__pycache__/theory.pyc"]
+)
+def test_copies_that_editors_make_do_not_count_as_code(job, name):
+    (theory().parent / name).parent.mkdir(exist_ok=True)
+    (theory().parent / name).write_text("rho = 0.5\n")
+    assert code.fingerprint_now("library") == job.params["code"]["library"]
+
+
 def edit_under_an_old_date():
     PAGE.write_text("[]")
     os.utime(PAGE, (1e9, 1e9))
@@ -92,7 +101,9 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
         assert Path(out.csv).name == OUTPUT.name
         assert not OUTPUT.exists()
     assert OUTPUT.read_text() == "2"
-    assert result_records.read_record(OUTPUT)["inputs"] == {str(INPUT): result_records.digest_of(INPUT)}
+    record = result_records.read_record(OUTPUT)
+    assert record["inputs"] == {str(INPUT): result_records.digest_of(INPUT)}
+    assert (record["rule"], record["wildcards"], record["params"]) == ("rule", {}, job.params)
     assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 

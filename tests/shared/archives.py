@@ -1,21 +1,28 @@
 """The built project as a git checkout with its archive, and archives unpacked."""
 
+import os
 import shutil
-import subprocess
 import tarfile
 from pathlib import Path
 
 from pipeline_trees import Tree
+from vibroimpact_pipeline.git import call
 
 COMMITTED = "2020-02-03T04:05:06+00:00"
 IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
 
 
+def git(root: Path, *arguments, **variables) -> str:
+    """Output of a git command that works, as a user without settings calls it."""
+    run = call(*IDENTITY, *arguments, root=root, GIT_CONFIG_GLOBAL=os.devnull, **variables)
+    assert run.returncode == 0, run.stderr
+    return run.stdout.decode().strip()
+
+
 def commit(root: Path, date: str = COMMITTED) -> None:
     """Make a folder a git checkout of all that it does not ignore."""
     for command in (["init"], ["add", "--all"], ["commit", "--message", "all"]):
-        environment = {"GIT_COMMITTER_DATE": date, "GIT_CONFIG_GLOBAL": "/dev/null"}
-        subprocess.run(["git", *IDENTITY, *command], cwd=root, check=True, capture_output=True, env=environment)
+        git(root, *command, GIT_COMMITTER_DATE=date)
 
 
 def checkout(built: Tree, path: Path) -> Tree:

@@ -37,8 +37,8 @@ UNUSUAL = [
     UNFORCED,
     f"{UNFORCED} & system.alpha12_hat = 0 & system.gamma12_hat = 0 & cases.weak.f10_hat = 1",
     f"cases.all = {{f10_hat: 1, f20_hat: -1, simulation: {{{SMALL}}}}}",
-    "cases.weak.simulation.digits = null & figures.fig10_10.C_max = 'null' & regimes.epsilon.mixed = null",
-    "cases.mine = null & figures.fig10_10 = null & sweeps.design = null & figures.fig10_11 = null",
+    "cases.weak.simulation.digits = ... & figures.fig10_10.C_max = ... & regimes.epsilon.mixed = ...",
+    "figures.fig10_10 = ... & sweeps.design = ... & figures.fig10_11 = ...",
     "figures = {mine: {notebook: simulation, model: simulation, case: equal}}",
     "cases.weak = ... & default_case = unequal",
     "cases = {my-own: {f10_hat: 0.7, f20_hat: 0.4, simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], "
@@ -55,7 +55,7 @@ UNUSUAL = [
     "& sweeps.mine.axes[1] = {along: [epsilon], listed: [0.01, 0.02]}",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
     "report.animations = {fast: {case: weak, cycles: 120}}",
-    "cases.weak.epsilon = 0.05 & cases.weak.kappa = '0.5' & cases.weak.sigma_e_hat = null",
+    "cases.weak.epsilon = 0.05 & cases.weak.kappa = '0.5'",
     "figures.case = {notebook: simulation, model: simulation, case: weak}",
     "figures.conditions = {notebook: simulation, model: simulation} & report.animations.case = {case: weak, cycles: 2}",
 ]

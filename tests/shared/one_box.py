@@ -77,27 +77,30 @@ def _refined(x, y, v, u, guess, wall):
     raise ArithmeticError("Newton's method has not converged")
 
 
-def judged(system, start, cycles, second=(0, 0, 0, 0)):
+def judged(system, start, cycles, second=(0, 0, 0, 0), many=False):
     """True error of the final state over the told one of a decided run, else None; its events must be the true ones.
 
-    second: start of box 2 and its ball, which move as those of box 1 do in an undamped system.
+    second: start of box 2 and its ball, which move as those of box 1 do in an undamped system; many: judge the state
+    that an ensemble ends in.
     """
     starts = np.array([start, second], dtype=float)
-    run = vi.simulate(system, [*starts[:, :2].ravel(), *starts[:, 2:].ravel()], cycles)
+    state = [*starts[:, :2].ravel(), *starts[:, 2:].ravel()]
+    run = vi.simulate(system, state, cycles)
     if not run.certificate.decided:
         return None
+    ended = vi.ensemble(system, state, cycles, settle=cycles)["final"] if many else run.final
     worst, impacts = 0.0, 0
     for module, one in enumerate(starts):
         if one.any():
             count, final = motion(system, one.tolist(), cycles)
             impacts += count
-            got = run.final.reshape(2, 2, 2)[:, module].ravel()
+            got = ended.reshape(2, 2, 2)[:, module].ravel()
             worst = max([worst, *(abs(float(exact - arb(float(x)))) for exact, x in zip(final, got, strict=True))])
     assert len(run.events) == impacts, (system, starts, cycles)
     return worst / run.certificate.error
 
 
-def true_over_told(genes, most_impacts=30_000):
+def true_over_told(genes, most_impacts=30_000, many=False):
     """`judged` for genes (GENES,) between 0 and 1; None of a run that is not decided, or long."""
     epsilon, omega, size = 10 ** (-2 + 3 * genes[1]), 10 ** (-0.5 + 0.8 * genes[2]), 10 ** (-1 + 2.2 * genes[3])
     starts, both, cycles = [], genes[9] > 0.5, int(10 ** (1.5 + 1.5 * genes[8]))
@@ -110,6 +113,6 @@ def true_over_told(genes, most_impacts=30_000):
     try:
         defect = DEFECTS[int(9.999 * genes[0])]
         system = one_box(epsilon, 1 - defect, (omega - 1) / epsilon, 0.0 if both else 0.25)
-        return judged(system, starts[0], cycles, starts[1])
+        return judged(system, starts[0], cycles, starts[1], many)
     except (ValueError, ArithmeticError):  # such a system resonates, or the run has too many events
         return None

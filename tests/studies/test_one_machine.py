@@ -1,9 +1,13 @@
 """The design of a ball for one machine: against closed forms, the momentum of the ball, its energy, and finer grids."""
 
 import csv
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
+import matplotlib
 import numpy as np
 import pytest
 
@@ -94,6 +98,14 @@ def test_a_machine_and_its_mirror_image_have_the_same_answer_to_the_digit(found)
     assert mirrored.machine == replace(found.machine, F10=-40.0)
 
 
+def test_what_takes_no_part_changes_nothing(found):
+    """The second module of `PhysicalSystem.single` is one alike; here it is another one."""
+    other = vi.design(replace(MACHINE, k2=4e5, c2=0.0), BAND, **CHOICE)
+    assert (other.machine.L, other.machine.kappa) == (found.machine.L, found.machine.kappa)
+    for name in ("peak", "near", "settling", "without", "fixed", "absorber", "off"):
+        assert getattr(other, name) == pytest.approx(getattr(found, name), rel=1e-6), name
+
+
 def test_displacement_and_impacts_are_those_of_one_motion_in_one_window(found):
     """Where it is periodic, against runs from each start, sampled: the largest of them, and its impacts."""
     waited, watched = found.window
@@ -101,7 +113,9 @@ def test_displacement_and_impacts_are_those_of_one_motion_in_one_window(found):
     omega = 2 * np.pi * row["frequency_Hz"]
     system = replace(found.machine, omega1=omega, omega2=omega).dimensionless()
     runs, spans = [], (0, waited * system.period, (waited + watched) * system.period)
-    for state in one_machine._starts(one_machine.AGAIN, 2):
+    states = vi.starts(one_machine.AGAIN, 2)
+    states[:, [2, 3, 6, 7]] = 0.0
+    for state in states:
         times = np.linspace(0, spans[2], 200 * (waited + watched) + 1)
         run = vi.simulate(system, state, waited + watched, sample_times=times)
         boxes = found.machine.L * np.abs(run.samples[:, 0])
@@ -261,6 +275,70 @@ def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_p
         rows = list(csv.DictReader(file))
     assert [{name: float(value) for name, value in row.items()} for row in rows] == found.response
     assert picture.stat().st_size > 10_000
+
+
+def test_settings_of_the_user_do_not_change_the_picture(found, tmp_path, monkeypatch, capsys):
+    """LaTeX, which need not be installed, a font, a size."""
+    monkeypatch.setattr(one_machine, "design", lambda *given, **more: found)
+    plain, own = tmp_path / "plain.png", tmp_path / "own.png"
+    assert main([*WORDS, "--plot", str(plain)]) == 0
+    with matplotlib.rc_context({"text.usetex": True, "font.size": 30, "savefig.dpi": 10, "savefig.bbox": "tight"}):
+        assert main([*WORDS, "--plot", str(own)]) == 0
+    assert own.read_bytes() == plain.read_bytes()
+    assert capsys.readouterr().out == f"{found}\n" * 2
+
+
+DESIGNED = f"""
+import sys
+from vibroimpact.studies import one_machine
+from vibroimpact.cli.parser import main
+
+class Found:
+    response = [{{"frequency_Hz": 8.0}}]
+    __str__ = lambda self: "the answer"
+
+    def plot(self):
+        from matplotlib.figure import Figure
+
+        return Figure()
+
+one_machine.design = lambda *given, **more: Found()
+sys.exit(main({WORDS} + sys.argv[1:]))
+"""
+
+
+def test_a_backend_that_is_not_installed_does_not_cost_the_picture(tmp_path):
+    """As a notebook sets it for every process that it starts; nor does a reader that has seen enough."""
+    picture, (out, into) = tmp_path / "design.pdf", os.pipe()
+    os.close(out)
+    run = subprocess.run(
+        [sys.executable, "-c", DESIGNED, "--plot", str(picture)],
+        env=os.environ | {"MPLBACKEND": "none"},
+        stdout=into,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    os.close(into)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert picture.read_bytes().startswith(b"%PDF")
+
+
+def failing(*_):
+    raise RuntimeError("latex could not be found\nand more lines")
+
+
+def test_a_picture_that_cannot_be_saved_does_not_cost_the_answer(found, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(one_machine, "design", lambda *given, **more: found)
+    monkeypatch.setattr(one_machine.Design, "plot", failing)
+    table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
+    with pytest.raises(SystemExit) as end:
+        main([*WORDS, "--output", str(table), "--plot", str(picture)])
+    printed = capsys.readouterr()
+    assert end.value.code == 1
+    assert printed.out == f"{found}\n"
+    assert printed.err == f"vibroimpact design: plot: {picture} cannot be saved: latex could not be found\n"
+    assert len(table.read_text().splitlines()) == 1 + len(found.response)
 
 
 def test_the_picture_has_the_displacements_of_the_table(found):

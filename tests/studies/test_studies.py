@@ -12,6 +12,8 @@ from vibroimpact.studies.regimes.bifurcation_curves import Plane, bifurcation_cu
 from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.classification import starts
 from vibroimpact.studies.regimes.families import FOLD, SYMMETRY_BREAKING, SymmetricOrbits
+from vibroimpact.studies.regimes.lyapunov import Spectrum
+from vibroimpact.studies.sweeps.observations import COLUMNS
 from vibroimpact.system import progress
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
@@ -67,6 +69,16 @@ def test_the_exponent_of_chaos_is_the_growth_of_a_small_distance():
     assert abs(found.mean - blocks.mean()) < 4 * error < 0.2
 
 
+def test_growth_with_time_is_not_chaos_within_the_error():
+    """Two balls at rest between moving boxes: a nudge grows with time t, ln(3000 / 1000) / 2000 in the window."""
+    found = vi.largest_lyapunov(SYSTEM.with_(f10_hat=0.1, f20_hat=0.1), REST)
+    assert found == (found.mean, found.error)  # two numbers to unpack
+    assert found.mean == pytest.approx(np.log(3) / 2000, rel=0.05)
+    assert found.mean < 3 * found.error < 0.005
+    longer = vi.largest_lyapunov(SYSTEM.with_(f10_hat=0.1, f20_hat=0.1), REST, cycles=20_000)
+    assert longer.mean < 3 * longer.error < 0.001
+
+
 # Attractors and basins
 
 
@@ -113,6 +125,13 @@ def test_sections_are_the_states_of_single_runs_at_whole_cycles():
 # Sweeps
 
 
+def test_a_row_of_a_sweep_has_python_s_own_numbers():
+    given = dict(starts=2, cycles=30, settle=20, band={"sigma_e_hat": [0.2]})
+    [row] = vi.sweep(SYSTEM, {"f20_hat": np.array([1.0])}, list(COLUMNS), **given)
+    assert row["failed"] == ""
+    assert {type(value) for value in row.values()} == {int, float, str}
+
+
 def test_a_sweep_without_cycles_has_numbers():
     [row] = vi.sweep(SYSTEM, {"f20_hat": [1.0]}, ["amplitudes", "regimes", "peaks"], band={"sigma_e_hat": [0.2]})
     assert row["failed"] == ""
@@ -142,12 +161,24 @@ def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
         vi.sweep(SYSTEM, **{"axes": AXES} | given)
 
 
+SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) for n in (10, 1))
+
+
 @pytest.mark.parametrize(
     ("call", "told"),
     [
         (lambda: vi.largest_lyapunov(SYSTEM, [0.0] * 7), "state"), (lambda: vi.lyapunov_spectrum(1, REST), "system"),
         (lambda: vi.largest_lyapunov(SYSTEM, REST, 1), "cycles"),
         (lambda: vi.largest_lyapunov(SYSTEM, REST, blocks=1), "blocks"),
+        (lambda: vi.largest_lyapunov(SYSTEM, REST, 39), "cycles"), (lambda: SPECTRUM.errors(0), "block"),
+        (lambda: SPECTRUM.errors(6), "block"), (lambda: SPECTRUM.errors(2.5), "block"),
+        (lambda: SPECTRUM.errors(2, resamples=1), "resamples"), (lambda: SPECTRUM.errors(2, seed=-1), "seed"),
+        (lambda: SINGLE_CYCLE.errors(1), "growth"), (lambda: vi.starts(0, 1), "count"),
+        (lambda: vi.starts(2.5, 1), "count"), (lambda: vi.starts(2, -1), "seed"), (lambda: vi.starts(2, None), "seed"),
+        (lambda: vi.starts(2, 1, np.nan), "reach"), (lambda: vi.basins(SYSTEM, {"Y1": []}), r"axes\['Y1'\]"),
+        (lambda: vi.basins(SYSTEM, {"W1": [0.1], "Y2": []}), r"axes\['Y2'\]"),
+        (lambda: vi.basins(SYSTEM, {"Y1": [0.0, 0.5], "W1": [0.2]}), "axes"),
+        (lambda: vi.basins(SYSTEM, {"W2": [0.2], "Y2": [0.0]}), "axes"),
         (lambda: vi.attractors(SYSTEM, REST), "states"),
         (lambda: vi.attractors(SYSTEM, [[2.0, *REST[1:]]]), "start 0"),
         (lambda: vi.basins(SYSTEM, {"Z": [1]}), "axes"), (lambda: vi.basins(SYSTEM, {}), "axes"),
@@ -189,6 +220,18 @@ def test_the_theory_breaks_the_symmetry_where_masri_s_upper_limit_is():
         points = vi.fixed_points(SYSTEM.with_(f10_hat=f10, f20_hat=f20))
         assert min(np.abs(point.C - C).max() for point in points) < 1e-9
         assert C[1] == pytest.approx(SYMMETRY_BREAKING_C, abs=1e-10)
+
+
+def test_folds_of_identical_machines_are_followed_past_their_branch_points():
+    """Those of motions out of step come in pairs: the number of points changes by four."""
+    limits = [(0.38, 0.46), (0.95, 1.05)]
+    found = vi.bifurcation_curves(SYSTEM.with_(sigma20_hat=0.0), ("kappa", "alpha12_hat"), limits, seeds=1)
+    folds = [curve for curve in found if curve.kind == FOLD]
+    assert len(folds) == 2
+    for kappa, alpha in folds[0].points[1:-1:3]:
+        systems = [SYSTEM.with_(sigma20_hat=0.0, kappa=kappa + side, alpha12_hat=alpha) for side in (-1e-5, 1e-5)]
+        counts = [len(vi.fixed_points(system)) for system in systems]
+        assert abs(counts[0] - counts[1]) == 4
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,44 @@ def test_modules_that_a_force_or_the_other_module_moves_take_part(coupled, force
     assert vi.System(**CHAPTER | links | dict(f10_hat=f10, f20_hat=f20)).modules == modules
 
 
+UNDAMPED = dict.fromkeys(("gamma1_hat", "gamma2_hat", "gamma12_hat"), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "load"),
+    [
+        # A resonance by its force: box 1, box 2, and both at once, in which no stiffness is left.
+        (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.5, sigma_e_hat=0.0), [1, 0]),
+        (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=2.1, sigma_e_hat=1.0), [0, 1]),
+        (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=0.0), [1, 0]),
+        (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=0.0), [0, 1]),
+        # Equal boxes in phase, without and with a damper between them; and in antiphase.
+        (UNDAMPED | dict(sigma20_hat=0.0, sigma_e_hat=0.0), [1, 1]),
+        (UNDAMPED | dict(alpha12_hat=0.0, gamma12_hat=0.2, sigma20_hat=0.0, sigma_e_hat=0.0), [1, 1]),
+        (UNDAMPED | dict(alpha12_hat=2.2, sigma20_hat=0.0, sigma_e_hat=10 * (math.sqrt(1.44) - 1)), [1, -1]),
+    ],
+)
+def test_forces_that_load_an_undamped_resonance_are_refused(changes, load):
+    """The mode is known in closed form: a force that does work on it is refused, one across it is not."""
+    one, other = load
+    for f10, f20 in ((one, other), (-0.01 * one, -0.01 * other), (one + other, other - one)):
+        with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* drives the undamped boxes at their resonance"):
+            vi.System(**CHAPTER | changes | dict(f10_hat=f10, f20_hat=f20))
+    if any(dynamic_stiffness(vi.System(**CHAPTER | changes | dict(f10_hat=0.0, f20_hat=0.0))).ravel()):
+        vi.System(**CHAPTER | changes | dict(f10_hat=-other, f20_hat=one))
+    vi.System(**CHAPTER | changes | dict(f10_hat=one, f20_hat=other, gamma1_hat=1e-6, gamma2_hat=1e-6))
+    vi.System(**CHAPTER | changes | dict(f10_hat=one, f20_hat=other, sigma_e_hat=changes["sigma_e_hat"] + 1e-6))
+
+
+@pytest.mark.parametrize(("M", "k"), [(1.0, 1.0), (120.0, 2e5), (0.3, 7.1)])
+def test_one_machine_without_damping_is_refused_at_its_resonance(M, k):
+    machine = dict(M=M, m=0.05 * M, k=k, F=0.05)
+    with pytest.raises(ValueError, match="drives the undamped boxes at their resonance"):
+        vi.PhysicalSystem.single(**machine, c=0.0).dimensionless()
+    vi.PhysicalSystem.single(**machine, c=1e-6 * math.sqrt(k * M)).dimensionless()
+    vi.PhysicalSystem.single(**machine, c=0.0, omega=1.001 * math.sqrt(k / M)).dimensionless()
+
+
 positive = st.floats(0.05, 20.0)
 
 

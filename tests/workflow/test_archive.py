@@ -7,14 +7,15 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
-from archives import archive_of, commit, unpacked
+from archives import archive_of, commit, git, unpacked
 from pipeline_trees import ROOT, whole_copy
-from vibroimpact_pipeline.archive import results_behind
-from vibroimpact_pipeline.result_records import write_record
+from vibroimpact_pipeline.archive import crate, made_otherwise, results_behind
+from vibroimpact_pipeline.result_records import digest_of, record_of, write_record
 
 FIGURE = "results/figures/fig10_04"
 HERE = str(Path(sys.executable).parent)
@@ -39,9 +40,9 @@ def elsewhere(archived, tmp_path):
 
 
 def test_the_name_tells_version_and_commit(archived):
-    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=archived.path, capture_output=True, text=True, check=True)
-    version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
-    assert archive_of(archived).name == f"vibroimpact-{version}-{commit.stdout[:12]}.tar.gz"
+    commit = git(archived.path, "rev-parse", "HEAD")
+    named = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    assert archive_of(archived).name == f"vibroimpact-{named}-{commit[:12]}.tar.gz"
 
 
 def test_results_on_demand_stay_out(tmp_path, monkeypatch):
@@ -53,6 +54,115 @@ def test_results_on_demand_stay_out(tmp_path, monkeypatch):
         Path("results", name).write_text(name)
         write_record(Path("results", name), {"rule": rule, "inputs": {f"results/{one}": "" for one in inputs}})
     assert results_behind(["results/figure.png"]) == sorted(Path("results", name) for name in made)
+
+
+TABLE, PICTURE = "results/table.csv", "results/figure.png"
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """A table and a picture of it, and what their rules make them with."""
+    monkeypatch.chdir(tmp_path)
+    Path("results").mkdir()
+    now = {"solve": ({"system": {"kappa": 0.65}, "code": {"library": "a"}}, []), "draw": ({"config": {}}, [TABLE])}
+    for path, rule in ((TABLE, "solve"), (PICTURE, "draw")):
+        Path(path).write_text(path)
+        params, inputs = now[rule]
+        origin = {"params": params, "inputs": {one: digest_of(one) for one in inputs}}
+        write_record(path, {"rule": rule, "wildcards": {"case": "equal"}, **origin})
+    return now
+
+
+def otherwise(now):
+    return list(made_otherwise([PICTURE, "results/absent.csv"], lambda rule, wildcards: now[rule]))
+
+
+def another_parameter(now):
+    now["solve"][0]["system"]["kappa"] = 0.5
+
+
+def another_library(now):
+    now["solve"][0]["code"]["library"] = "b"
+
+
+def a_setting_that_is_new(now):
+    now["draw"][0]["config"]["figures.figure.C_max"] = 2.0
+
+
+def an_input_that_is_new(now):
+    now["draw"][1].append("results/other.csv")
+
+
+def a_table_made_again(now):
+    Path(TABLE).write_text("another")
+    write_record(TABLE, {"rule": "solve", "wildcards": {}, "inputs": {}, "params": now["solve"][0]})
+
+
+def both(now):
+    a_table_made_again(now)
+    another_parameter(now)
+
+
+def a_rule_that_is_gone(now):
+    del now["solve"]
+
+
+def a_record_without_params(now):
+    record_of(TABLE).write_text(json.dumps({"rule": "solve", "sha256": digest_of(TABLE)}))
+
+
+CHANGES = {
+    another_parameter: f"{TABLE}: made with system.kappa 0.65, now 0.5",
+    another_library: f"{TABLE}: made with code.library a, now b",
+    a_setting_that_is_new: f"{PICTURE}: made with config.figures.figure.C_max None, now 2.0",
+    an_input_that_is_new: f"{PICTURE}: made from other inputs",
+    a_table_made_again: f"{PICTURE}: made from another {TABLE}",
+    both: f"{TABLE}: made with system.kappa 0.65, now 0.5",
+    a_rule_that_is_gone: f"{TABLE}: no record of what it was made with",
+    a_record_without_params: f"{TABLE}: no record of what it was made with",
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_result_that_was_made_otherwise_is_named(made, change):
+    assert otherwise(made) == []
+    change(made)
+    assert otherwise(made)[0] == CHANGES[change]
+
+
+def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
+    """Nothing is built for an archive that would say what is not so."""
+    commit(tree.path)
+    said = tree.dry_run("--config", "figures={fig10_04: {C_max: 3.0}}", "--", "archive")
+    assert tree.returncode == 1
+    assert "archive: figures.fig10_04.C_max is 3.0, in config/config.yaml 2.0." in said
+    assert "Traceback" not in said
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "told"),
+    [
+        ("config/config.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]", "C_range [0.5, 2.2], now [0.5, 2.0]"),
+        ("src/vibroimpact/theory/manifold.py", "def rho(", "ANOTHER = 0\n\n\ndef rho(", "made with code.library"),
+    ],
+    ids=["config", "code"],
+)
+def test_results_of_another_commit_are_refused_before_anything_is_built(drawn, file, old, new, told):
+    """Also where Snakemake is to look at dates only."""
+    drawn.edit(file, old, new)
+    commit(drawn.path)
+    said = drawn.dry_run("--rerun-triggers", "mtime", "--", "archive")
+    assert drawn.returncode == 1
+    assert "archive: results/figures/companion_10_0" in said
+    assert told in said
+    assert "Build first: snakemake --cores 2" in said
+
+
+def test_the_language_of_the_workflow_has_its_version(tmp_path):
+    cited = {"authors": [{"name": "A"}], "title": "t", "license": "MIT", "version": "1"}
+    graph = crate(tmp_path, cited, "commit", "2020-02-03", {}).metadata.generate()["@graph"]
+    (language,) = (entity for entity in graph if entity["@type"] == "ComputerLanguage")
+    assert language["version"] == version("snakemake")
 
 
 @pytest.mark.thorough
@@ -97,12 +207,11 @@ def test_the_sums_of_all_files_are_in_the_archive(elsewhere):
 def test_elsewhere_there_is_no_archive_without_git(elsewhere):
     said = elsewhere.snakemake("archive", check=False)
     assert elsewhere.returncode == 1
-    assert "archive: commit all changes first" in said
+    assert "archive: there is no git" in said
     assert "Traceback" not in said
 
 
 def test_a_container_has_the_checkout_that_an_archive_needs():
     """Docker reads patterns as git does, but for those without a slash, which git also finds further below."""
-    listed = ["git", "ls-files", "--cached", "--ignored", "--exclude-from=.dockerignore"]
-    assert subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout == ""
+    assert git(ROOT, "ls-files", "--cached", "--ignored", "--exclude-from=.dockerignore") == ""
     assert not {".git", "**/.git", ".*"} & set((ROOT / ".dockerignore").read_text().split())

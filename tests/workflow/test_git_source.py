@@ -8,7 +8,7 @@ import zipfile
 
 import pytest
 
-from archives import commit
+from archives import commit, git
 from compiled_code import share
 from pipeline_trees import ROOT, SNAKEMAKE, Tree
 
@@ -54,10 +54,8 @@ def outer(tree, tmp_path, wheel):
         (tmp_path / "owner").mkdir(exist_ok=True)
         source = tmp_path / "owner/vibroimpact"
         if not source.exists():
-            subprocess.run(["git", "clone", "--bare", tree.path, source], check=True, capture_output=True)
-        named = subprocess.run(
-            ["git", "rev-parse", "HEAD"], cwd=tree.path, check=True, capture_output=True, text=True
-        ).stdout.strip()
+            git(tmp_path, "clone", "--bare", tree.path, source)
+        named = git(tree.path, "rev-parse", "HEAD")
         (folder / "Snakefile").write_text(OUTER.format(ref=f'commit="{named}"'))
         done = subprocess.run(
             [*SNAKEMAKE, *arguments],

@@ -1,12 +1,12 @@
 """The matrix of Pythons and packages: which are found, what runs in which clone, and what is told of it."""
 
 import json
-import subprocess
 import sys
 
 import pytest
 
 import matrix
+from archives import git
 
 MAKEFILE = """
 set-up:
@@ -60,11 +60,6 @@ def project(tmp_path, monkeypatch):
     monkeypatch.setenv("CALLS", str(tmp_path / "calls"))
     monkeypatch.setenv("MAKEFLAGS", "n")  # as from a make that runs this
     return root
-
-
-def git(root, *arguments):
-    identity = ["-c", "user.name=t", "-c", "user.email=t@t"]
-    subprocess.run(["git", *identity, *arguments], cwd=root, check=True)
 
 
 def rows(output) -> list[list[str]]:

@@ -180,9 +180,18 @@ def test_a_user_without_a_name_or_a_home(tree):
     assert (tree / f"results/figures/{FIGURE}.png").exists()
 
 
-def test_jobs_use_the_library_beside_the_rules(tree):
-    """Not the one that is installed, which is that of this checkout."""
+def test_jobs_use_the_library_beside_the_rules_and_the_interpreter_of_snakemake(tree, tmp_path):
+    """Not the library that is installed, which is that of this checkout, nor a kernel or a backend of the user."""
     module = "src/vibroimpact/figures/fig10_04.py"
-    tree.edit(module, "def compute(", "print('library:', __file__)\n\n\ndef compute(")
-    tree.snakemake(FIGURE, PYTHONPATH="/nowhere")
-    assert f"library: {tree / module}" in (tree / f"results/logs/figures/{FIGURE}.ipynb").read_text()
+    tree.edit(module, "def compute(", "import sys\n\nprint('by', sys.executable, __file__)\n\n\ndef compute(")
+    kernel = tmp_path / "data/kernels/python3/kernel.json"
+    kernel.parent.mkdir(parents=True)
+    kernel.write_text(json.dumps({"argv": ["false"], "display_name": "Python 3", "language": "python"}))
+    startup = tmp_path / "startup.py"
+    startup.write_text("raise SystemExit('run at the start')")
+    jupyter = {"JUPYTER_PATH": str(tmp_path / "data"), "JUPYTER_DATA_DIR": str(tmp_path / "data")}
+    of_user = jupyter | {"MPLBACKEND": "none", "PYTHONSTARTUP": str(startup), "PYTHONPATH": "/nowhere"}
+    tree.snakemake(FIGURE, **of_user)
+    executed = (tree / f"results/logs/figures/{FIGURE}.ipynb").read_text()
+    assert f"by {sys.executable} {tree / module}" in executed
+    assert "run at the start" not in executed

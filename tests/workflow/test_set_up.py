@@ -1,9 +1,11 @@
 """Set-up: done once, from the lock alone, started over if it was killed, and one line where it cannot work."""
 
+import ast
 import os
 import re
 import signal
 import subprocess
+import sys
 import time
 import tomllib
 import zipfile
@@ -12,9 +14,9 @@ import pytest
 import yaml
 from packaging.requirements import Requirement
 
-import compile as script
 from chapter import PARAMETERS
 from pipeline_trees import ROOT, Tree
+from vibroimpact.compile import event_loop
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
@@ -22,7 +24,9 @@ from vibroimpact.system import System
 from vibroimpact_pipeline import environment
 
 RECORDING = """#!/bin/sh
-# An interpreter that makes an environment of itself, and writes down what pip is asked to install.
+# An interpreter that makes an environment of itself, and writes down what pip is asked to install, and with what.
+env | grep '^PYTHON[A-Z]' >>variables
+case "$*" in *"-m pip "*) env | grep '^PIP_' >>variables ;; esac
 case "$*" in
     *_base_executable*) echo "$0" ;;
     *platform.*) echo cpython 3 11 nothing ;;
@@ -109,6 +113,78 @@ def test_everything_is_installed_from_the_lock_and_first_of_all_what_builds_pack
     assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
 
 
+def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, recording, tmp_path):
+    """CDPATH leads `cd workflow/..` elsewhere; a variable of Python or pip has packages put elsewhere, or not found."""
+    (tmp_path / "elsewhere/workflow").mkdir(parents=True)
+    names = ("HOME", "PATH", "USERBASE", "STARTUP", "DONTWRITEBYTECODE")
+    set_up(
+        tree,
+        **recording,
+        CDPATH=str(tmp_path / "elsewhere"),
+        **{f"PYTHON{name}": "/nowhere" for name in names},
+        **dict.fromkeys(("PIP_USER", "PIP_REQUIRE_HASHES", "PIP_DRY_RUN"), "1"),
+        **dict.fromkeys(("PIP_TARGET", "PIP_PREFIX", "PIP_CONSTRAINT", "PIP_REQUIREMENT", "PIP_PYTHON"), "/nowhere"),
+    )
+    assert not (tmp_path / "elsewhere/.venv").exists()
+    told = (tree / "variables").read_text().splitlines()
+    assert "PIP_CONFIG_FILE=/dev/null" in told
+    assert [line for line in told if line.endswith(("=/nowhere", "=1"))] == []
+
+
+def test_every_script_of_the_shell_that_changes_folders_ignores_cdpath():
+    scripts = [ROOT / ".ci/run", *(ROOT / "workflow").glob("*.sh")]
+    assert [
+        path for path in scripts if not re.search(r"unset .*\n(?:.*\n)*cd |CDPATH; do(?:.*\n)+cd ", path.read_text())
+    ] == []
+
+
+PIP_CONF = """
+[global]
+user = true
+target = /nowhere
+require-virtualenv = true
+index-url = https://mirror.example.org/simple?a=b
+extra-index-url =
+    https://one.example.org
+    https://two.example.org
+trusted-host = of.the.file
+[install]
+constraint = /nowhere
+trusted-host = of.the.command
+"""
+
+
+def test_of_the_settings_of_pip_those_count_that_say_how_to_reach_packages(tree, tmp_path):
+    """As pip itself lists them: in a file or in a variable, which goes before the file."""
+    (tree / ".venv").symlink_to(sys.prefix)
+    (tmp_path / "pip.conf").write_text(PIP_CONF)
+    given = {"CONFIG_FILE": str(tmp_path / "pip.conf"), "USER": "1", "TARGET": "/nowhere", "RETRIES": "7"}
+    of_user = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
+    run = subprocess.run(
+        [tree / "workflow/pip.sh", "config", "list"],
+        env=of_user | {f"PIP_{name}": value for name, value in given.items()} | {"PIP_TRUSTED_HOST": "of.the.variable"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    told = dict(line.removeprefix(":env:.").split("=", 1) for line in run.stdout.splitlines())
+    told = {name: ast.literal_eval(value).split() for name, value in told.items()}
+    of_this_machine = {"cert", "find-links", "proxy", "no-index", "timeout", "default-timeout"}
+    assert {name: value for name, value in told.items() if name not in of_this_machine} == {
+        "cache-dir": [str(tree / ".cache/pip")],
+        "config-file": ["/dev/null"],
+        "extra-index-url": ["https://one.example.org", "https://two.example.org"],
+        "index-url": ["https://mirror.example.org/simple?a=b"],
+        "retries": ["7"],
+        "trusted-host": ["of.the.variable"],
+    }
+
+
+def test_one_script_calls_pip():
+    files = [ROOT / name for name in ("Makefile", "Dockerfile", ".ci/run", "workflow/set_up.sh", "workflow/pip.sh")]
+    assert [path.name for path in files if "-m pip" in path.read_text()] == ["pip.sh"]
+
+
 @pytest.mark.thorough
 def test_packages_are_checked_by_hash(tree):
     (tree / "wheels").mkdir()
@@ -164,7 +240,7 @@ def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):
     simulate(system, [0] * 8, 1, tau0=1, sample_times=[2])
     ensemble(system, [0] * 8, 1)
     monkeypatch.setattr(integrate, "compile", asked.append)
-    script.engine()
+    event_loop()
     assert [tuple(signature) for signature in asked] == list(integrate.signatures)
 
 

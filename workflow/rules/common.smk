@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import listfiles, update_config, validate
+from snakemake.utils import listfiles, validate
 
 # Snakemake evaluates a module in a namespace of its own, under its name; since 9.27 the workflow itself under none.
 IS_MODULE = __name__ not in ("snakemake.workflow", None)
@@ -87,19 +87,16 @@ def checked_config(given):
         validate(given, schema=str(schemas / "config.schema.json"))
         return given | rest
     last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
-    whole = {}
-    for file in CONFIG_FILES if IS_MODULE else ():
-        update_config(whole, read(file))
-    update_config(whole, given)
+    sources = [*SOURCES, last]
     try:
-        return checked(whole, [*SOURCES, last])
+        return checked(merged(sources), sources)
     except ConfigError as error:
         refuse(error)
 
 
 WITH_MODEL = all(map(importlib.util.find_spec, ("pydantic", "numpy")))
 if WITH_MODEL:
-    from vibroimpact_pipeline.config import ConfigError, checked, read
+    from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 
     try:
         SOURCES = [(file, read(file)) for file in config_files()]  # before Snakemake does, whose complaints are longer

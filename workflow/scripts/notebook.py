@@ -9,12 +9,23 @@ from tempfile import TemporaryDirectory
 from uuid import uuid4
 
 import papermill
+from jupyter_client.kernelspec import KernelSpecManager
+from jupyter_client.manager import AsyncKernelManager
+from traitlets import default
 from traitlets.config import Config
 
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.html.offline import page
 from vibroimpact_pipeline.jobs import running
+
+
+class OwnKernel(AsyncKernelManager):
+    """A kernel of the interpreter that runs this job, whatever the kernels are that Jupyter finds by that name."""
+
+    @default("kernel_spec_manager")
+    def of_this_interpreter(self):
+        return KernelSpecManager(kernel_dirs=[])
 
 
 def execute(notebook, executed, parameters: dict):
@@ -38,6 +49,7 @@ def execute(notebook, executed, parameters: dict):
                 str(executed),
                 parameters,
                 kernel_name="python3",
+                kernel_manager_class=OwnKernel,
                 progress_bar=False,
                 config=Config({"KernelManager": sockets}),
             )
@@ -65,7 +77,7 @@ with running(snakemake) as out:
         **settings.pop("plant", {}),
         **settings,
         "inputs": {name: path for name, path in snakemake.input.items() if name != "notebook"},
-        "outputs": {name: path for name, path in outputs.items() if name not in ("html", "provenance")},
+        "outputs": {name: path for name, path in outputs.items() if name != "html"},
     }
     executed = Path(snakemake.log[0]).with_suffix(".ipynb")
     print(f"{snakemake.input.notebook} as it was executed: {executed}")

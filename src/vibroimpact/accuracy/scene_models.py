@@ -88,8 +88,9 @@ def _cost(level, seconds):
 
 
 def _share(values, truth, span):
-    """Largest difference as a share of an axis of this span."""
-    return float(np.abs(np.asarray(values, float) - np.asarray(truth, float)).max() / span)
+    """Largest difference as a share of an axis of this span; 0 without one, also where nothing moves."""
+    difference = np.nanmax(np.abs(np.asarray(values, float) - np.asarray(truth, float)))
+    return float(difference / span) if difference else 0.0
 
 
 def _span(values):
@@ -135,7 +136,10 @@ def _true_B(C, r):
 
 
 def true_fixed_point(system: System, point):
-    """A fixed point of the slow flow solved anew with 30 digits: (10.23) as two complex equations, written out."""
+    """A fixed point of the slow flow solved anew with 30 digits: (10.23) as two complex equations, written out.
+
+    A module that takes no part has C = psi = 0.
+    """
     with mp.workdps(DIGITS):
         s = {name: mp.mpf(str(value)) for name, value in vars(system).items()}
         r = _true_rho(s["kappa"])
@@ -149,12 +153,17 @@ def true_fixed_point(system: System, point):
             b = [B[0] * mp.exp(-1j * psi1), B[1] * mp.exp(-1j * psi2)]
             found = []
             for i in range(2):
+                if i + 1 not in system.modules:
+                    found += [C[i], (psi1, psi2)[i]]
+                    continue
                 impacts = 8 / mp.pi**2 * C[i] * ((1 - C[i]) + 1j * r * C[i]) / B[i] ** 2
                 value = (tuning[i] - 1j * damping[i] - impacts) * b[i] + coupling * b[1 - i] + force[i]
                 found += [value.real, value.imag]
             return found
 
-        C1, psi1, C2, psi2 = mp.findroot(residual, [point.C[0], point.psi[0], point.C[1], point.psi[1]])
+        C1, psi1, C2, psi2 = mp.findroot(
+            residual, np.nan_to_num(np.column_stack([point.C, point.psi])).ravel().tolist()
+        )
         return SimpleNamespace(C=(C1, C2), B=[_true_B(C1, r), _true_B(C2, r)], psi=(psi1, psi2), rho=r)
 
 
@@ -178,11 +187,11 @@ def slow_flow_levels(scene: dict, system: System, points: list) -> list[Level]:
 
 def _true_response(system, point, tau, name):
     """U, W, X or Y of (10.9), (10.10) with 30 digits, shape (n, 2)."""
-    values = np.empty((len(tau), 2))
+    values = np.zeros((len(tau), 2))
     with mp.workdps(DIGITS):
         omega = 1 + mp.mpf(str(system.epsilon)) * mp.mpf(str(system.sigma_e_hat))
         e = mp.mpf(str(system.epsilon))
-        for i in range(2):
+        for i in (module - 1 for module in system.modules):
             C, B, psi = point.C[i], point.B[i], point.psi[i]
             lag = mp.atan2(1 - C, point.rho * C)
             for n, t in enumerate(tau):

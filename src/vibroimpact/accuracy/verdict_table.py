@@ -29,7 +29,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
     of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
     (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, the state at tau = 0,
-    residual, one column per criterion.
+    residual, one column per criterion. Of a single machine what belongs to the other module is NaN, as are modulus_5 to
+    modulus_8.
     """
     counts = {True: 0, False: 0}
     rows = []
@@ -39,7 +40,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         verdicts = {**criteria.of_orbit(orbit), EXACT: floquet(orbit)}
         kind = [case, label, orbit.symmetric, orbit.admissible]
         numbers = [*orbit.C, *orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
-        numbers += [*np.abs(orbit.multipliers), *orbit.state]
+        moduli = np.full(8, np.nan)
+        moduli[: len(orbit.multipliers)] = np.abs(orbit.multipliers)
+        numbers += [*moduli, *orbit.state]
         rows.append([*kind, *numbers, orbit.residual, *(verdicts[criterion] for criterion in CRITERIA)])
     return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT), FORMER)
 
@@ -61,7 +64,7 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
     for (label, point), place in zip(labelled, found, strict=True):
         partner = None if place is None else symmetric.iloc[place]
         exact = NO_ORBIT if partner is None else partner[EXACT]
-        within = all(stays_within_walls(C, system.kappa) for C in point.C)
+        within = all(stays_within_walls(C, system.kappa) for C in point.C if np.isfinite(C))
         verdicts = {**criteria.of_fixed_point(system, point), EXACT: exact}
         orbit = "" if partner is None else partner["label"]
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
@@ -73,11 +76,12 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
 def partners(points, orbits) -> list[int | None]:
     """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
 
+    C of a module that takes no part is NaN, and is left out.
     None where another fixed point is nearer to that orbit, or there is none within REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):
         return [None] * len(points)
-    gaps = np.linalg.norm(points[:, None] - orbits[None], axis=2)
+    gaps = np.linalg.norm(np.nan_to_num(points[:, None] - orbits[None]), axis=2)
     nearest = enumerate(gaps.argmin(axis=1))
     return [int(k) if gaps[:, k].argmin() == n and gaps[n, k] < REACH else None for n, k in nearest]

@@ -48,10 +48,10 @@ class Table(NamedTuple):
     """Draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write CSV to an open text file, every number with as many digits as identify it."""
+        """Write CSV to an open text file, every number with as many digits as identify it, NaN as an empty field."""
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
-        writer.writerows(self.rows)
+        writer.writerows([["" if value != value else value for value in row] for row in self.rows])
 
 
 class Command(NamedTuple):
@@ -164,7 +164,7 @@ def _design(options):
     if options.plot is not None and options.plot.suffix not in PICTURES:
         raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:
-        need("figures", "matplotlib")
+        need("figures", "matplotlib", "pandas")
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
         raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")

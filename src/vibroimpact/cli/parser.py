@@ -61,11 +61,9 @@ def _tell(options) -> int:
         _check_folders(options)
         command = COMMANDS[options.command]
         table = command.compute(*([system_of(options)] if command.of_system else []), options)
-        if getattr(options, "plot", None):
-            table.plot().savefig(options.plot)
         _put(table, options.output)
-    except BrokenPipeError:  # the reader has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if getattr(options, "plot", None):
+            _draw(table, options)
     except (ValueError, ImportError) as error:
         options.parser.error(str(error))
     except (ArithmeticError, OSError) as error:
@@ -86,11 +84,33 @@ def _check_folders(options):
 
 
 def _put(table: Table, output: Path | None):
-    if table.answer:
-        print(table.answer, flush=True)
-    elif output is None:
-        table.write(sys.stdout)
-        sys.stdout.flush()
-    if output is not None:
-        with open(output, "w", encoding="utf-8", newline="") as file:
-            table.write(file)
+    """Write the table to its file and print the answer, or print the table; a table that cannot be saved is printed."""
+    failed = None
+    try:
+        if output is not None:
+            with open(output, "w", encoding="utf-8", newline="") as file:
+                table.write(file)
+    except OSError as error:
+        failed = OSError(f"output: {output} cannot be written, so the table is printed: {error.strerror}")
+    try:
+        if table.answer:
+            print(table.answer, flush=True)
+        if failed or (output is None and not table.answer):
+            table.write(sys.stdout)
+            sys.stdout.flush()
+    except BrokenPipeError:  # the reader has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if failed:
+        raise failed
+
+
+def _draw(table, options):
+    """Save the picture of an answer that is already printed, in the style of the project."""
+    os.environ["MPLBACKEND"] = "agg"  # Matplotlib itself does not load with the name of a backend that is not installed
+    try:
+        from vibroimpact.figures.plotting.style import save, styled
+
+        save(styled(table.plot)(), {options.plot.suffix.removeprefix("."): options.plot})
+    except Exception as error:  # drawing runs other programs and reads fonts; the answer is out in any case
+        reason = f"{error}".strip().partition("\n")[0]
+        options.parser.exit(1, f"{options.parser.prog}: plot: {options.plot} cannot be saved: {reason}\n")

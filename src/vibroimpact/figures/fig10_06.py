@@ -75,7 +75,7 @@ def compute(system, points: pd.DataFrame, C_max) -> pd.DataFrame:
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
     """The curves of both planes of each labelled point; see `compute`."""
-    ends = np.max([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)], axis=0)
+    ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
     return [part for point in points for i in MODULES for part in _plane(system, point, i, ends[i - 1])]
@@ -88,7 +88,7 @@ def _plane(system, point, module, end):
     inside = singular[:, 0] <= end
     return [
         *branches(panel, system.kappa, end),
-        curve(panel, f"P_{module}", C=C, B=B),
+        *([curve(panel, f"P_{module}", C=C, B=B)] if module in system.modules else []),
         *(
             curve(panel, series, C=part[:, 0], B=part[:, 1])
             for series, part in ((f"S_{module}", singular[inside]), (f"S_{module} beyond", singular[~inside]))
@@ -114,13 +114,13 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def verdict(table: pd.DataFrame, label: str) -> str:
-    """Return the verdict of (10.26) on a fixed point: stable where both projections lie on the stable branch."""
+    """Return the verdict of (10.26) on a fixed point: stable where its projections lie on the stable branch."""
     panels = [f"{label}{module}" for module in MODULES]
     places = [select(table, panel, f"P_{module}")["C"] for panel, module in zip(panels, MODULES, strict=True)]
     borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]
-    if not all(map(len, places)):
+    if not any(map(len, places)):
         return ""
-    stable = all(place.item() > border for place, border in zip(places, borders, strict=True))
+    stable = all(border < C for place, border in zip(places, borders, strict=True) for C in place)
     return f"{'stable' if stable else 'unstable'} by (10.26)"
 
 

@@ -73,8 +73,11 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float) -> p
 
 
 def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Evenly spaced times in [0, end] and the impacts among them, each half a period after the one before."""
-    impacts = np.arange(first - period, end, 0.5 * period)
+    """Evenly spaced times in [0, end] and the impacts among them, each half a period after the one before.
+
+    first: time of an impact; NaN if there is none.
+    """
+    impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
     return np.union1d(np.linspace(0.0, end, points), impacts[impacts >= 0])
 
 

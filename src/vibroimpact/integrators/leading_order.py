@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from vibroimpact.integrators.protocol import REFUSED, Method, MethodRun, failed
+from vibroimpact.system.state import MODULES
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.response import impact_times, leading_order
@@ -39,14 +40,16 @@ def steady_state(system, point, tau) -> np.ndarray:
     state = np.empty(8)
     state[0:4:2], state[1:4:2] = response.X[0], response.Y[0]
     state[4::2], state[5::2] = X_rate, X_rate - W_rate
+    state[~np.isin(MODULES, system.modules)] = 0.0
     return state
 
 
 def _impacts(system, point, start, end):
     rows = []
-    for i, first in enumerate(impact_times(system, point)):
+    for module in system.modules:
+        first = impact_times(system, point)[module - 1]
         half = 0.5 * system.period
         numbers = np.arange(np.ceil((start - first) / half), np.floor((end - first) / half) + 1)
-        speed = 2.0 * (2.0 / np.pi * point.C[i] * system.Omega) / (1.0 + system.kappa)  # (10.14)
-        rows += [(first + n * half, i + 1, 1 if n % 2 == 0 else -1, speed) for n in numbers]
+        speed = 2.0 * (2.0 / np.pi * point.C[module - 1] * system.Omega) / (1.0 + system.kappa)  # (10.14)
+        rows += [(first + n * half, module, 1 if n % 2 == 0 else -1, speed) for n in numbers]
     return sorted(rows)

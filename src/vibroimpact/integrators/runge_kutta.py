@@ -10,14 +10,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
-from vibroimpact.integrators.rigid_contact import (
-    ROOM,
-    SLOWEST,
-    first_look,
-    guard,
-    newton_or_middle,
-    resolve,
-)
+from vibroimpact.integrators.rigid_contact import ROOM, SLOWEST, first_look, guard, newton_or_middle, resolve
 
 TRIES, NEAR = 60, 1e-14
 """Steps of Newton's method for an event at most, and the last one."""

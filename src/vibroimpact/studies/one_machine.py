@@ -24,7 +24,7 @@ from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals
 from vibroimpact.system.extras import need
 from vibroimpact.system.progress import counted
-from vibroimpact.system.state import IMPACT, RELEASE, STICK
+from vibroimpact.system.state import IMPACT, RELEASE, STICK, idle_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
 """Restitution coefficients that are tried if none is asked for: a damped pair of steels has some 0.6."""
@@ -314,14 +314,14 @@ class _Study:
         low, high = pair("band", band)
         if not 0 < low < high:
             raise ValueError(f"band: ({low}, {high}) Hz; needs 0 < low < high")
-        if machine.k12 or machine.c12 or machine.F20:
-            raise ValueError("machine: it is coupled to another one, or that is driven; see PhysicalSystem.single")
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F other than 0")
         # With -F all signs change; from the same starts that would be another sample of the same motions.
         self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
+        if self.system.modules != (1,):
+            raise ValueError("machine: it is coupled to another one, or that is driven; see PhysicalSystem.single")
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
         width = 2 * ratio * self.hertz
         self.frequencies = np.linspace(low, high, min(max(LEAST, math.ceil(PER_WIDTH * (high - low) / width)), MOST))
@@ -334,7 +334,7 @@ class _Study:
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """A row per pair of clearance and restitution, with the peak from few starts."""
-        rows, states = [], _starts(TRIED, 1)
+        rows, states = [], self._starts(TRIED, 1)
         for L, kappa in counted(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
             runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
@@ -349,7 +349,7 @@ class _Study:
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
-        before = finished(ensemble(each, _starts(AGAIN, 2), self.wait))
+        before = finished(ensemble(each, self._starts(AGAIN, 2), self.wait))
         settled = finished(ensemble(each, before["final"], WATCHED))
         largest, settling = (machine.L * runs["largest"][..., 0] for runs in (settled, before))
         return _Measured(machine, systems, largest, settling[:, 0], before["final"], settled["final"])
@@ -370,16 +370,12 @@ class _Study:
             rows.append({name: float(value) for name, value in row.items()})
         return rows
 
+    def _starts(self, count, seed):
+        return idle_at_rest(self.system, spread_starts(count, seed))
+
     def _systems(self, machine):
         omegas = (2 * math.pi * self.frequencies).tolist()
         return [replace(machine, omega1=omega, omega2=omega).dimensionless() for omega in omegas]
-
-
-def _starts(count, seed):
-    """Rest, and other starts of machine 1, evenly spread; machine 2 rests, which nothing drives."""
-    states = spread_starts(count, seed)
-    states[:, [2, 3, 6, 7]] = 0.0
-    return states
 
 
 def _impacts(machine, run) -> dict:

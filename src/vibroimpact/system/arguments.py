@@ -5,6 +5,8 @@ import numbers
 
 import numpy as np
 
+MOST_SEED = 2**32 - 1
+"""Largest seed of random numbers that is taken."""
 _SHOWN = 60
 
 
@@ -15,9 +17,10 @@ def instance(name: str, value, kind: type):
         ValueError: it is not; where it would be after `dimensionless()`, the message says so.
     """
     if not isinstance(value, kind):
-        if hasattr(value, "dimensionless"):
-            raise ValueError(f"{name}: a {type(value).__name__} is not a {kind.__name__}; call .dimensionless()")
-        raise ValueError(f"{name}: {shown(value)} is not a {kind.__name__}")
+        if kind.__name__ == "System" and hasattr(value, "dimensionless"):
+            raise ValueError(f"{name}: a {type(value).__name__} is not a System; call .dimensionless()")
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise ValueError(f"{name}: {shown(value)} is not {article} {kind.__name__}")
     return value
 
 
@@ -72,6 +75,8 @@ def reals(name: str, values) -> np.ndarray:
         array = np.array(values)
     except (TypeError, ValueError):  # rows of different lengths
         array = None
+    if array is not None and array.dtype == object and all(map(_is_real, array.flat)):
+        array = np.array(array.tolist())  # a row of a table with columns of several types
     if array is None or array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: {shown(values)} is not an array of real numbers")
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):

@@ -104,12 +104,24 @@ class System:
     def modules(self) -> tuple[int, ...]:
         """Numbers of the modules that take part: a force drives them, or the module to which they are coupled.
 
-        A module without force and coupling takes no part: it stays at rest, or comes to rest. This is the only place
-        that decides it. A single machine has (1,), see `PhysicalSystem.single`.
+        Nothing drives a module without force and coupling, and analyses leave it out; `simulate` moves it from its
+        start. This is the only place that decides it. A single machine has (1,), see `PhysicalSystem.single`.
         """
         forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
         return (1, 2) if coupled and forced else tuple(forced)
+
+    def with_idle_damped(self) -> "System":
+        """The same system, with damping at the box of a module that takes no part, so that it has no resonance.
+
+        That box stays at rest whatever its damping.
+
+        Returns:
+            A new System for a single machine, else this one.
+        """
+        if len(self.modules) != 1:
+            return self
+        return self.with_(**{f"gamma{3 - self.modules[0]}_hat": 1.0})
 
     def with_(self, **changes: float) -> "System":
         """The same system with some parameters changed.
@@ -124,10 +136,15 @@ class System:
         return replace(self, **changes)
 
     def _resonates(self) -> bool:
+        """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
+        # Of the terms that cancel at a resonance: both boxes may be in one, and nothing is left.
+        springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
+        dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
+        rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))
         (a, b), (c, d) = stiffness.tolist()
-        if abs(a * d - b * c) > 1e-12 * (abs(a) ** 2 + abs(b) ** 2 + abs(c) ** 2 + abs(d) ** 2):
-            return False  # the ratio of the singular values is larger yet
+        if abs(a * d - b * c) > rounding * 1e12 * rounding:
+            return False  # both singular values are above the rounding
         left, values, _ = np.linalg.svd(stiffness)
-        loaded = abs(left[:, -1].conj() @ self.forcing) > 1e-12 * np.linalg.norm(self.forcing)
-        return bool(values[-1] < 1e-12 * values[0] and loaded)
+        loads = abs(left[:, values <= rounding].conj().T @ self.forcing)
+        return bool((loads > 1e-12 * np.linalg.norm(self.forcing)).any())

@@ -60,8 +60,10 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return one machine with a ball in its box: mass, ball, stiffness, damping to ground, amplitude of the force.
 
-        The equations have two modules. The second is a machine alike that is neither coupled nor driven; from rest it
-        stays at rest, so that all answers are those of module 1.
+        The equations have two modules. The second is a like machine that is neither coupled nor driven, so that it
+        takes no part (`System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are those of
+        module 1. Arrays per module keep their shape, with NaN for module 2; there are 4 multipliers and exponents, and
+        2 slow eigenvalues; a state has zeros for module 2.
 
         Args:
             L: half of the play [m]. omega: circular frequency of the force [rad/s], by default the natural one.

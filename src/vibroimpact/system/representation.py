@@ -1,5 +1,6 @@
 """Representation of results: one line in a console, a small table in a notebook."""
 
+from collections.abc import Iterable
 from html import escape
 
 import numpy as np
@@ -18,6 +19,14 @@ class Representation:
     def _repr_html_(self) -> str:
         rows = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in self._shown().items())
         return f"<table><caption>{type(self).__name__}</caption>{''.join(rows)}</table>"
+
+
+class Found(list):
+    """A list of results, with the columns of its table, which `to_frame` keeps where nothing was found."""
+
+    def __init__(self, results: Iterable, columns: Iterable[str]):
+        super().__init__(results)
+        self.columns = tuple(columns)
 
 
 def brief(numbers) -> str:

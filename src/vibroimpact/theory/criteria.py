@@ -1,8 +1,9 @@
 """Stability criteria for a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
 Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
-threshold. Both modules must be stable. A verdict has one name everywhere: fast (Masri's analysis, derived anew), slow
-(the slow flow), theory (both together) and exact (the Floquet multipliers of the exact orbit).
+threshold. Both modules must be stable; C of a module that takes no part is NaN and is left out. A verdict has one name
+everywhere: fast (Masri's analysis, derived anew), slow (the slow flow), theory (both together) and exact (the Floquet
+multipliers of the exact orbit).
 """
 
 import warnings
@@ -15,7 +16,7 @@ from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
 from vibroimpact.theory.manifold import impact_phase, rho
 from vibroimpact.theory.masri import printed_limit
-from vibroimpact.theory.slow_flow import equations, linearisation
+from vibroimpact.theory.slow_flow import MODULES, equations, linearisation
 
 FAST, SLOW, THEORY, EXACT = "fast", "slow", "theory", "exact"
 PRINTED = "printed_10_26"
@@ -49,12 +50,12 @@ class Stability(NamedTuple):
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
     """(10.26) as printed, for C of both modules, shape (2,), known to within `error`."""
     limit = printed_limit(rho(kappa))
-    return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C)
+    return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C if not np.isnan(c))
 
 
 def masri_derived(C, kappa: float, error: float = 0.0) -> str:
     """Masri's analysis derived anew (docs/stability.md), for C of both modules, shape (2,), known to within `error`."""
-    return all_stable(masri.stable(c, kappa, error) for c in C)
+    return all_stable(masri.stable(c, kappa, error) for c in C if not np.isnan(c))
 
 
 def slow_flow(system, psi, C, error: float = 0.0) -> str:
@@ -100,7 +101,9 @@ def fixed_point_error(system, point) -> float:
     if point.multiple:
         return np.inf
     residual, J = equations(system, point.psi, point.C)
-    noise = _ULPS * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * np.abs(np.column_stack([point.C, point.psi]).ravel()))
+    unknowns = np.column_stack([point.C, point.psi]).ravel()
+    size = np.abs(unknowns[np.isin(MODULES, system.modules)])
+    noise = _ULPS * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * size)
     return float((np.abs(np.linalg.inv(J)) @ (np.abs(residual) + noise)).max())
 
 
@@ -110,11 +113,11 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Eigenvalues (4,) of the slow flow and bounds (4,) on their errors."""
+    """Eigenvalues of the slow flow and bounds on their errors, each (4,), of a single machine (2,)."""
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):
-        return values, np.full(4, np.inf)
+        return values, np.full(len(values), np.inf)
     shifts = _STEP * np.eye(4).reshape(4, 2, 2)
     ahead, behind = (linearisation(system, psi + s[..., 1], C + s[..., 0]) for s in (shifts, -shifts))
     moved = [np.linalg.norm(a - b, axis=(-2, -1)).sum() for a, b in zip(ahead, behind, strict=True)]

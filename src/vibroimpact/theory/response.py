@@ -29,6 +29,8 @@ class Response:
 def leading_order(system, point, tau) -> Response:
     """U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and X_i, Y_i that belong to them.
 
+    A module that takes no part is at rest, all of them 0.
+
     Args:
         point: a fixed point (its C, B, psi are used).
         tau: times, shape (n,), dimensionless; the forcing is f_i sin(Omega tau).
@@ -36,12 +38,15 @@ def leading_order(system, point, tau) -> Response:
     phase = system.Omega * np.asarray(tau, dtype=float)[:, None] - point.psi
     U = point.B * np.sin(phase)
     W = U + sawtooth(phase, point.C, impact_phase(point.C, rho(system.kappa)))
+    U, W = (np.where(np.isin([1, 2], system.modules), of, 0.0) for of in (U, W))
     X = (U + system.epsilon * W) / (1 + system.epsilon)
     return Response(U=U, X=X, W=W, Y=X - W)
 
 
 def impact_times(system, point) -> np.ndarray:
     """Time tau in [0, period) at which each ball meets the wall W = +1, shape (2,); half a period later it is at -1.
+
+    NaN of a module that takes no part.
 
     Args:
         point: a fixed point (its C and psi are used).
@@ -74,14 +79,18 @@ class MeanPower:
 def mean_power(system, point) -> MeanPower:
     """The power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
 
+    A module that takes no part has no power.
+
     Args:
         point: a FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the
             manifold, where what is not dissipated is stored.
     """
-    b, half = point.B * np.exp(-1j * point.psi), system.epsilon / 2
+    half = system.epsilon / 2
+    B, psi, C = (np.where(np.isin([1, 2], system.modules), of, 0.0) for of in (point.B, point.psi, point.C))
+    b = B * np.exp(-1j * psi)
     return MeanPower(
         work=-half * np.array([system.f10_hat, system.f20_hat]) * b.imag,
-        ground=half * np.array([system.gamma1_hat, system.gamma2_hat]) * point.B**2,
+        ground=half * np.array([system.gamma1_hat, system.gamma2_hat]) * B**2,
         coupling=float(half * system.gamma12_hat * abs(b[0] - b[1]) ** 2),
-        impacts=half * FIRST_HARMONIC * rho(system.kappa) * point.C**2,
+        impacts=half * FIRST_HARMONIC * rho(system.kappa) * C**2,
     )

@@ -7,6 +7,8 @@ from vibroimpact.theory.manifold import B_of_C, rho, slope
 
 # Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
 FIRST_HARMONIC = 8 / np.pi**2
+MODULES = np.array([1, 1, 2, 2])
+"""Modules to which the slow variables (C_1, psi_1, C_2, psi_2) belong, and the equations of their rates."""
 _ONE = np.eye(2)
 
 
@@ -50,24 +52,28 @@ def rates_from_phasors(system, B, cosine, sine, C):
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """D_1 of (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and its derivative by (C_1, psi_1, C_2, psi_2), (4, 4).
 
+    Of a single machine, those of its module: (2,) and (2, 2).
+
     Args:
         psi, C: phases [rad] and saw-tooth amplitudes, each shape (2,).
     """
+    psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
-    return rest, linearisation(system, psi, C)[0]
+    return rest[_taking_part(system)], linearisation(system, psi, C)[0]
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
 
     Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
-    follow B; the usual Jacobian in (B, psi) is infinite there.
+    follow B; the usual Jacobian in (B, psi) is infinite there. Of a single machine both are (..., 2, 2).
 
     Args:
-        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2).
+        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2); of a single machine
+            those of the other module have no effect.
     """
     r = rho(system.kappa)
-    C = np.asarray(C, dtype=float)
+    psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
     B, B_C = B_of_C(C, r), slope(C, r)
     ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
     ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
@@ -99,7 +105,13 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     J[..., 1::2, ::2] -= _ONE * (drive.real * B_x / (2 * B**2))[..., None]
     M = np.zeros(J.shape)
     M[..., ::2, ::2], M[..., 1::2, 1::2] = _ONE * B_x[..., None], _ONE
-    return J, M
+    part = _taking_part(system)
+    return J[..., part, :][..., part], M[..., part, :][..., part]
+
+
+def _taking_part(system):
+    """Rows (4,) of the modules that take part; all of a system at rest, for motions that die out."""
+    return np.isin(MODULES, system.modules or (1, 2))
 
 
 def jacobian(system, psi, C) -> np.ndarray:
@@ -119,7 +131,9 @@ def jacobian(system, psi, C) -> np.ndarray:
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """The four eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
+    """The eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
+
+    There are two for each module that takes part.
 
     Args:
         psi, C: phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).

@@ -3,6 +3,6 @@
 Limits and conditions stand beside the fields they are about. The rules get plain values.
 """
 
-from vibroimpact_pipeline.config.reading import ConfigError, checked, read
+from vibroimpact_pipeline.config.reading import ConfigError, checked, merged, read
 
-__all__ = ["ConfigError", "checked", "read"]
+__all__ = ["ConfigError", "checked", "merged", "read"]

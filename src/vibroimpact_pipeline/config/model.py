@@ -60,12 +60,12 @@ def _refuse_resonance(system):
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
     # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
-    from vibroimpact.exact.orbits.impulse_response import ImpulseResponse
+    from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
     refuse_free_motion(system)
-    for sign in () if system.modules != (1, 2) else (1, -1):
-        ImpulseResponse(system, sign)
+    for sign in (1, -1) if system.modules else ():
+        impulse_response(system, sign)
 
 
 class Simulation(Section):

@@ -1,10 +1,13 @@
-"""Compiled code on disk: used again as long as no source that may be compiled into it has changed."""
+"""Compiled code on disk: used again as long as no source that may be compiled into it has changed; what is compiled
+beforehand.
+"""
 
 import shutil
 import subprocess
 import sys
 
 from compiled_code import LIBRARY
+from vibroimpact.exact.engine import compiled
 
 FUNCTION = """
 from vibroimpact.exact.engine.compiled import code_folder, disk_cached
@@ -34,3 +37,76 @@ def test_code_is_kept_by_the_content_of_all_that_it_may_be_compiled_from(tmp_pat
     between = folders(copy)
     (copy / "exact/engine/contact.py").open("a").write("# of the engine, and of all that calls it\n")
     assert [a == b for a, b in zip(folders(copy), between, strict=True)] == [False, False]
+
+
+def test_code_beside_a_library_that_is_read_only_is_copied_once(tmp_path, monkeypatch):
+    """Numba would pass over a folder that it cannot write to, and compile everything again."""
+    beside, own = tmp_path / "library", tmp_path / "own"
+    monkeypatch.setattr(compiled, "BESIDE", beside)
+    monkeypatch.setattr(compiled, "_writable", lambda: own)
+    monkeypatch.setattr(compiled.config, "CACHE_DIR", "")
+    own.mkdir()
+    folder = compiled.code_folder.__wrapped__(LIBRARY / "exact/engine")
+    assert not any(own.iterdir())  # nothing was compiled
+    code = beside / folder.name / "engine_0"
+    code.mkdir(parents=True)
+    (code / "a.nbi").write_bytes(b"index")
+    (code / "a.1.nbc").write_bytes(b"code")
+    for path in (code / "a.nbi", code / "a.1.nbc", code):
+        path.chmod(0o555 if path == code else 0o444)
+    assert compiled.code_folder.__wrapped__(LIBRARY / "exact/engine") == folder
+    copied = folder / "engine_0"
+    assert {path.name: path.read_bytes() for path in copied.iterdir()} == {"a.nbi": b"index", "a.1.nbc": b"code"}
+    assert all(path.stat().st_mode & 0o200 for path in (folder, copied, *copied.iterdir()))
+    (copied / "b.nbi").write_bytes(b"more")
+    assert compiled.code_folder.__wrapped__(LIBRARY / "exact/engine") == folder
+    assert len([*copied.iterdir()]) == 3
+    assert [*own.iterdir()] == [folder]
+    code.chmod(0o755)
+
+
+COMPILED = """
+import pkgutil
+from importlib import import_module
+
+import numpy as np
+from numba.core.dispatcher import Dispatcher
+
+import vibroimpact as vi
+import vibroimpact.compile
+from chapter import PARAMETERS
+from vibroimpact.exact import engine
+
+modules = [import_module(found.name) for found in pkgutil.iter_modules(engine.__path__, f"{engine.__name__}.")]
+
+def signatures():
+    functions = {value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)}
+    return {(str(one.py_func), str(types)) for one in functions for types in one.signatures}
+
+def undamped(system):
+    return system.with_(gamma1_hat=0, gamma2_hat=0, gamma12_hat=0)
+
+vibroimpact.compile.main()
+before = signatures()
+system, start = vi.System(**PARAMETERS, f10_hat=3.0, f20_hat=3.0).with_(kappa=0.05), [0.0, 0, 0, 0, 0, 0.5, 0, -0.5]
+run = vi.simulate(system, start, 3, sample_times=[0.5, 1.0])
+rest = vi.simulate(system, run.final, 2, run.end)
+_ = run.certificate, run.jacobian, run.energy.per_cycle, run.errors([1.0]), run.section(), rest.events, rest.jacobian
+run.carry(np.asfortranarray(np.eye(8)[:, :3]))
+vi.simulate_many(system, [start, start], 2)
+for one in (system, undamped(system), system.with_(sigma20_hat=1e5)):
+    vi.ensemble(one, [start, start], 3, settle=1, energy=True, by_cycle=True)
+    vi.ensemble(one, start, 3, tau0=run.end)
+vi.sections(system, start, 2, progress=False)
+vi.largest_lyapunov(system, start, 20, 2, blocks=2)
+vi.lyapunov_spectrum(system, start, 20, 2)
+vi.decay_time(system, 1.0)
+print(*sorted(name for name, _ in signatures() - before), sep="\\n")
+"""
+
+
+def test_what_runs_and_ensembles_need_is_compiled_beforehand():
+    """Else the first user would wait for it. Undamped and stiff systems have no lanes of their own."""
+    environment = {"PYTHONPATH": ":".join(sys.path)}
+    run = subprocess.run([sys.executable, "-c", COMPILED], env=environment, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stdout.split()) == (0, []), run.stderr

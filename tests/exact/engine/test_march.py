@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
+from mpmath import mp
 from scipy.linalg import expm
 
 from attacks import GENES, bred, random_system
@@ -51,6 +52,28 @@ def test_a_step_is_the_matrix_exponential_less_one():
         step = expm(rate_matrix(system) * c[march.STEP])
         np.testing.assert_allclose(c[:24].reshape(4, 6), step[:4] - np.eye(6)[:4], rtol=0, atol=1e-13 * abs(step).max())
         np.testing.assert_allclose([c[march.CA] + 1.0, c[march.SA]], step[4, 4:], rtol=1e-14)
+
+
+def test_a_step_of_the_boxes_is_known_beyond_rounding():
+    """What a float leaves out of an entry would repeat in every step."""
+    for system in systems(3):
+        c = constants(system)
+        with mp.workdps(60):
+            step = mp.expm(exact_rate_matrix(system) * c[march.STEP]) - mp.eye(6)
+            for i, k in np.ndindex(4, 4):
+                left = step[i, k] - mp.mpf(c[6 * i + k]) - mp.mpf(c[march.LOW_PARTS + 4 * i + k])
+                assert abs(left) < 2.0**-90 * max(abs(step[i, j]) for j in range(4))
+
+
+def exact_rate_matrix(system):
+    """The rates of (10.2), both balls flying, without the forcing."""
+    e, omega = mp.mpf(system.epsilon), mp.mpf(system.Omega)
+    a, c1, c2, c, shift = (
+        e * mp.mpf(getattr(system, name))
+        for name in ("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat")
+    )
+    one, two = [-1 - a, a, -c1 - c, c, 0, 0], [a, -1 - shift - a, c, -c2 - c, 0, 0]
+    return mp.matrix([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], one, two, [0] * 5 + [omega], [0] * 4 + [-omega, 0]])
 
 
 def test_the_fourth_derivative_stays_below_its_bound_throughout_a_flight():

@@ -6,13 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from stroboscope import ORDER, Stroboscope
-from vibroimpact.exact.orbits.floquet import (
-    floquet,
-    impact_matrix,
-    impact_saltation,
-    multipliers,
-    vector_field,
-)
+from vibroimpact.exact.orbits.floquet import floquet, impact_matrix, impact_saltation, multipliers, vector_field
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.restitution import after_impact

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from vibroimpact.exact.orbits.impulse_response import ImpulseResponse, forced_amplitude
+import vibroimpact as vi
+from vibroimpact.exact.orbits.impulse_response import HarmonicResponse, ImpulseResponse, forced_amplitude
 from vibroimpact.system.matrices import dynamic_stiffness
 
 
@@ -61,3 +62,34 @@ def test_undamped_resonance_with_the_impacts_is_refused(chapter, sign, harmonic,
             ImpulseResponse(tuned, sign)
     else:
         assert np.isfinite(ImpulseResponse(tuned, sign)(1.0)).all()
+
+
+@pytest.mark.parametrize(("sign", "harmonic", "fails"), [(-1, 3, True), (-1, 2, False), (1, 2, True), (1, 3, True)])
+@pytest.mark.parametrize("forces", [(1.0, 1.0), (1.0, 0.0)])
+def test_a_resonance_of_two_equal_boxes_is_one(chapter, sign, harmonic, fails, forces):
+    """Nothing is left then of the equations for the steady response, which looks like a regular matrix."""
+    f10, f20 = forces
+    system = chapter(
+        **dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat"), 0.0),
+        sigma_e_hat=(1 / harmonic - 1) / 0.1, f10_hat=f10, f20_hat=f20,
+    )  # fmt: skip
+    assert system.Omega == pytest.approx(1 / harmonic)
+    if not fails:
+        assert np.isfinite(ImpulseResponse(system, sign)(1.0)).all()
+        return
+    with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with a\w* .*harmonic"):
+        ImpulseResponse(system, sign)
+    if harmonic % 2:
+        with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with an odd harmonic"):
+            HarmonicResponse(system, 5)
+
+
+def test_responses_at_a_resonance_that_the_forces_do_not_load_are_refused(chapter):
+    """Boxes in antiphase, with a damper between them alone, swing freely in phase."""
+    free = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "sigma20_hat", "sigma_e_hat"), 0.0)
+    system = chapter(**free, f10_hat=1.0, f20_hat=-1.0)
+    for call in (vi.orbits, forced_amplitude):
+        with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with"):
+            call(system)
+    with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* resonance"):
+        vi.fixed_points(system)

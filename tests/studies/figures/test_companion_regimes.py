@@ -12,12 +12,7 @@ from verdict_tables import verdicts_of
 from vibroimpact.figures.plotting import style
 from vibroimpact.studies.absorbers.references import fixed_balls, without_balls
 from vibroimpact.studies.absorbers.tuning import compared
-from vibroimpact.studies.figures import (
-    companion_absorber,
-    companion_asymmetric,
-    companion_ladder,
-    companion_response,
-)
+from vibroimpact.studies.figures import companion_absorber, companion_asymmetric, companion_ladder, companion_response
 from vibroimpact.studies.figures import companion_basins as basins
 from vibroimpact.studies.figures import companion_branches as branches
 from vibroimpact.studies.figures import companion_epsilon as epsilon_limit

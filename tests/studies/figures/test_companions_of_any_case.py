@@ -6,6 +6,8 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from vibroimpact.accuracy.verdict_table import fixed_point_rows, orbit_rows
+from vibroimpact.figures import fig10_06, fig10_07, fig10_10
 from vibroimpact.studies.figures import (
     companion_asymmetric,
     companion_basins,
@@ -16,9 +18,11 @@ from vibroimpact.studies.figures import (
     companion_response,
     force_sweep,
 )
+from vibroimpact.studies.regimes.epsilon_limit import compare
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import Spec
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points, place_on_manifold, verdicts
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
@@ -99,3 +103,51 @@ def test_no_order_is_fitted_to_a_single_epsilon():
     assert len(tables["csv"])
     assert tables["orders"].empty
     companion_epsilon.draw(tables)
+
+
+@pytest.mark.parametrize("forces", [{"f10_hat": 2.0, "f20_hat": 0.0}, {"f10_hat": 0.0, "f20_hat": 1.4}])
+def test_a_single_machine_is_drawn_with_a_module_at_rest(forces):
+    uncoupled = PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
+    system = vi.System(**uncoupled, **forces)
+    (module,) = system.modules
+    points = fixed_point_table("single", system)
+    planes = fig10_06.compute(system, points, 2.5)
+    assert set(planes["series"]) == {"SIM stable", "SIM unstable", f"P_{module}"}
+    assert fig10_06.verdict(planes, "a") == "stable by (10.26)"
+    fig10_06.draw(planes)
+    response = fig10_07.compute(system, points, "a", 2.0)
+    assert not response["value"][response["panel"] == f"module {3 - module}"].any()
+    assert np.abs(response["value"][response["series"] == f"W_{module}"]).max() >= 1
+    fig10_07.draw(response)
+    fig10_10.draw(fig10_10.compute(system, points, "a", 2.0, 2.5))
+    places = place_on_manifold(system, points)
+    assert places["module"].tolist() == [module]
+    assert verdicts(places)["a"] == "stable"
+    found = orbit_rows("single", vi.orbits(system))
+    judged = fixed_point_rows("single", system, [(one.label, one) for one in labelled_points(points)], found)
+    row = found.set_index("label").loc[judged["orbit"].item()]
+    assert row["admissible"]
+    assert judged["exact"].item() == row["exact"]
+    assert found[[f"modulus_{k}" for k in (5, 6, 7, 8)]].isna().all(axis=None)
+
+
+def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
+    """As epsilon falls the orbit nears the fixed point, and the distance is that of the module in company."""
+    monkeypatch.setattr(companion_asymmetric, "RELAXED", (10, 10))
+    system = vi.System(**PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}, f10_hat=2.0, f20_hat=0.0)
+    tables = companion_epsilon.compute({"single": system}, [0.1, 0.001], 5, 0.02)
+    assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)
+    companion_epsilon.draw(tables)
+    ladder = companion_ladder.compute({"single": system}, [1, 3, 5], [0.0, 0.02], [0.0, 0.02], 2, [0.001, 0.01])
+    assert ladder["csv"]["error"].notna().any()
+    companion_ladder.draw(ladder)
+    both = system.with_(f20_hat=1.4)
+    alone, together = (compare(one, vi.fixed_points(one)[0]) for one in (system, both))
+    np.testing.assert_allclose(alone.offset, together.offset[[0, 2]], atol=1e-9)
+    orbits = orbit_rows("single", vi.orbits(system))
+    tables = companion_asymmetric.compute({"single": system}, orbits, system.kappa, [0.1, 0.01], 3, 0.05, 2.5)
+    assert len(tables["pairs"])
+    companion_asymmetric.draw(tables)
+    tables = force_sweep.compute({value: system.with_(f10_hat=value) for value in (1.8, 2.0)}, 2.0)
+    assert tables["points"]["track"].nunique() == 1
+    force_sweep.draw(tables)

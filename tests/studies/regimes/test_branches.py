@@ -5,15 +5,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from scipy.optimize import linear_sum_assignment
 
 import vibroimpact as vi
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.families import (
+    BRANCH_POINT,
     FOLD,
     GRAZING,
     HOPF,
+    LOST,
     NEIMARK_SACKER,
     PERIOD_DOUBLING,
     SPEED_ZERO,
@@ -22,6 +25,7 @@ from vibroimpact.studies.regimes.families import (
     FixedPoints,
     SymmetricOrbits,
 )
+from vibroimpact.studies.regimes.followed import followed
 from vibroimpact.system.matrices import rate_matrix
 
 INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
@@ -178,3 +182,172 @@ def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
         assert node.p > 0
         assert abs(SymmetricOrbits.equations(path(node.p), node.x)[0]).max() < 1e-10
         assert min(np.linalg.norm(point.C - node.amplitudes) for point in vi.fixed_points(system)) < 10 * node.p
+
+
+# Branch points, closed branches, seeds without an answer
+
+
+def crossings(branch, p):
+    """Amplitudes where a branch crosses a value of the parameter, between its nodes."""
+    pairs = [(a, b) for a, b in pairwise(branch.nodes) if (a.p < p) != (b.p < p)]
+    return [a.amplitudes + (p - a.p) / (b.p - a.p) * (b.amplitudes - a.amplitudes) for a, b in pairs]
+
+
+def matched(found, roots):
+    """True if two lists of amplitudes are the same, up to interpolation."""
+    if len(found) != len(roots) or not roots:
+        return len(found) == len(roots)
+    gaps = np.abs(np.array(found)[:, None] - np.array(roots)[None]).max(axis=2)
+    return gaps[linear_sum_assignment(gaps)].max() < 0.1
+
+
+def roots_at(family, system):
+    """Amplitudes of all members that the searches find, of two mirror images one."""
+    if family is FixedPoints:
+        return [point.C for point in vi.fixed_points(system)]
+    orbits = [
+        orbit.C for orbit in vi.orbits(system) if orbit.symmetric == (family is SymmetricOrbits) and min(orbit.C) > 0
+    ]
+    return orbits if family is SymmetricOrbits else orbits[::2]
+
+
+@pytest.mark.parametrize(
+    ("along", "interval"),
+    [(("f10_hat", "f20_hat"), (1.15, 1.5)), (("sigma_e_hat",), (0.3, 0.7)), (("kappa",), (0.37, 0.44))],
+)
+def test_branches_of_identical_machines_pass_the_points_where_they_part(chapter, along, interval):
+    """One motion in step becomes three there, as a search on both sides counts."""
+    path = Path(chapter(sigma20_hat=0.0), along)
+    found = vi.branches(path.system, along, interval, of="theory")
+    for node in special({FixedPoints: found}, FixedPoints, BRANCH_POINT):
+        assert node.amplitudes[0] == pytest.approx(node.amplitudes[1], abs=1e-7)
+        counts = [len(vi.fixed_points(path(node.p + shift))) for shift in (-1e-5, 1e-5)]
+        assert abs(counts[1] - counts[0]) == 2
+    for p in np.linspace(*interval, 9)[1:-1] + 0.0013:
+        assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
+
+
+@pytest.mark.parametrize("beside", [0.0, 1e-12, -1e-9])
+def test_a_seed_at_a_branch_point_finds_its_branches(chapter, beside):
+    """There the search merges the roots that meet, known to half the digits, and each branch still comes once."""
+    path, interval = Path(chapter(sigma20_hat=0.0), ("kappa",)), (0.37, 0.42)
+    crossing = special({FixedPoints: branches(FixedPoints, path, interval, [0.4], 0.01)}, FixedPoints, BRANCH_POINT)[
+        0
+    ].p
+    found = branches(FixedPoints, path, interval, [crossing + beside], 0.01)
+    for p in (0.38, 0.4):
+        assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
+
+
+def test_branches_of_nearly_identical_machines_do_not_cross(chapter):
+    found = vi.branches(chapter(sigma20_hat=-0.001), ("f10_hat", "f20_hat"), (1.15, 1.5), of="theory")
+    assert not [node for branch in found for node in branch.special if node.kind in (BRANCH_POINT, LOST)]
+    for p in (1.19, 1.25, 1.31, 1.33, 1.5):
+        system = chapter(p, p, sigma20_hat=-0.001)
+        assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, system))
+
+
+def test_the_orbit_in_step_is_followed_through_its_branch_point(chapter):
+    """Between 1.2707 and 1.3012 too; there the asymmetric orbits that leave the symmetric ones are found as well."""
+    path = Path(chapter(sigma20_hat=0.0), ("f10_hat", "f20_hat"))
+    found = vi.branches(path.system, path.names, (1.25, 1.32), of="exact", seeds=2)
+    for p in (1.262, 1.285, 1.295, 1.31):
+        for family in (SymmetricOrbits, AsymmetricOrbits):
+            known = [C for one in found if one.family is family for C in crossings(one, p)]
+            assert matched(known, roots_at(family, path(p)))
+    [node] = special({SymmetricOrbits: found[:2]}, SymmetricOrbits, BRANCH_POINT)[:1]
+    counts = [len(symmetric_solutions(path(node.p + shift))) for shift in (-1e-6, 1e-6)]
+    assert abs(counts[1] - counts[0]) == 2
+
+
+def test_a_closed_branch_is_followed_once_round():
+    parameters = dict(epsilon=0.13, kappa=0.75, alpha12_hat=1.13, gamma1_hat=0.26, gamma2_hat=0.26, gamma12_hat=0.29)
+    system = vi.System(**parameters, sigma20_hat=0.0, sigma_e_hat=0.0, f10_hat=0.66, f20_hat=0.46)
+    found = vi.branches(system, "sigma_e_hat", (-1.5, 1.5), of="theory")
+    [closed] = [branch for branch in found if branch.closed]
+    np.testing.assert_allclose(closed.nodes[0].amplitudes, closed.nodes[-1].amplitudes, atol=1e-12)
+    assert sum(node.kind == FOLD for node in closed.special) == 2
+    assert vi.to_frame(found).groupby("branch")["closed"].any().sum() == 1
+    for p in (-0.9, -0.6, -0.3):
+        roots = roots_at(FixedPoints, system.with_(sigma_e_hat=p))
+        assert matched([C for one in found for C in crossings(one, p)], roots)
+
+
+def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
+    """Undamped boxes at their resonance, sigma_e_hat = 0, have no steady motion; the other seeds find theirs."""
+    system = chapter(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
+    with pytest.warns(UserWarning, match=r"^no fixed point sought at sigma_e_hat = 0: [^\n]*resonance[^\n]*$") as told:
+        found = vi.branches(system, "sigma_e_hat", (-0.1, 0.1), of="theory", seeds=3)
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    for p in (-0.07, 0.04):
+        roots = roots_at(FixedPoints, system.with_(sigma_e_hat=p))
+        assert matched([C for one in found for C in crossings(one, p)], roots)
+
+
+def test_a_slider_skips_a_resonance(chapter):
+    """At Omega = 1/2 the second harmonic of the impacts is at the resonance of the undamped boxes, 1."""
+    undamped = dict(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
+    systems = {value: chapter(sigma_e_hat=value, **undamped) for value in (-5.1, -5.0, -4.9)}
+    with pytest.raises(ValueError, match="resonance"):
+        vi.orbits(systems[-5.0])
+    with pytest.warns(UserWarning, match=r"^no asymmetric orbit sought: [^\n]*resonance[^\n]*$"):
+        assert {value for value, _ in followed(systems)} <= {-5.1, -4.9}
+
+
+def test_a_parameter_may_begin_at_the_end_of_its_domain(chapter):
+    """Damping is not negative, so that differences at 0 are one-sided."""
+    found = vi.branches(chapter(), "gamma12_hat", (0.0, 0.3), of="theory", seeds=2)
+    assert LOST not in {node.kind for branch in found for node in branch.special}
+    assert matched([C for one in found for C in crossings(one, 1e-5)], roots_at(FixedPoints, chapter(gamma12_hat=1e-5)))
+
+
+def random_path(seed):
+    """A random system, every third symmetric or nearly so, a path through it and three values there."""
+    random = np.random.default_rng(seed)
+    low = dict(epsilon=0.02, kappa=0.3, alpha12_hat=0.2, gamma1_hat=0.05, gamma2_hat=0.05, gamma12_hat=0.0)
+    low |= dict(sigma20_hat=-1.0, sigma_e_hat=-0.8, f10_hat=0.4, f20_hat=0.4)
+    high = dict(epsilon=0.15, kappa=0.85, alpha12_hat=1.6, gamma1_hat=0.4, gamma2_hat=0.4, gamma12_hat=0.4)
+    high |= dict(sigma20_hat=1.0, sigma_e_hat=0.8, f10_hat=1.6, f20_hat=1.6)
+    values = {name: random.uniform(low[name], high[name]) for name in low}
+    if seed % 3 == 0:
+        unlike = random.choice([0.0, -1.0, 1.0]) * 10 ** random.uniform(-9, -2)
+        values |= dict(gamma2_hat=values["gamma1_hat"], f20_hat=values["f10_hat"], sigma20_hat=unlike)
+    along = (("sigma_e_hat",), ("kappa",), ("alpha12_hat",), ("f10_hat", "f20_hat"))[random.integers(4)]
+    ends = np.linspace(low[along[0]], high[along[0]], 3)
+    interval = ends[:2] if random.integers(2) else ends[1:]
+    return Path(vi.System(**values), along), interval, random.uniform(*interval, 3)
+
+
+def check_random_path(seed, of, families):
+    """At any value, the branches are what the searches find; one they do not cross passes no seed on its way."""
+    path, interval, values = random_path(seed)
+    found = vi.branches(path.system, path.names, interval, of=of, seeds=3)
+    assert LOST not in {node.kind for branch in found for node in branch.special}
+    for family in families:
+        for p in values:
+            known = [C for one in found if one.family is family for C in crossings(one, p)]
+            roots = roots_at(family, path(p))
+            if len(known) < len(roots):
+                at_seeds = np.linspace(*interval, 3)
+                own = branches(family, path, interval, [p], (interval[1] - interval[0]) / 10)
+                alone = [one for one in own if not any(crossings(one, seed) for seed in at_seeds)]
+                known += [C for one in alone for C in crossings(one, p)]
+            assert matched(known, roots), (family.name, p)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_branches_of_random_systems_are_the_fixed_points_at_any_value(seed):
+    check_random_path(seed, "theory", [FixedPoints])
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("seed", range(30, 200))
+def test_branches_of_more_random_systems_are_the_fixed_points_at_any_value(seed):
+    check_random_path(seed, "theory", [FixedPoints])
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("seed", range(200))
+def test_branches_of_random_systems_are_the_orbits_at_any_value(seed):
+    check_random_path(seed, "exact", [SymmetricOrbits, AsymmetricOrbits])

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.studies.regimes.classification import (
     ASYMMETRIC,
+    CHAOS,
     IDLE,
     NO_IMPACTS,
     OTHER,
@@ -56,7 +58,8 @@ def test_an_exact_stable_orbit_is_recognised(chapter, f10, f20, name):
         assert orbit.symmetric == (name == SYMMETRIC)
         assert classify_after(system, orbit.state, 24, 0.02).name == name
         nudged = attracting_cycle(system, orbit.state + 1e-4, 1, reach=0.01)
-        np.testing.assert_allclose(nudged, orbit.state, atol=1e-9)
+        np.testing.assert_allclose(nudged.state, orbit.state, atol=1e-9)
+        assert nudged.multiplier == pytest.approx(abs(orbit.multipliers[0]), abs=1e-6)
 
 
 def test_an_unstable_orbit_is_no_regime(chapter):
@@ -114,6 +117,31 @@ def test_other_periodic_motions_repeat(chapter, observation):
     for regime in periodic:
         later = vi.simulate(system, regime.run.final, regime.repeats)
         np.testing.assert_allclose(later.final, regime.run.final, atol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def narrow(chapter):
+    """A system with narrow chaos, 0.02 from an attracting motion of two cycles."""
+    return chapter(1.5, 1.5, kappa=0.3)
+
+
+def test_narrow_chaos_next_to_an_attracting_motion_is_not_called_periodic(narrow, observation):
+    """Against 10 000 cycles and the exponent after them."""
+    states = starts(12, seed=3)[[0, 2]]
+    assert {regime.name for regime in settle(narrow, states, observation)} <= set(CHAOS)
+    for state in finals(narrow, states, 10_000):
+        exponent = vi.largest_lyapunov(narrow, state, cycles=1000, settle=0)
+        assert exponent.mean > 5 * exponent.error
+
+
+@pytest.mark.parametrize(("nudge", "reached"), [(1e-6, True), (3e-4, True), (5e-3, False), (1e-2, False)])
+def test_a_run_is_periodic_if_it_approaches_the_motion(narrow, nudge, reached):
+    """Near the motion of two cycles: the run itself says, over 1000 cycles, whether it ends there."""
+    motion = attracting_cycle(narrow, [-0.64, 0.358, -0.624, -0.229, -0.75, -0.769, -0.478, -1.126], 2, reach=0.01)
+    state = motion.state + nudge * np.eye(8)[0]
+    later = vi.simulate(narrow, state, 1000).final
+    assert (np.abs(later - motion.state).max() < 1e-9) == reached
+    assert (classify_after(narrow, state, 24, 0.02).name == OTHER) == reached
 
 
 def test_mirrored_starts_under_mirrored_forces_end_in_mirrored_regimes(chapter, observation):

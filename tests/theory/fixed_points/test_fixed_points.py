@@ -219,10 +219,11 @@ def single_module(e, force, kappa):
 def test_uncoupled_modules_stand_alone(changes):
     system = build(UNCOUPLED | changes)
     e = -2 * system.sigma_e_hat + 1j * system.gamma1_hat, -2 * system.sigma_e_hat + 1j * system.gamma2_hat
-    first = single_module(e[0], system.f10_hat, system.kappa)
+    first = single_module(e[0], system.f10_hat, system.kappa) if system.f10_hat else [np.nan]
     second = single_module(e[1] + system.sigma20_hat, system.f20_hat, system.kappa)
-    expected = sorted((a, b) for a in first for b in second)
-    found = sorted(np.round(point.C, 12).tolist() for point in everything(system))
+    expected = [(a, b) for a in first for b in second]
+    found = [np.round(point.C, 12).tolist() for point in everything(system)]
+    found, expected = (sorted(map(tuple, np.nan_to_num(pairs, nan=9).tolist())) for pairs in (found, expected))
     assert np.array(found).reshape(-1, 2) == pytest.approx(np.array(expected).reshape(-1, 2), abs=1e-11)
 
 
@@ -245,7 +246,6 @@ def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     [
         RESONANT | {"sigma_e_hat": 0.0, "f20_hat": -1.0},  # boxes in phase, forces opposed
         RESONANT | {"sigma_e_hat": 1.0},  # boxes opposed, forces in phase
-        UNDAMPED | UNCOUPLED | {"sigma_e_hat": 0.0, "f10_hat": 0.0},
         RESONANT | {"sigma_e_hat": 0.0, "f10_hat": 0.0, "f20_hat": 0.0},
     ],
 )
@@ -352,7 +352,7 @@ def test_a_fold_stays_open_and_its_neighbours_do_not():
 
 @pytest.mark.parametrize(
     ("f10", "f20", "changes"),
-    [(0.1, 0.1, {}), (0, 0.3, {}), (0, 0, {}), (0, 0, UNDAMPED), (1, 0, UNCOUPLED), (0, 1, UNCOUPLED | UNDAMPED)],
+    [(0.1, 0.1, {}), (0, 0.3, {}), (0, 0, {}), (0, 0, UNDAMPED), (0.1, 0, UNCOUPLED), (0, 0, UNCOUPLED)],
 )
 def test_no_fixed_point_is_a_result(f10, f20, changes):
     """No zero of (10.22) is there: the balls dissipate more than the forces supply, or than can be supplied."""

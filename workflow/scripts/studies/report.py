@@ -7,7 +7,7 @@ from pathlib import Path
 from vibroimpact.studies.claims.judge import NOT_JUDGED
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.code import ROOT
-from vibroimpact_pipeline.git import git
+from vibroimpact_pipeline.git import GitRefused, git
 from vibroimpact_pipeline.html.offline import linked
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.studies.report.pages import Pages, anchor
@@ -31,7 +31,10 @@ def collect(results, figures, tables, folder: Path) -> None:
 
 def version(root) -> str:
     """Return commit and date of the checkout, if git knows them."""
-    described = git("describe", "--always", "--dirty=, with changes", root=root)
+    try:
+        described = git("describe", "--always", "--dirty=, with changes", root=root)
+    except GitRefused:
+        return "a copy whose history git refuses to read"
     if described is None:
         return "a copy without its history"
     return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"

@@ -19,6 +19,7 @@ not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handl
 
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 from contextlib import contextmanager
@@ -67,6 +68,7 @@ event.register("numba:compile", NOTICE)
 
 
 PACKAGE = Path(__file__).parents[2]
+BESIDE = PACKAGE / "__pycache__"
 SHARED = ("system", "exact/engine")
 
 
@@ -82,8 +84,30 @@ def disk_cached(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """Return the cache folder for a package; None if NUMBA_CACHE_DIR gives one."""
-    return None if config.CACHE_DIR else _writable() / f"compiled-{_fingerprint(package)}"
+    """Return the cache folder for a package; None if NUMBA_CACHE_DIR gives one.
+
+    Numba uses no folder that it cannot write to: what was compiled beside a library that is read-only by now is copied.
+    """
+    if config.CACHE_DIR:
+        return None
+    name = f"compiled-{_fingerprint(package)}"
+    folder, installed = _writable() / name, BESIDE / name
+    if installed.is_dir() and not folder.exists():
+        _copy(installed, folder)
+    return folder
+
+
+def _copy(code, folder):
+    """Copy compiled code as a whole, since other processes may read it, or be about to copy the same."""
+    try:
+        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".copy-") as part:
+            for file in code.glob("*/*"):
+                copy = Path(part, folder.name, file.relative_to(code))
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(file, copy)
+            Path(part, folder.name).rename(folder)
+    except OSError:  # another process was first, or there is no room: it is compiled again
+        pass
 
 
 @contextmanager
@@ -113,7 +137,7 @@ def _writable() -> Path:
     reported.
     """
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
-    for folder in (PACKAGE / "__pycache__", own / "vibroimpact"):
+    for folder in (BESIDE, own / "vibroimpact"):
         if folder.is_absolute() and _takes_files(folder):  # "~" stays where nobody knows the home
             return folder
     folder = _temporary()

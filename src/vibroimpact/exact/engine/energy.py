@@ -85,7 +85,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         solved = np.full(sides.shape, np.inf)
     potentials = np.empty((*rates.shape[:2], len(kernels), SIZE, SIZE))
     potentials[..., ROWS, COLUMNS] = potentials[..., COLUMNS, ROWS] = np.swapaxes(solved[..., :-1, :], -1, -2)
-    sound = abs(solved).max(axis=(1, 2, 3), initial=0.0) * abs(rates).max(axis=(1, 2, 3)) < LARGEST
+    sound = abs(solved).max(axis=(1, 2, 3), initial=0.0) < LARGEST / abs(rates).max(axis=(1, 2, 3))
     return potentials, solved[..., -1, :].copy(), sound
 
 

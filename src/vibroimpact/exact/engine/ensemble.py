@@ -26,7 +26,7 @@ from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Prog
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
-from vibroimpact.exact.engine.motion import APPROACH, ENTRIES, EVENTS, KIND, MODULE, ROW, TIME, Log, Motion, mode_of
+from vibroimpact.exact.engine.motion import ENTRIES, EVENTS, ROW, Log, Motion, mode_of
 from vibroimpact.exact.engine.observation import (
     IMPACTS,
     INTEGRALS,
@@ -37,14 +37,15 @@ from vibroimpact.exact.engine.observation import (
     STICKS,
     STORED,
     accumulate_statistics,
+    discount_rests,
     open_or_close,
 )
-from vibroimpact.exact.engine.phase import TWO_PI, Instant, phase_at
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, phase_at
 from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, reals, whole
-from vibroimpact.system.state import STICK
+from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.state import states_array
 
 INADMISSIBLE = max(FAILURES) + 1
 STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
@@ -92,13 +93,16 @@ def ensemble(
 ) -> np.ndarray:
     """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
 
-    The events are those of `simulate`, and final states are as accurate as its certificate says (docs/engine.md). For
-    events, samples or a certificate use `simulate`.
+    Impacts and sticks are those of `simulate`, except for grazes that its certificate counts as undecided, and for
+    impacts after which the ball hops by less than four units of rounding. The error of a decided run's final state is
+    at most 2.6 times the estimate of that certificate (docs/engine.md). For events, samples or a certificate use
+    `simulate`.
 
     Args:
         systems: a System, or an array of them (a list, or lists in a list).
-        states: (..., 8) starts, as for `simulate`. Systems and starts are combined as NumPy combines arrays: n systems
-            and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all with all.
+        states: (..., 8) starts, by position or by name as for `simulate`. Systems and starts are combined as NumPy
+            combines arrays: n systems and n starts pair by pair, one start with every system, systems (m, 1) with
+            starts (n, 8) all with all.
         cycles, tau0: as for `simulate`.
         settle: cycles before the observation, from 0 to cycles; if all, only the final state is returned.
         progress: count finished runs on standard error, about once a second.
@@ -157,7 +161,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 
 def _combined(systems, states):
     """Return the distinct systems and, in the combined shape, the index of each run's system and its initial state."""
-    states = reals("states", states)
+    states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
     systems, known = np.array(systems, dtype=object), {}
@@ -188,7 +192,8 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
     single = np.flatnonzero(alone[owners] & (status == FINISHED))
     status[single] = LATER
-    piece = Piece(scalars, rates, phases, potentials, drifts, owners, starts, stages, status, final, statistics)
+    runs = owners, starts, stages, status, final, statistics, continues(begins[0])
+    piece = Piece(scalars, rates, phases, potentials, drifts, *runs)
     memory = _memory()
     while not _loop(piece, memory):
         stop_if_given_up()
@@ -216,7 +221,7 @@ def _alone(system, state, begin, stages, energy, final, statistics):
     (settle, cycles, length), flow = stages, flow_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
     for cycle, stop in pairwise(stops):
-        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES)
+        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES, 0.0)
         if status != FINISHED:
             return status
         state, begin, k = run.final.copy(), run.end, max(cycle - settle, 0) // max(length, 1)
@@ -225,7 +230,7 @@ def _alone(system, state, begin, stages, energy, final, statistics):
             _, flights, rows = run.trajectory
             end = run.cycles * system.period, flights[0, FORCING]
             observed, squares = statistics[k], Squares(*(part[0] for part in UNOBSERVED))
-            _watch(flow, squares, run.start, rows, run.final, end, cycle > 0, observed)
+            _watch(flow, squares, run.start, rows, run.final, end, continues(run.begin), observed)
             if energy:
                 energy_rows = np.zeros((1, ACCOUNTED))
                 accumulate_energy(flow, work_tables(system), flights, rows, np.zeros(1), energy_rows)
@@ -234,18 +239,15 @@ def _alone(system, state, begin, stages, energy, final, statistics):
 
 
 @compiled
-def _watch(flow, squares, start, rows, final, end, settled, statistics):
-    """Add the statistics of a finished run; end: its duration and phase; settled: it continues another run, so that a
-    ball at rest on its wall stuck there before.
-    """
+def _watch(flow, squares, start, rows, final, end, continued, statistics):
+    """Add the statistics of a finished run; end: its duration and phase; continued: it continues another run."""
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
     accumulate_statistics(flow, squares, leaving, rows, len(rows), (last.boxes, duration, phase), statistics)
     open_or_close(flow, squares, last, 1.0, statistics)
-    for n in range(len(rows)):
-        if settled and rows[n, TIME] == 0.0 and rows[n, KIND] == STICK and rows[n, APPROACH] == 0.0:
-            statistics[STICKS + int(rows[n, MODULE]) - 1] -= 1.0
+    if continued:
+        discount_rests(rows, len(rows), statistics)
 
 
 class Piece(NamedTuple):
@@ -253,7 +255,7 @@ class Piece(NamedTuple):
 
     numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; starts (n, 8);
     stages: cycles before the observation, all, and in each of its k windows; status (n,); final (n, k, 8); statistics
-    (n, k, STATISTICS).
+    (n, k, STATISTICS); continued: the runs continue others.
     """
 
     numbers: np.ndarray
@@ -267,6 +269,7 @@ class Piece(NamedTuple):
     status: np.ndarray
     final: np.ndarray
     statistics: np.ndarray
+    continued: bool = False
 
 
 class Memory(NamedTuple):
@@ -310,7 +313,7 @@ def _memory():
         np.empty((2 * kernel.MOST_AT_ONCE, ROW)),
         np.zeros((WIDTH, ENTRIES)),
         np.zeros(STATISTICS),
-        np.zeros((6, 6)),
+        np.zeros((2, 6, 6)),
     )
 
 
@@ -455,8 +458,10 @@ def _fill_constants(piece, owner, flow, change, step, c):
     q, phase = flow.coefficients, piece.phases[owner]
     for row in range(4):
         for k in range(6):
-            c[6 * row + k] = change[row, k]
-    c[march.CA], c[march.SA], c[march.STEP] = change[4, 4], change[4, 5], step
+            c[6 * row + k] = change[0, row, k]
+        for k in range(4):
+            c[march.LOW_PARTS + 4 * row + k] = change[1, row, k]
+    c[march.CA], c[march.SA], c[march.STEP] = change[0, 4, 4], change[0, 4, 5], step
     c[march.K11], c[march.K12], c[march.K22], c[march.C11], c[march.C12], c[march.C22] = (
         q.k11, q.k12, q.k22, q.c11, q.c12, q.c22
     )  # fmt: skip
@@ -500,6 +505,8 @@ def _by_events(piece, flow, squares, n, lane, m):
             accumulate_statistics(
                 flow, squares, leaving, m.rows, noted, (motion.boxes, progress.elapsed, progress.phase), m.statistics
             )
+            if piece.continued:
+                discount_rests(m.rows, noted, m.statistics)
             _write(m, lane)
         sine, cosine = np.sin(progress.phase), np.cos(progress.phase)
         motion = Motion(motion.boxes, motion.balls, motion.walls, (0, 0), sine, cosine)
@@ -515,7 +522,7 @@ def _by_events(piece, flow, squares, n, lane, m):
     runs[march.SINE, lane], runs[march.COSINE, lane] = motion.sine, motion.cosine
     runs[march.DUE, lane], runs[march.STALLED, lane] = progress.due, progress.stalled
     runs[march.TRIAL, lane] = runs[march.REACH, lane] = runs[march.PASSED, lane] = 0.0
-    runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = 0.0
+    runs[march.TOUCH1, lane] = runs[march.TOUCH2, lane] = runs[march.Y1_LOW, lane] = runs[march.Y2_LOW, lane] = 0.0
     return ended
 
 

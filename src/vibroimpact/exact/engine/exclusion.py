@@ -151,6 +151,10 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
+MET = 2.0  # margins: a constraint that falls below them is met, as proofs would go on in ever smaller steps
+DOUBTED = 2.0 * MET
+"""Margins below which rounding decides a turn, or an impact of so little depth: by other steps, as in a lane of an
+ensemble, the same motion may come as near as MET, or miss what is met here."""
 LOOKAHEAD = 2.5
 NOTHING = 1e-300  # a margin of a force that stays zero
 SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
@@ -239,7 +243,7 @@ def _safe_time(c, bound, margin, horizon):
 
     Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
     """
-    if c[0] > 2.0 * margin:
+    if c[0] > MET * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
     if c[1] < 0.0:
         return 0.0, True

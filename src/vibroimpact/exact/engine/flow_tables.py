@@ -85,13 +85,13 @@ def tables(rates, spacing, count):
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
-        fill_table(rates, mode, spacing, series, rotations, 0, np.empty((SIZE, SIZE)))
+        fill_table(rates, mode, spacing, series, rotations, 0, np.empty((2, SIZE, SIZE)))
     return series, rotations
 
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Fill in series[mode] and the rotations of `tables`, and the change (6, 6) of the state in so many steps."""
+    """Fill in series[mode] and the rotations of `tables`, and the change of the state in `step` steps, (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
@@ -107,7 +107,8 @@ def fill_table(rates, mode, spacing, series, rotations, step, change):
         rotations[j, 0], rotations[j, 1] = power[0, BOXES, BOXES, j], power[0, BOXES, BOXES + 1, j]
     for i in range(SIZE):
         for j in range(SIZE):
-            change[i, j] = (power[0, i, j, step] - (1.0 if i == j else 0.0)) + power[1, i, j, step]
+            unit = 1.0 if i == j else 0.0
+            change[0, i, j], change[1, i, j] = _sum(power[0, i, j, step], power[1, i, j, step], -unit, 0.0)
 
 
 @inlined_source

@@ -35,32 +35,41 @@ from vibroimpact.exact.engine.phase import (
 )
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
-PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 18)
-PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(18, 28)
+Y1_LOW, Y2_LOW, PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 20)
+PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(20, 30)
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
-"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase; the
-time passed since that beginning, and that to the end; the length of the next step (0: begin a flight, -1: leave it to
-the event loop); a bound on the boxes' energy, that for Bernstein's coefficients; the walls that the balls leave; the
-module that is on a wall, or -1; the phase at the beginning, revolutions, and those at which the run stops; 1 for a run,
-1 if it is observed; its events, its flights without progress; what a pass did; its statistics; for each box a turn that
-may be its largest displacement (`find_turns`): boxes and forcing at a time near it, roughly the time from then to the
-turn, a bound on its displacement, 1 if there is one."""
+"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase;
+what the floats of the positions of the balls leave out; the time passed since that beginning, and that to the end; the
+length of the next step (0: begin a flight, -1: leave it to the event loop); a bound on the boxes' energy, that for
+Bernstein's coefficients; the walls that the balls leave; the module that is on a wall, or -1; the phase at the
+beginning, revolutions, and those at which the run stops; 1 for a run, 1 if it is observed; its events, its flights
+without progress; what a pass did; its statistics; for each box a turn that may be its largest displacement
+(`find_turns`): boxes and forcing at a time near it, roughly the time from then to the turn, a bound on its
+displacement, 1 if there is one."""
 
-CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(24, 42)
-BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(42, 51), 58)
+LOW_PARTS = 24
+CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(40, 58)
+BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(58, 67), 74)
 CONSTANTS = DROPS + 12 * (STATISTICS - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; cos - 1 and sin of Omega h; h;
-scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what impacts
-lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
+"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; four rows of four, what the
+floats in the columns of the boxes leave out, an error that would add up as each step repeats it; cos - 1 and sin of
+Omega h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
+impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """What a pass did in a lane: DOUBTFUL asks for the event loop."""
 
-ORDER = 14  # of the Taylor polynomials: over LONGEST_STEP the next term is below rounding
-TERMS = 7  # of them that are enough for the time of a turn in a step
 LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
+ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
+"""Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
+
+The derivative of order n of a velocity is at most r^n E + n r^(n - 1) F, with E the root of twice the energy of the
+boxes and F the force. So the polynomial of a velocity leaves out less than a rounding of E / n + F / r, and that of a
+position t / (n + 1) times as much.
+"""
+TERMS = 7  # of them that are enough for the time of a turn in a step
 SHORTEST = 1 / 32  # of a step, over which a proof is tried
 LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
 ROUNDED = 8.0 * 2.0**-52
@@ -79,9 +88,15 @@ def _most(a, b):
 
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
-    """Return a row of six constants times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
-    boxes = fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
-    return boxes + fused(load(c, k + 5), cosine, load(c, k + 4) * s)
+    """Return row k of exp(A h) - 1 times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
+    low, high = _of_boxes(c, LOW_PARTS + 4 * k, x1, x2, v1, v2), _of_boxes(c, 6 * k, x1, x2, v1, v2)
+    return high + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
+
+
+@inlined
+def _of_boxes(c, k, x1, x2, v1, v2):
+    """Return four constants from row k on times the boxes."""
+    return fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
 
 
 @inlined
@@ -115,8 +130,8 @@ def march(runs, c, work, enough):
     w1, w2, r1, r2 = x1 - fused(passed, u1, y1), x2 - fused(passed, u2, y2), v1 - u1, v2 - u2
     steps = 0
     while True:
-        a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 6, x1, x2, v1, v2, s, k)
-        b1, b2 = v1 + _change(c, 12, x1, x2, v1, v2, s, k), v2 + _change(c, 18, x1, x2, v1, v2, s, k)
+        a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 1, x1, x2, v1, v2, s, k)
+        b1, b2 = v1 + _change(c, 2, x1, x2, v1, v2, s, k), v2 + _change(c, 3, x1, x2, v1, v2, s, k)
         later = passed + step
         q1, q2 = a1 - fused(later, u1, y1), a2 - fused(later, u2, y2)
         o1, o2 = b1 - u1, b2 - u2
@@ -171,7 +186,7 @@ def meet(runs, c, work, integrals):
     # when the first ball meets a wall, if it does
     until = _least(_most(trial, 0.0), reach - passed)
     a1 = x1 - fused(step, u1, y1) + _change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
-    a2 = x2 - fused(step, u2, y2) + _change(c, 6, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
+    a2 = x2 - fused(step, u2, y2) + _change(c, 1, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
     t1 = where(abs(a1) >= 1.0, _about(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
     t2 = where(abs(a2) >= 1.0, _about(work, n, touch2 == wall2, wall2, y2, u2, step), math.inf)
@@ -188,7 +203,8 @@ def meet(runs, c, work, integrals):
     b1, d1 = _at(work, 0, t)
     b2, d2 = _at(work, n, t)
     time = passed + t
-    z1, z2 = fused(time, u1, load(runs, Y1)), fused(time, u2, load(runs, Y2))
+    z1, low1 = _drifted(load(runs, Y1), load(runs, Y1_LOW), u1, time)
+    z2, low2 = _drifted(load(runs, Y2), load(runs, Y2_LOW), u2, time)
     size, square, third = fused(time, drive, load(runs, SIZE)), t * t, t * (1 / 3)
     rounding = _rounding(c, size, u1, u2)
     limit = 1.0 - fused(fused(load(c, BEND), size, load(c, BEND_FORCE)), square * square, rounding)
@@ -248,6 +264,8 @@ def meet(runs, c, work, integrals):
     _replace(runs, there, V2, e2)
     _replace(runs, there, Y1, z1)
     _replace(runs, there, Y2, z2)
+    _replace(runs, there, Y1_LOW, where(impact & one, 0.0, low1))
+    _replace(runs, there, Y2_LOW, where(impact & ~one, 0.0, low2))
     _replace(runs, there, U1, o1)
     _replace(runs, there, U2, o2)
     _replace(runs, there, SINE, s)
@@ -275,6 +293,15 @@ def meet(runs, c, work, integrals):
 @inlined
 def _replace(runs, mask, row, value):
     store(runs, row, where(mask, value, load(runs, row)))
+
+
+@inlined
+def _drifted(y, low, u, time):
+    """Return the position of a ball after a time as a pair of floats: flights of equal length round a drift alike."""
+    way = fused(time, u, low)
+    there = y + way
+    part = there - y
+    return there, (y - (there - part)) + (way - part)
 
 
 @inlined

@@ -15,6 +15,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.contact import box_accelerations
 from vibroimpact.exact.engine.exclusion import (
+    DOUBTED,
     LOOKAHEAD,
     acceleration_rounding,
     gap_rounding,
@@ -38,7 +39,7 @@ GAP, FORCE, DOUBTS = 0, 1, 2
 @compiled
 def turning_points(flow, flights):
     """Return for each flight the least gap and the least force (per unit of ball mass) at a turn, inf if there is none,
-    and the number of turns within rounding of a wall: rows (m + 1, 3).
+    and the number of turns that rounding decides (DOUBTED): rows (m + 1, 3).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -170,7 +171,7 @@ def _note(flow, motion, i, times, rates, least_of):
     if relative * early > 0.0:
         gap = 1.0 - abs(relative)
         least_of[GAP] = min(least_of[GAP], gap)
-        least_of[DOUBTS] += gap <= gap_rounding(q, x, y, i)
+        least_of[DOUBTS] += gap <= DOUBTED * gap_rounding(q, x, y, i)
 
 
 DEPTH, DOUBT = 0, 1
@@ -179,7 +180,7 @@ DEPTH, DOUBT = 0, 1
 @compiled
 def hits_of(q, flights, events):
     """For each event (m, 2): of an impact the depth that it cut off, u^2 / (2 b) for a speed u and a braking b (inf
-    where nothing brakes), and whether that depth is within rounding; else inf and 0.
+    where nothing brakes), and whether rounding decides it (DOUBTED); else inf and 0.
     """
     hits = np.empty((len(events), 2))
     for n in range(len(events)):
@@ -192,7 +193,7 @@ def hits_of(q, flights, events):
         brake = -wall * box_accelerations(q, walls, boxes, math.sin(events[n, PHASE]))[i]
         if brake > 0.0:
             hits[n, DEPTH] = (boxes[2 + i] - balls[2 + i]) ** 2 / (2.0 * brake)
-            hits[n, DOUBT] = hits[n, DEPTH] <= gap_rounding(q, boxes, balls, i)
+            hits[n, DOUBT] = hits[n, DEPTH] <= DOUBTED * gap_rounding(q, boxes, balls, i)
     return hits
 
 

@@ -7,7 +7,18 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import in_place, inlined, inlined_source
 from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, held, lost
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
-from vibroimpact.exact.engine.motion import APPROACH, COSINE, SINE, Motion, free_flight, mode_of, with_velocity
+from vibroimpact.exact.engine.motion import (
+    APPROACH,
+    COSINE,
+    KIND,
+    MODULE,
+    SINE,
+    TIME,
+    Motion,
+    free_flight,
+    mode_of,
+    with_velocity,
+)
 from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
@@ -42,6 +53,23 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
             before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
             add_potential_drops(squares, before, after, late, statistics[INTEGRALS:])
         leaving, early = following, late
+
+
+@inlined
+def rests_at_start(events, n):
+    """Return True if event n is the stick of a ball that the run starts with at rest on its wall."""
+    first = events[n, TIME] == 0.0 and events[n, KIND] == STICK
+    for k in range(n):
+        first = first and events[k, MODULE] != events[n, MODULE]
+    return first
+
+
+@inlined
+def discount_rests(events, count, statistics):
+    """Take back the sticks at the start of a run that continues another, in which they are counted."""
+    for n in range(count):
+        if rests_at_start(events, n):
+            statistics[STICKS + int(events[n, MODULE]) - 1] -= 1.0
 
 
 @inlined

@@ -25,15 +25,18 @@ _GUARD_BITS = 192
 class Instant:
     """The exact time offset + 2 pi turns, both rational: the end of a run over a whole number of cycles.
 
+    reached: True if it is the end of a run, so that a run from there continues it.
+
     `float` gives the nearest float.
     """
 
     offset: Fraction
     turns: Fraction = Fraction(0)
+    reached: bool = False
 
     def later(self, cycles: int, omega: float) -> "Instant":
-        """Return the time a number of periods 2 pi / omega later."""
-        return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega))
+        """Return the time a number of periods 2 pi / omega later, as reached by a run."""
+        return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega), reached=True)
 
     def __float__(self):
         return float(self.offset + (self.turns and self.turns * _two_pi(_digits(self.turns))))
@@ -42,6 +45,11 @@ class Instant:
 def exactly(tau: float | Instant) -> Instant:
     """Return the Instant of a float or another rational number."""
     return tau if isinstance(tau, Instant) else Instant(Fraction(tau))
+
+
+def continues(begin: float | Instant) -> bool:
+    """Return True if a run from this time continues another, in which balls at rest on a wall stick already."""
+    return isinstance(begin, Instant) and begin.reached
 
 
 @lru_cache(maxsize=1024)

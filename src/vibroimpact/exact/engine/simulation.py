@@ -2,6 +2,7 @@
 
 import math
 import numbers
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -16,13 +17,14 @@ from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.certificate import KNOWN, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.flow import flow_of, tables_of
-from vibroimpact.exact.engine.phase import Instant, exactly, phase_at
+from vibroimpact.exact.engine.observation import rests_at_start
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, shown, whole
 from vibroimpact.system.representation import Representation, brief
-from vibroimpact.system.state import EVENT, KINDS
+from vibroimpact.system.state import EVENT, KINDS, states_array
 
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
@@ -39,7 +41,7 @@ def checked_state(state) -> np.ndarray:
     Raises:
         ValueError: it is none.
     """
-    state = reals("state", state)
+    state = states_array("state", state)
     values = state.tolist()
     if state.shape != (8,):
         raise ValueError(f"state: needs shape (8,), got {state.shape}")
@@ -164,11 +166,15 @@ class Run(Representation):
 
     @cached_property
     def events(self) -> np.ndarray:
-        table = np.empty(len(self.rows), EVENT)
-        table["tau"] = self.tau0 + self.rows[:, motion.TIME]
+        rows = self.rows
+        if continues(self.begin):  # the sticks of balls at rest on their walls are events of the run before
+            again = [n for n in range(min(kernel.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
+            rows = np.delete(rows, again, axis=0)
+        table = np.empty(len(rows), EVENT)
+        table["tau"] = self.tau0 + rows[:, motion.TIME]
         for name, column in (("module", motion.MODULE), ("wall", motion.WALL), ("kind", motion.KIND)):
-            table[name] = self.rows[:, column]
-        table["state"] = self.rows[:, 4 : motion.PHASE]
+            table[name] = rows[:, column]
+        table["state"] = rows[:, 4 : motion.PHASE]
         table.flags.writeable = False
         return table
 
@@ -225,15 +231,24 @@ class Run(Representation):
 
         A stroboscopic Poincare section; the motion is computed once more.
         """
-        return self._sampled(frames.section_times(self, real("phase", phase)))
+        system, phase = self.system, real("phase", phase)
+        (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
+        ahead = ((wanted - begin) + (part - tail)) % TWO_PI
+        # A start that is a float, or continues a run from one, may be meant as whole periods from tau = 0.
+        rounding = math.ulp(max(abs(phase), TWO_PI)) + system.Omega * math.ulp(self.tau0)
+        at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
+        cycles = np.arange(self.cycles + at_start)
+        return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))
 
     def plot(self):
         """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i between its walls; the motion is computed again."""
-        times = frames.plot_times(self)
-        return frames.plot(self.system, times, self._sampled(times))
+        since = frames.plot_times(self)
+        return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
-    def _sampled(self, times):
-        return simulate(self.system, self.start, self.cycles, self.begin, times).samples
+    def _sampled(self, since):
+        """Return the states at some times since the start, which lose no digits far from tau = 0."""
+        start = self.start.copy()  # for a read-only array the engine would be compiled anew
+        return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
     def trajectory(self) -> tuple:
@@ -245,7 +260,7 @@ class Run(Representation):
 
 def simulate(
     system: System,
-    state: ArrayLike,
+    state: ArrayLike | Mapping[str, float],
     cycles: int,
     tau0: float | Fraction | Instant = 0.0,
     sample_times: ArrayLike | None = None,
@@ -254,11 +269,13 @@ def simulate(
 
     Args:
         system: parameters.
-        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless.
+        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless; or with these by name, in any order: a
+            mapping, or a row of a table as `to_frame` makes them.
         cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
             motion is a run from `run.final` with tau0=run.end.
         tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
-            the end of a run, `run.end`. |tau0| and the end stay below 2**43, where floats still tell times apart.
+            the end of a run, `run.end`, which this run then continues: a ball at rest on a wall sticks there already,
+            and this is no event again. |tau0| and the end stay below 2**43, where floats still tell times apart.
         sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
     Returns:
@@ -267,7 +284,8 @@ def simulate(
         compilation of the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
 
     Raises:
-        ValueError: an argument is malformed, or the start has a ball beyond a wall (|X_i - Y_i| > 1).
+        ValueError: an argument is malformed, the start has a ball beyond a wall (|X_i - Y_i| > 1), or names of other
+            components.
         ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
             were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
@@ -278,7 +296,7 @@ def simulate(
     if sample_times is not None:
         start = float(begin)
         times = checked_times("sample_times", sample_times, start, start + cycles * system.period)
-    return _run(system, state, cycles, begin, times)
+    return _run(system, state, cycles, begin, times, float(begin))
 
 
 def simulate_many(
@@ -288,7 +306,7 @@ def simulate_many(
 
     Args:
         system: parameters.
-        states: (n, 8) starts.
+        states: (n, 8) starts, each as for `simulate`, or a table with their columns by name.
         cycles, tau0: as for `simulate`.
         progress: report on standard error, about once a second.
 
@@ -300,7 +318,7 @@ def simulate_many(
         ArithmeticError: an invariant broke in one of the runs.
     """
     instance("system", system, System)
-    states = np.ascontiguousarray(reals("states", states))  # rows of another order would be compiled for anew
+    states = np.ascontiguousarray(states_array("states", states))  # rows of another order would be compiled for anew
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
@@ -310,24 +328,24 @@ def simulate_many(
             raise ValueError(f"states[{row}]: {error}") from None
     begin, cycles = checked_window(system, cycles, tau0)
     tables_of(system)  # built once, before the threads share it
-    pieces = [(system, state, cycles, begin, NO_TIMES) for state in states]
+    pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
     return on_all_cores(_run, pieces, [1] * len(pieces), progress)
 
 
-def _run(system, state, cycles, begin, times):
-    """Return one run from checked arguments."""
-    status, run = attempt(system, state, cycles, begin, times)
+def _run(system, state, cycles, begin, times, clock):
+    """Return one run from checked arguments; the sample times are on a clock that shows `clock` at the start."""
+    status, run = attempt(system, state, cycles, begin, times, clock)
     if status != kernel.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
         raise ArithmeticError(f"{kernel.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
     return run
 
 
-def attempt(system, state, cycles, begin, times):
+def attempt(system, state, cycles, begin, times, clock):
     """Return (status, the run as far as it came) from checked arguments."""
-    samples, final, tau0 = np.empty((len(times), 8)), np.empty(8), float(begin)
+    samples, final = np.empty((len(times), 8)), np.empty(8)
     (rows, counters, checkpoint), pieces = kernel.memory(cycles), []
-    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, tau0, times, samples, final
+    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, clock, times, samples, final
     while (status := kernel.integrate(*given, rows, counters, checkpoint)) == kernel.PAUSED:
         if kernel.is_full(rows, counters):
             pieces.append(rows[: int(counters[motion.EVENTS])])

@@ -17,7 +17,7 @@ from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, PHASE, mode_of
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH, WALLS, completes_chatter, start_of, walls_after
-from vibroimpact.system.state import IMPACT, STICK
+from vibroimpact.system.state import IMPACT, STICK, takes_part
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
 """Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
@@ -209,19 +209,22 @@ def growth(run, frame: np.ndarray) -> Growth:
     """Carry an orthonormal frame (8, k) along a run, made orthonormal again after every cycle by QR.
 
     Args:
-        run: a `Run`. frame: columns in the order of the public state.
+        run: a `Run`. frame: columns in the order of the public state, 0 in the components of a module that takes no
+            part.
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
-    later = _carried_by_cycles(flow, flights, events, run.system.period, frame[INNER_ORDER], factors, counts)
+    places = np.flatnonzero(takes_part(run.system)[INNER_ORDER])
+    later = _carried_by_cycles(flow, flights, events, run.system.period, frame[INNER_ORDER], places, factors, counts)
     return Growth(factors, counts[:, 0], counts[:, 1], later[PUBLIC_ORDER])
 
 
 @compiled
-def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
+def _carried_by_cycles(flow, flights, events, period, frame, places, factors, counts):
     """Return the frame after the last cycle; fill in factors (n, k) and counts (n, 2), which are 0.
 
-    Cuts flights at the ends of cycles: their derivative depends on their length and the balls that stick alone.
+    The frame is 0 in all but some places of the state. Cuts flights at the ends of cycles: their derivative depends on
+    their length and the balls that stick alone.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -240,7 +243,7 @@ def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
                 frame, later = later, frame
             left, elapsed = left - step, elapsed + step
             if ends:
-                _orthonormalize(frame, factors[cycle])
+                _orthonormalize(frame, places, factors[cycle])
                 cycle, elapsed = cycle + 1, 0.0
                 counts[cycle, 1] = stuck if left > 0.0 else 0
         if n < len(events):
@@ -248,13 +251,18 @@ def _carried_by_cycles(flow, flights, events, period, frame, factors, counts):
             fill_event(flow.coefficients, flights, events, n, matrix)
             fill_product(matrix, frame, later)
             frame, later = later, frame
-    _orthonormalize(frame, factors[cycle])
+    _orthonormalize(frame, places, factors[cycle])
     return frame
 
 
 @compiled
-def _orthonormalize(a, sizes):
-    """Replace a (m, k) by the Q of a = QR, and fill |diag R| into sizes (k,)."""
-    q, r = np.linalg.qr(a)
-    a[:] = q
+def _orthonormalize(a, places, sizes):
+    """Replace the rows of a (m, k) at some places by the Q of those rows = QR, and fill |diag R| into sizes (k,).
+
+    Leave out the other rows, which are 0: QR would fill them with rounding errors.
+    """
+    q, r = np.linalg.qr(a[places])
+    for row in range(len(places)):
+        for k in range(a.shape[1]):
+            a[places[row], k] = q[row, k]
     sizes[:] = np.abs(np.diag(r))

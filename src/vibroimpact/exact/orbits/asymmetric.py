@@ -9,7 +9,8 @@ all kicks gives per module two conditions of restitution and one of distance,
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
     I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i),
 
-six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2.
+six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. A module that
+takes no part has p_i = q_i = I_i = 0.
 
 The starts cover the flight fractions and the lag p_2 - p_1 evenly; for each of them the equations are linear in I and
 in the forcing phase, so the other unknowns start at their least-squares values. Nothing proves the list complete.
@@ -26,7 +27,9 @@ _SHORTEST = 1e-6  # fraction of the period: roots with a shorter flight are the 
 _UNEQUAL = 1e-7
 _BOXES = np.array([0, 0, 1, 1])
 _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
-_MODULES = np.eye(2)[[0, 0, 1, 1, 0, 1]]  # of the six conditions
+MODULES = np.array([1, 1, 2, 2, 1, 2])
+"""Modules to which the unknowns (p_1, q_1, p_2, q_2, I_1, I_2) belong, and the conditions."""
+_MODULES = np.eye(2)[MODULES - 1]
 _LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # of the flights that they are about, by the impact times
 _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1: the additive sequence of its powers fills the cube evenly
 
@@ -41,6 +44,7 @@ class AsymmetricConditions:
     def __init__(self, system):
         self.system = system
         self.amplitude = forced_amplitude(system)[_BOXES]
+        self.idle = ~np.isin(MODULES, system.modules)
         self._response = impulse_response(system, sign=1)
 
     def __call__(self, unknowns: np.ndarray):
@@ -52,6 +56,7 @@ class AsymmetricConditions:
         residual = (by_strength @ strengths[..., None])[..., 0] + self._forced(forced)
         residual[:, 4:] -= 2.0
         jacobian = np.concatenate([self._moved(forced, by_kick, strengths, times), by_strength], axis=2)
+        residual[:, self.idle], jacobian[:, self.idle] = unknowns[:, self.idle], np.eye(6)[self.idle]
         return residual, jacobian
 
     def linear_system(self, times: np.ndarray):
@@ -102,16 +107,18 @@ def asymmetric_solutions(system, starts: int = STARTS):
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    if system.modules != (1, 2):
+    if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)
     period = system.period
     conditions = AsymmetricConditions(system)
     found = newton(conditions, _starts(system, conditions, starts))
     found[:, :4] = wrapped(found[:, :4], period)
-    u = wrapped(found[:, 1:4:2] - found[:, 0:4:2], period) / period
+    u = wrapped(found[:, 1:4:2] - found[:, 0:4:2], period)[:, np.array(system.modules) - 1] / period
     genuine = (u > _SHORTEST).all(axis=1) & (u < 1 - _SHORTEST).all(axis=1) & (abs(u - 0.5) > _UNEQUAL).any(axis=1)
     found = found[genuine]
-    return distinct(np.concatenate([found, _mirrored(found, period)]), period, 4)
+    images = _mirrored(found, period)
+    images[:, conditions.idle] = 0.0
+    return distinct(np.concatenate([found, images]), period, 4)
 
 
 def _starts(system, conditions, count):
@@ -120,9 +127,12 @@ def _starts(system, conditions, count):
     times = np.stack([zero, first, lag, lag + second], axis=1) * system.period
     matrices = conditions.linear_system(times)
     constant = np.array([0.0, 0.0, 0.0, 0.0, 2.0, 2.0])
+    matrices[:, conditions.idle], constant[conditions.idle] = 0.0, 0.0
     solutions = np.linalg.pinv(matrices) @ constant
     shift = np.arctan2(solutions[:, 3], solutions[:, 2]) / system.Omega
-    return np.concatenate([times + shift[:, None], solutions[:, :2]], axis=1)
+    found = np.concatenate([times + shift[:, None], solutions[:, :2]], axis=1)
+    found[:, conditions.idle] = 0.0
+    return found
 
 
 def _mirrored(roots, period):

@@ -7,7 +7,7 @@ from scipy.linalg import eig, expm
 
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
-from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.state import BALLS, BOXES, MODULES
 from vibroimpact.system.verdict import all_stable, verdict
 
 _MODULES = np.array([1, 1, 2, 2])
@@ -82,10 +82,10 @@ class Passage(NamedTuple):
 def impact_sequence(times: np.ndarray, period: float):
     """Times, modules and walls, each (4,), of impacts at times (2, 2) [module, wall +1 / wall -1] in [0, T), in order.
 
-    One at 0 comes last, at T: the state at tau = 0 is the one after it.
+    One at 0 comes last, at T: the state at tau = 0 is the one after it. A module whose times are NaN has no impacts.
     """
     within = np.where(times == 0, period, times).ravel()
-    order = np.argsort(within, kind="stable")
+    order = np.argsort(within, kind="stable")[: np.isfinite(within).sum()]
     return within[order], _MODULES[order], _WALLS[order]
 
 
@@ -124,8 +124,14 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     return Passage(state, edges[1:-1], before, after, flights[-1] @ now + pushes[-1], end, jacobian)
 
 
+def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
+    """A monodromy matrix (8, 8), or of a single machine the part (4, 4) of the module that takes part."""
+    part = np.isin(MODULES, system.modules)
+    return jacobian[part][:, part]
+
+
 def multipliers(jacobian: np.ndarray) -> np.ndarray:
-    """Eigenvalues of a monodromy matrix, shape (8,) complex, by descending modulus, then descending imaginary part."""
+    """Eigenvalues (n,) complex of a monodromy matrix (n, n), by descending modulus, then descending imaginary part."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
 
@@ -137,10 +143,10 @@ def floquet(orbit) -> str:
     condition number of the eigenvalue times the error of the monodromy matrix. That is rounding and the error of the
     orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
     """
-    jacobian = orbit.passage.jacobian
+    jacobian = of_modules(orbit.system, orbit.passage.jacobian)
     values, left, right = eig(jacobian, left=True, right=True)
     size = np.linalg.norm(jacobian)
     condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))
     displaced = (orbit.residual + _ROUNDING) / np.abs(values - 1).min()
-    errors = size * condition * (_ROUNDING + displaced / np.abs(orbit.ball_speeds).min())
+    errors = size * condition * (_ROUNDING + displaced / np.nanmin(np.abs(orbit.ball_speeds)))
     return all_stable(verdict(1 - abs(value), error) for value, error in zip(values, errors, strict=True))

@@ -15,8 +15,23 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau))."""
-    return np.linalg.solve(dynamic_stiffness(system), system.forcing.astype(complex))
+    """Complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau)).
+
+    Raises:
+        ValueError: the undamped boxes are at a resonance, so that they have such motions of any amplitude.
+    """
+    try:
+        return np.linalg.solve(dynamic_stiffness(system.with_idle_damped()), system.forcing.astype(complex))
+    except np.linalg.LinAlgError:
+        raise ValueError(_resonance(system, "")) from None
+
+
+def _resonance(system, harmonic):
+    """Return the message on undamped boxes in resonance with a harmonic of the forcing."""
+    return (
+        f"system: the undamped boxes are in resonance with {harmonic}Omega = {system.Omega}, so impacts in every cycle "
+        "excite no bounded motion; add damping"
+    )
 
 
 class ImpulseResponse:
@@ -32,12 +47,10 @@ class ImpulseResponse:
         self.sign = sign
         self.interval = system.period if sign == 1 else system.period / 2
         self._rate = rate_matrix(system)[:4, :4]
-        closure = np.eye(4) - sign * expm(self._rate * self.interval)
-        if np.linalg.cond(closure) > 1e12:
-            raise ValueError(
-                f"system: the undamped boxes are in resonance with {'a' if sign == 1 else 'an odd'} harmonic of "
-                f"Omega = {system.Omega}, so impacts in every cycle excite no bounded motion; add damping"
-            )
+        advance = expm(self._rate * self.interval)
+        closure = np.eye(4) - sign * advance
+        if _singular(closure, 1.0 + np.linalg.norm(advance, 2)):
+            raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} harmonic of "))
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
@@ -82,6 +95,14 @@ class ImpulseResponse:
         return np.moveaxis(motion @ self._readings[boxes], -1, 0)
 
 
+def _singular(matrices, scale):
+    """Return True for matrices (..., n, n) that are singular to rounding; scale: of the terms that may cancel in them.
+
+    At a resonance of both boxes a matrix vanishes as a whole, and its condition number says nothing.
+    """
+    return np.linalg.svd(matrices, compute_uv=False)[..., -1] <= 1e-12 * scale
+
+
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
     """matrix**n for n = 0 .. count - 1, stacked, by doubling (rounding grows with log(count) only)."""
     powers = np.eye(len(matrix))[None]
@@ -92,7 +113,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
     """The impulse response of a system, kept for reuse: it is the same under all forces."""
-    return _kept(system.with_(f10_hat=0.0, f20_hat=0.0), sign)
+    return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 
 _kept = lru_cache(maxsize=16)(ImpulseResponse)
@@ -123,6 +144,7 @@ class HarmonicResponse:
     """
 
     def __init__(self, system, highest: int, free_mass: bool = False):
+        system = system.with_idle_damped()
         if highest < 1 or highest % 2 == 0:
             raise ValueError(
                 f"highest: {highest} is no odd number from 1 on; symmetric motions have odd harmonics only"
@@ -130,11 +152,11 @@ class HarmonicResponse:
         self.terms = (highest + 1) // 2
         self.frequencies = system.Omega * np.arange(1, highest + 1, 2)
         w = self.frequencies[:, None, None]
-        stiffness = stiffness_matrix(system) - w**2 * np.eye(2) + 1j * w * damping_matrix(system)
-        if np.linalg.cond(stiffness).max() > 1e12:
-            raise ValueError(
-                f"system: undamped boxes in resonance with a harmonic of Omega = {system.Omega}; add damping"
-            )
+        springs, dampers = stiffness_matrix(system), damping_matrix(system)
+        stiffness = springs - w**2 * np.eye(2) + 1j * w * dampers
+        norms = np.linalg.norm(springs, 2), np.linalg.norm(dampers, 2)
+        if _singular(stiffness, norms[0] + self.frequencies * (self.frequencies + norms[1])).any():
+            raise ValueError(_resonance(system, "an odd harmonic of "))
         self._receptance = 4 / system.period * np.linalg.inv(stiffness)
         summed = 4 / system.period * np.sum(self.frequencies**-2.0)
         self._own = summed - system.period / 8 if free_mass else 0.0

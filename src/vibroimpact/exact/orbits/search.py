@@ -7,35 +7,45 @@ import numpy as np
 from scipy.linalg import expm
 
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
-from vibroimpact.exact.orbits.floquet import Passage, floquet, follow, impact_sequence, multipliers
+from vibroimpact.exact.orbits.floquet import Passage, floquet, follow, impact_sequence, multipliers, of_modules
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
-from vibroimpact.system.representation import Representation, brief
-from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.representation import Found, Representation, brief
+from vibroimpact.system.state import BALLS, BOXES, MODULES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
 _SAMPLES = 4096  # of each flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
+_SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
+COLUMNS = (
+    *("symmetric", "admissible", "C1", "C2"),
+    *(f"{what}{side}" for what in ("phase", "speed") for side in _SIDES),
+    *("largest_multiplier", "residual", "exact", "proved"),
+)
+"""Columns of a table of orbits."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Representation):
     """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
 
+    Of a single machine (`PhysicalSystem.single`) it is that of the module that takes part, with two impacts: what
+    belongs to the other is NaN, in the state 0.
+
     system: the system it belongs to.
     symmetric: whether state(tau + T/2) = -state(tau).
     impact_phases: (2, 2), impact times as fractions of the period in [0, 1).
     ball_speeds: (2, 2), speed of the flight that starts at this wall; negative for a root that is no motion.
-    multipliers: (8,) complex, by descending modulus. Where both modules impact in the same instant and gamma12 is not 0
-        they belong to perturbations that let module 1 impact first.
+    multipliers: (8,), of a single machine (4,), complex, by descending modulus. Where both modules impact in the same
+        instant and gamma12 is not 0 they belong to perturbations that let module 1 impact first.
     state: (8,) at tau = 0, just after the impact if there is one.
-    passage: the motion followed once round, from `state` through its four impacts.
+    passage: the motion followed once round, from `state` through all its impacts.
     excursion: the largest |W_i| at its extrema between impacts, at a wall 1; 0 if no flight has an extremum.
     admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
     residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
@@ -79,19 +89,10 @@ class Orbit(Representation):
 
     def row(self) -> dict:
         """Numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
-        sides = ("1_plus", "1_minus", "2_plus", "2_minus")
-        names = [f"{what}{side}" for what in ("phase", "speed") for side in sides]
         numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
-        return {
-            "symmetric": self.symmetric,
-            "admissible": self.admissible,
-            **dict(zip(("C1", "C2"), self.C.tolist(), strict=True)),
-            **dict(zip(names, numbers, strict=True)),
-            "largest_multiplier": float(abs(self.multipliers[0])),
-            "residual": self.residual,
-            "exact": self.stability,
-            "proved": self.proved,
-        }
+        largest = float(abs(self.multipliers[0]))
+        verdicts = largest, self.residual, self.stability, self.proved
+        return dict(zip(COLUMNS, (self.symmetric, self.admissible, *self.C.tolist(), *numbers, *verdicts), strict=True))
 
     def _shown(self):
         return {
@@ -138,7 +139,7 @@ def orbits(system: System) -> list[Orbit]:
     Raises:
         ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
     """
-    return search(system).orbits
+    return Found(search(system).orbits, COLUMNS)
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
@@ -169,7 +170,7 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Multipliers (8,) complex of a symmetric orbit over half a period and mirroring: the roots of its multipliers.
+    """Multipliers of a symmetric orbit over half a period and mirroring: the roots of its multipliers, as many.
 
     They tell apart what the full ones do not: +1 is a fold, -1 is symmetry breaking.
 
@@ -180,13 +181,15 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
         raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
     system = orbit.system
     times, modules, _ = impact_sequence(orbit.impact_phases * system.period, system.period)
-    return multipliers(-follow(system, orbit.state, times[:2], modules[:2], system.period / 2).jacobian)
+    first = slice(len(times) // 2)
+    passage = follow(system, orbit.state, times[first], modules[first], system.period / 2)
+    return multipliers(-of_modules(system, passage.jacobian))
 
 
 def _order(orbit):
     """Sorting key; phases break ties between modules that do not feel each other."""
-    speeds = orbit.ball_speeds.sum(axis=1).round(9)
-    return (not orbit.symmetric, *speeds, *orbit.impact_phases.ravel().round(9))
+    numbers = [*orbit.ball_speeds.sum(axis=1), *orbit.impact_phases.ravel()]
+    return (not orbit.symmetric, *np.nan_to_num(numbers).round(9))
 
 
 def symmetric_orbit(system, root) -> Orbit:
@@ -211,21 +214,24 @@ def _orbit(system, times, changes, fractions, sign):
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)
+    state[~np.isin(MODULES, system.modules)] = 0.0
+    alone = np.where(np.isin([1, 2], system.modules), 1.0, np.nan)[:, None]
+    times, speeds = alone * times, alone * speeds
     in_order, modules, walls = impact_sequence(times, system.period)
     passage = follow(system, state, in_order, modules, system.period)
     gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
-    at_wall = gaps[range(4), modules - 1] - walls
+    at_wall = gaps[range(len(walls)), modules - 1] - walls
     excursion = float(extremes(system, passage).max(initial=0.0))
     return Orbit(
         system=system,
         symmetric=sign == -1,
         impact_phases=wrapped(times / system.period, 1.0),
         ball_speeds=speeds,
-        multipliers=multipliers(passage.jacobian),
+        multipliers=multipliers(of_modules(system, passage.jacobian)),
         state=state,
         passage=passage,
         excursion=excursion,
-        admissible=bool((speeds > 0).all() and excursion <= 1 + _TOUCH),
+        admissible=bool(not (speeds <= 0).any() and excursion <= 1 + _TOUCH),
         residual=float(max(abs(at_wall).max(), abs(passage.final - state).max())),
     )
 

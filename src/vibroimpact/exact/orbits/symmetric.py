@@ -10,7 +10,8 @@ kicks, the conditions on module i (it meets the wall; Newton's rule) are the ima
 with a complex 2 x 2 matrix P and the forced amplitudes a. For a given delta these four real equations are linear in
 C_1, C_2, c = cos(Omega tau_1), s = sin(Omega tau_1), and c^2 + s^2 = 1 is one equation for delta alone. Multiplied
 through by the determinant of the linear system it is analytic and without poles, apart from kinks at delta = 0 and T/2,
-so a Chebyshev interpolant between the kinks has all its roots, to rounding.
+so a Chebyshev interpolant between the kinks has all its roots, to rounding. A module that takes no part has
+tau_i = C_i = 0.
 """
 
 import math
@@ -30,6 +31,8 @@ _NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series
 _NEAR = 1e-3  # a double root may come out of the eigenvalue solver as a pair off the real axis
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
+MODULES = np.array([1, 2, 1, 2])
+"""Modules to which the unknowns (tau_1, tau_2, C_1, C_2) belong, and the conditions."""
 
 
 class SymmetricConditions:
@@ -45,6 +48,7 @@ class SymmetricConditions:
 
     def __init__(self, system, response=None, forced=None):
         self.omega = system.Omega
+        self._idle = ~np.isin(MODULES, system.modules)
         self.amplitudes = forced_amplitude(system)[None] if forced is None else forced
         self._response = response or impulse_response(system, sign=-1)
         self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
@@ -76,7 +80,9 @@ class SymmetricConditions:
         moved = -change * C[:, None, :]
         moved[:, _BOXES, _BOXES] = (change @ C[..., None])[..., 0] - 1j * self.omega * forced
         jacobian = np.concatenate([moved, matrix], axis=2)
-        return np.concatenate([residual.real, residual.imag], axis=1), np.concatenate([jacobian.real, jacobian.imag], 1)
+        residual, jacobian = (np.concatenate([of.real, of.imag], axis=1) for of in (residual, jacobian))
+        residual[:, self._idle], jacobian[:, self._idle] = unknowns[:, :4][:, self._idle], np.eye(4)[self._idle]
+        return residual, jacobian
 
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
         """Matrix (..., 4, 4) and right-hand side (4,) of the equations for (C_1, C_2, c, s) at each delta (...).
@@ -91,6 +97,8 @@ class SymmetricConditions:
 
 def symmetric_solutions(system, response=None) -> np.ndarray:
     """Every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
+
+    A module that takes no part has tau_i = C_i = 0.
 
     Args:
         response: as SymmetricConditions.
@@ -112,29 +120,31 @@ def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
 
 def _solutions(system, systems, response):
     """The roots of each of some systems that differ from one in their forces alone."""
-    driven = [k for k, one in enumerate(systems) if one.modules == (1, 2)]
     found = [np.empty((0, 4))] * len(systems)
-    if not driven:
-        return found
-    conditions = SymmetricConditions(system, response, np.array([forced_amplitude(systems[k]) for k in driven]))
-    uncoupled = system.alpha12 == 0 and system.gamma12 == 0
-    roots = newton(conditions, _uncoupled_starts(conditions) if uncoupled else _coupled_starts(system, conditions))
-    roots[:, :2] = wrapped(roots[:, :2], system.period)
-    for number, k in enumerate(driven):
-        found[k] = distinct(roots[roots[:, 4] == number, :4], system.period, 2)[0]
+    for modules in {one.modules for one in systems} - {()}:
+        alike = [k for k, one in enumerate(systems) if one.modules == modules]
+        forced = np.array([forced_amplitude(systems[k]) for k in alike])
+        conditions = SymmetricConditions(systems[alike[0]], response, forced)
+        uncoupled = system.alpha12 == 0 and system.gamma12 == 0
+        starts = _uncoupled_starts(conditions, modules) if uncoupled else _coupled_starts(system, conditions)
+        roots = newton(conditions, starts)
+        roots[:, :2] = wrapped(roots[:, :2], system.period)
+        for number, k in enumerate(alike):
+            found[k] = distinct(roots[roots[:, 4] == number, :4], system.period, 2)[0]
     return found
 
 
-def _uncoupled_starts(conditions):
+def _uncoupled_starts(conditions, modules):
     """Each module alone: |P_ii C_i + i| = |a_i| is quadratic in C_i. All pairs of its roots."""
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
-        single = []
-        for p, a in zip(diagonal, amplitudes, strict=True):
+        single = [[(0.0, 0.0)], [(0.0, 0.0)]]
+        for i in (module - 1 for module in modules):
+            p, a = diagonal[i], amplitudes[i]
             C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
             C = C.real[abs(C.imag) < _NEAR]
-            single.append([(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C])
+            single[i] = [(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C]
         starts += [(t1, t2, c1, c2, force) for t1, c1 in single[0] for t2, c2 in single[1]]
     return np.array(starts).reshape(-1, 5)
 

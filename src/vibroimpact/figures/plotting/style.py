@@ -1,6 +1,7 @@
 """The look shared by all figures, and how a figure becomes files."""
 
 import functools
+import json
 from io import BytesIO
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from vibroimpact import tables
+from vibroimpact.figures.plotting.versions import recorded_versions
 
 STYLE_FILE = Path(__file__).with_name("vibroimpact.mplstyle")
 
@@ -78,11 +80,17 @@ def png(figure: Figure) -> bytes:
 
 @styled
 def save(figure: Figure, outputs: dict) -> None:
-    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file."""
+    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file.
+
+    The versions of this process, which draws, go to outputs["provenance"] if it is there.
+    """
     # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
         figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind])
         figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
+    if "provenance" in outputs:
+        versions = json.dumps({"versions": recorded_versions()})
+        Path(outputs["provenance"]).write_text(versions, encoding="utf-8")
 
 
 def draw_tables(figure, read: dict) -> Figure:

@@ -1,4 +1,7 @@
-"""Versions that decide on pixels, known without what draws."""
+"""Versions of what draws: those that decide on pixels, and those recorded with a figure."""
+
+import platform
+from importlib.metadata import version
 
 import matplotlib
 from matplotlib import ft2font
@@ -6,3 +9,9 @@ from matplotlib import ft2font
 
 def drawing_versions() -> dict[str, str]:
     return {"matplotlib": matplotlib.__version__, "freetype": ft2font.__freetype_version__}
+
+
+def recorded_versions() -> dict[str, str]:
+    """Return the versions of this Python and of the packages that a figure is computed and drawn with."""
+    packages = ("numpy", "scipy", "numba", "matplotlib")
+    return {"python": platform.python_version(), **{name: version(name) for name in packages}}

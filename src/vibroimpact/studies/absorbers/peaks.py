@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine.ensemble import STATUSES, ensemble
 from vibroimpact.exact.engine.event_loop import FINISHED
 from vibroimpact.system import System
+from vibroimpact.system.state import idle_at_rest
 
 PART = 0.99
 """Part of the cycles whose largest displacement is at most the peak."""
@@ -68,12 +69,15 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Cycles:
     """Observe runs of systems, each from all states (n, 8), cycle by cycle; see `peak`.
 
+    A module that takes no part is put at rest.
+
     Raises:
         ValueError: no cycle is observed, or as `ensemble`.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
-    runs = ensemble(np.array(systems, dtype=object)[:, None], states, cycles, settle=settle, by_cycle=True)
+    systems, states = np.array(systems, dtype=object), np.array([idle_at_rest(one, states) for one in systems])
+    runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
     lost = np.isnan(final).any(axis=-1)
     rms = np.sqrt(np.max(squares[~lost], initial=0.0) / (cycles - settle))

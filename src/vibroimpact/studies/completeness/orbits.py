@@ -14,6 +14,8 @@ Where D is not 0 the roots of F are exactly the solutions, each with one C and o
 [T/2, T]. These are bisected until on each interval F excludes 0, or F' and D do, so that the signs of F at the two ends
 tell whether there is one root or none. The domain is thereby everything: any lag, any phase, any real C. What stays
 open at the smallest width (a double root, a root at a kink) is reported.
+
+Of a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
 
 import itertools
@@ -40,7 +42,8 @@ _TERMS = 3
 class Proof:
     """Proof of the list of symmetric orbits of a system with exactly these float64 matrices and forcing.
 
-    isolated: intervals of the lag (tau_2 - tau_1) / T, each with exactly one symmetric response, ascending.
+    isolated: intervals of the lag (tau_2 - tau_1) / T, of a single machine of its C, each with exactly one symmetric
+        response, ascending.
     undecided: intervals in which nothing is proved; everywhere else there is no symmetric response.
     complete: nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
     """
@@ -53,16 +56,36 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many symmetric 1:1 responses a system has, admissible or not.
 
-    There is none where a module is driven by nothing.
+    There is none where nothing is driven.
 
     Raises:
         ValueError: undamped boxes in resonance with the impacts.
     """
-    isolated, undecided = ([], []) if system.modules != (1, 2) else _bisect(_Condition(system))
     listed = symmetric_solutions(system)
-    lags = np.sort(wrapped(listed[:, 1] - listed[:, 0], system.period) / system.period)
-    matched = len(lags) == len(isolated) and all(a <= x <= b for (a, b), x in zip(isolated, lags, strict=True))
+    if system.modules == (1, 2):
+        isolated, undecided = _bisect(_Condition(system))
+        places = np.sort(wrapped(listed[:, 1] - listed[:, 0], system.period) / system.period)
+    else:
+        (isolated, undecided), places = _of_one_module(system), np.sort(listed[:, 2:].sum(axis=1))
+    matched = len(places) == len(isolated) and all(a <= x <= b for (a, b), x in zip(isolated, places, strict=True))
     return Proof(isolated, undecided, matched and not undecided)
+
+
+def _of_one_module(system):
+    """Intervals of C with exactly one root, and those that stay open, both ascending."""
+    if not system.modules:
+        return [], []
+    i, condition = system.modules[0] - 1, _Condition(system)
+    P, force = condition._own(i)[0], abs(condition.amplitude[i])
+    square = abs(P) ** 2
+    middle, discriminant = -P.imag / square, square * force**2 - P.real**2
+    if discriminant < 0:
+        return [], []
+    away = abs(discriminant).sqrt() / square
+    if not discriminant > 0:
+        return [], [(float((middle - away).lower()), float((middle + away).upper()))]
+    roots = middle - away, middle + away
+    return [(float(root.mid() - away / 2), float(root.mid() + away / 2)) for root in roots], []
 
 
 def _bisect(condition):

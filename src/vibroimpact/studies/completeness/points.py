@@ -5,7 +5,8 @@ every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The squar
 condition excludes 0 or a contraction settles how many zeros there are: none, or exactly one in the box of twice the
 width (Krawczyk's test; Neumaier 1990). The functions of a chart are formed anew from the parameters, in intervals, and
 expanded to second order about the centre of a box, the second order enclosed over its reach. Where Delta excludes 0 the
-phases follow uniquely. What stays open at the smallest width is reported.
+phases follow uniquely. What stays open at the smallest width is reported. A module that takes no part has the condition
+x_i = 0 in place of its own, and q_i = 1.
 """
 
 import functools
@@ -36,7 +37,7 @@ _TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the terms left out, and their deriv
 _ORDERS = 3
 _REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
 
-Box = tuple[tuple[float, float], tuple[float, float]]
+Box = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class Proof:
     """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
 
     isolated: ascending, each with exactly one fixed point: boxes ((C_1 from, to), (C_2 from, to)), or for asymmetric
-        points pairs of charts and the boxes of their parameters.
+        points pairs of charts and the boxes of their parameters. Of a single machine they have one entry, not two.
     undecided: the same, where nothing is proved; everywhere else, for any real C_i, and v^2 in [-1, 1], there is none.
     motions: how many of the isolated points have C_i > 0 and v_i^2 > 0, motions at leading order; a box across 0 is not
         counted. On the asymmetric branch C is positive anyway.
@@ -60,8 +61,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove the number of fixed points of a system, C_i of either sign.
 
-    There is none where a module is driven by nothing: what its ball dissipates, mu rho C_i^2, leaves C_i = 0, and the
-    search refuses the free motion that would be left.
+    There is none where nothing is driven: what the balls dissipate, mu rho C_i^2, leaves C_i = 0, and the search
+    refuses the free motion that would be left.
 
     Raises:
         ValueError: as `symmetric_points.search`.
@@ -73,7 +74,7 @@ def certify(system) -> Proof:
         if not any(_same(zero, known) for known in isolated):  # on the edge of two charts
             isolated.append(zero)
     open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
-    points = [point.C for point in listed.points + listed.outside]
+    points = [_taking_part(system, point.C) for point in listed.points + listed.outside]
     return _proof(isolated, open_boxes, isolated, _matched(isolated, points))
 
 
@@ -85,9 +86,10 @@ def certify_asymmetric(system) -> Proof:
     """
     listed = asymmetric.search(system)
     isolated, undecided = _all_zeros(system, asymmetric.PAIRS)
+    places = [(_taking_part(system, point.charts), _taking_part(system, point.x)) for point in listed]
     matched = all(
-        _matched([box for own, box in isolated if own == pair], [point.x for point in listed if point.charts == pair])
-        for pair in asymmetric.PAIRS
+        _matched([box for own, box in isolated if own == names], [x for own, x in places if own == names])
+        for names in {own for own, _ in [*isolated, *places]}
     )
     return _proof(isolated, undecided, [box for _, box in isolated], matched)
 
@@ -122,15 +124,20 @@ def _same(box, known):
 
 
 def _all_zeros(system, pairs):
-    """Pairs of charts with the boxes that have exactly one zero in the square, and with those that stay open."""
+    """Charts of the modules with the boxes that have exactly one zero in the square, and with those that stay open."""
     found, undecided = [], []
-    if system.modules == (1, 2):
-        with ctx.workprec(_BITS):
-            for pair in pairs:
-                zeros, unclear = _subdivide(_Conditions(system, pair))
-                found += [(pair, box) for box in zeros if all(low <= 1 and high >= -1 for low, high in box)]
-                undecided += [(pair, box) for box in unclear]
+    with ctx.workprec(_BITS):
+        for pair in asymmetric.pairs_of(system, pairs):
+            zeros, unclear = _subdivide(_Conditions(system, pair))
+            inside = [box for box in zeros if all(low <= 1 and high >= -1 for low, high in box)]
+            for boxes, kept in ((inside, found), (unclear, undecided)):
+                kept += [(_taking_part(system, pair), _taking_part(system, box)) for box in boxes]
     return found, undecided
+
+
+def _taking_part(system, both) -> tuple:
+    """What belongs to the modules that take part, of two things."""
+    return tuple(both[module - 1] for module in system.modules)
 
 
 def _subdivide(conditions):
@@ -187,6 +194,7 @@ class _Conditions:
         sigma = -2 * arb(system.sigma_e_hat)
         self.e = acb(sigma, system.gamma1_hat), acb(sigma + arb(system.sigma20_hat), system.gamma2_hat)
         self.K = acb(system.alpha12_hat, system.gamma12_hat)
+        self._idle = [i for i in range(2) if i + 1 not in system.modules]
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
@@ -196,6 +204,9 @@ class _Conditions:
         """
         delta, one, two = self._sides(x, y, half)
         local = np.array([delta - one, delta - two])
+        for i in self._idle:
+            local[i] = arb(0)
+            local[i, 0, 0], local[(i, *np.eye(2, dtype=int)[i])] = arb((x, y)[i]), arb(half)
         if any(_excludes_zero(polynomial) for polynomial in local):
             return 0, None
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
@@ -235,7 +246,7 @@ class _Conditions:
         powers = [arb(half) ** k for k in range(_ORDERS)]
         real, imaginary, n, beta = (np.array([*a[:2], b[2]]) * powers for a, b in zip(exact, wide, strict=True))
         z = real + acb(0, 1) * imaginary
-        q = self.e[module] * z + n
+        q = np.array([acb(1), acb(0), acb(0)]) if module in self._idle else self.e[module] * z + n
         numerator = self.f[1 - module] * q + sum(self.f) * self.K * z
         return z, q, _modulus_squared(beta * acb(1)), _modulus_squared(numerator)
 

@@ -206,11 +206,12 @@ def _manifold(kappa, C_max):
 
 def _pairs(system, orbits):
     """One orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
-    rows = orbits[~orbits["symmetric"].astype(bool) & (orbits["C1"] > 0) & (orbits["C2"] > 0)]
+    rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():
         speeds = row[_SPEEDS].to_numpy(float).reshape(2, 2)
-        yield row["label"], np.concatenate([row[_PHASES].to_numpy(float) * system.period, speeds.sum(axis=1)])
+        root = np.concatenate([row[_PHASES].to_numpy(float) * system.period, speeds.sum(axis=1)])
+        yield row["label"], np.nan_to_num(root)
 
 
 def _in_plane(case, series, label, *places):
@@ -236,7 +237,7 @@ def _row(system, case, name, point, label, way, fit_below):
     fitted = order(epsilon[small], distance[small]) if np.count_nonzero(small) > 1 else (np.nan, np.nan)
     last = asymmetric_limit.compare(way[-1], point)
     slow_error = np.abs(last.rates - last.predicted).max()
-    fast_error = np.abs(last.multipliers - last.predicted_multipliers)[4:].max()
+    fast_error = np.abs(last.multipliers - last.predicted_multipliers)[len(last.predicted) :].max()
     onset = asymmetric_limit.onset(way) if not point.real else 0.0
     return [*row, label, distance[0], onset, *fitted, slow_error, fast_error, last.epsilon]
 

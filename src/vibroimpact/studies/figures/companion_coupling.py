@@ -6,16 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.plotting.style import (
-    BLACK,
-    DOUBLE_COLUMN,
-    GREY,
-    LEVEL,
-    STABLE,
-    heading,
-    new_figure,
-    styled,
-)
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.references import tuned
 from vibroimpact.studies.absorbers.tuning import den_hartog
 from vibroimpact.studies.claims.coupling_checks import OBSERVED, SAME_POWER, SETTLED, errors

@@ -118,13 +118,13 @@ def _compared(system, point, epsilon):
 def _errors(found):
     distance = np.array([c.distance for c in found])
     slow = np.array([np.abs(c.rates - c.predicted).max() for c in found])
-    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found])
+    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[len(c.predicted) :].max() for c in found])
     return distance, slow, fast
 
 
 def _two_terms(system, point, found):
     """Distances with the term of first order added; nan where there is no orbit to take it from."""
-    added = np.full(4, np.nan)
+    added = np.nan
     with suppress(NoOrbit):
         added = first_order(system, point, _STEP)
     return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])

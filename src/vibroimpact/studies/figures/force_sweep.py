@@ -88,7 +88,7 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
     for value, orbit in followed(systems):
         multipliers += _multipliers(value, PAIR, orbit)
     points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
-    end = max(C_max, 1.05 * points[["C1", "C2"]].to_numpy(float).max(initial=0.0))
+    end = np.fmax(C_max, 1.05 * points[["C1", "C2"]].astype(float).max().max())
     kappa = next(iter(systems.values())).kappa
     orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", EXACT, "real", "imag"])
     return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
@@ -101,7 +101,7 @@ def _multipliers(value, track, orbit):
 
 def _continued(names, last, now, tracks):
     """The track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
-    gaps = np.linalg.norm(last[:, None] - now[None], axis=2)
+    gaps = np.linalg.norm(np.nan_to_num(last[:, None] - now[None]), axis=2)
     found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
     fresh = [new for new in range(len(now)) if new not in found]
     found |= {new: tracks + number for number, new in enumerate(fresh, start=1)}

@@ -11,7 +11,7 @@ from vibroimpact.studies.regimes.attractors import attractors as told_apart
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals
-from vibroimpact.system.state import NAMES
+from vibroimpact.system.state import NAMES, states_array
 
 _PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
 """Coordinates of starts, and their places in the state; W_i = X_i - Y_i moves ball i."""
@@ -52,7 +52,8 @@ def attractors(system: System, states, observation: Observation | None = None, p
     ['asymmetric', 'asymmetric']
 
     Args:
-        states: (n, 8) starts at tau = 0.
+        states: (n, 8) starts at tau = 0. What they have for a module that takes no part (`PhysicalSystem.single`) does
+            not count: it is put at rest.
         observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
             until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
             never meet a wall (docs/howto.md).
@@ -62,7 +63,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
         ValueError: an argument is malformed.
         ArithmeticError: a run could not be finished.
     """
-    states = reals("states", states)
+    states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     return _basins(system, states, states.shape[:1], {}, observation, progress)
@@ -100,7 +101,12 @@ def basins(
     for name in axes:
         if name not in _PLACES:
             raise ValueError(f"axes: {name!r} is none of {', '.join(_PLACES)}")
+    if len({_PLACES[name][-1] for name in axes}) < len(axes):
+        raise ValueError(f"axes: {' and '.join(axes)} both place one ball; needs one of them")
     axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
+    for name, values in axes.items():
+        if not len(values):
+            raise ValueError(f"axes[{name!r}]: has no value")
     grid = np.meshgrid(*axes.values(), indexing="ij")
     states = np.tile(checked_state(state), (grid[0].size, 1))
     for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_PLACES[pair[0]])):

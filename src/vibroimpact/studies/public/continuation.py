@@ -1,5 +1,6 @@
 """Branches of motions over a parameter, and curves of their special points in a plane of two, in one call."""
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
@@ -14,6 +15,7 @@ from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
 from vibroimpact.system.progress import shown, tell
+from vibroimpact.system.representation import Found
 
 FAMILIES = {
     "theory": (FixedPoints,),
@@ -30,8 +32,10 @@ def branches(
 ) -> list[Branch]:
     """All branches of 1:1 motions over a parameter, with stability and special points; `to_frame` makes them a table.
 
-    Pseudo-arclength continuation (Keller 1977), through folds. Each branch is cut at its special points: folds,
-    symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing.
+    Pseudo-arclength continuation (Keller 1977), through folds and branch points; the branches that leave these, and the
+    asymmetric orbits that leave symmetric ones, are followed too. Each branch is cut at its special points: folds,
+    branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. Where it ends inside `between`,
+    the last one says why: speed zero, symmetry breaking, or lost.
 
     >>> found = branches(system, "f20_hat", between=(0.9, 1.1), of="theory")
     >>> len(found), found[0].family.name
@@ -40,18 +44,22 @@ def branches(
     Args:
         system: gives the other parameters.
         along: the parameter of System, or several that move together.
-        between: first and last value. A branch that passes none of the `seeds` values there is missed.
+        between: first and last value. A branch that passes none of the `seeds` values there and leaves no other one is
+            missed.
         of: "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
         progress: tell family and parameter on standard error, if that is a terminal; "exact" takes some ten seconds.
 
     Returns:
         Each branch has .family, .nodes in their order, of which the first and last may lie one step beyond `between`,
-        and .special, the special ones. A node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or
-        ""), .stable and .admissible. The table has a row per node of each piece between special points; these belong
-        to both pieces.
+        .special, the special ones, and .closed, True if it returns to its first node, which is then its last one too.
+        A node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or ""), .stable and .admissible. The
+        table has a row per node of each piece between special points; these belong to both pieces.
 
     Raises:
         ValueError: an argument is malformed, or there is no system at an end.
+
+    Warns:
+        UserWarning: motions cannot be sought at a seed, where undamped boxes are in resonance, say.
     """
     names = (along,) if isinstance(along, str) else tuple(along)
     path = Path(_with(system, names), names)
@@ -65,9 +73,9 @@ def branches(
     found = []
     for family in _families(of):
         report = _report(f"{family.name}: {' = '.join(names)} =", progress)
-        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report)
+        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report, found)
     _end(progress)
-    return found
+    return Found(found, one_parameter.COLUMNS)
 
 
 def bifurcation_curves(
@@ -118,7 +126,11 @@ def bifurcation_curves(
         started = []
         for q in np.linspace(*limits[1], count + 2)[1:-1].tolist():
             report = _report(f"{family.name}: {names[1]} = {q:.4g}, {names[0]} =", progress)
-            path = Path(system.with_(**{names[1]: q}), names[:1])
+            try:
+                path = Path(system.with_(**{names[1]: q}), names[:1])
+            except ValueError as error:
+                warnings.warn(f"no {family.name} sought at {names[1]} = {q:.6g}: {error}", stacklevel=2)
+                continue
             values = np.linspace(low, high, count + 2)
             started += [
                 (q, branch)
@@ -127,7 +139,7 @@ def bifurcation_curves(
         report = _report(f"{family.name}, special points: {', '.join(names)} =", progress)
         found += curves.bifurcation_curves(plane, started, widths.max() / _CURVE_STEPS, report)
     _end(progress)
-    return found
+    return Found(found, ("family", "curve", "special", *names, "C1", "C2"))
 
 
 def with_parameters(known, names) -> tuple[str, ...]:

@@ -11,11 +11,12 @@ _MOST = 10_000_000
 
 
 def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 1000, blocks: int = 20) -> Exponent:
-    """Largest Lyapunov exponent of the motion that a start ends in: its mean and standard error, in nats per period.
+    """Largest Lyapunov exponent of the motion that a start ends in: its mean and error, in nats per period.
 
-    Positive by more than some three errors: chaos. On a periodic motion it is the log of the modulus of the largest
+    Above 0 by more than some three errors: chaos. On a periodic motion it is the log of the modulus of the largest
     Floquet multiplier, over the period. From the exact Jacobian through impacts, chatter and sticking (Benettin et al.
-    1980; saltation: Mueller 1995).
+    1980; saltation: Mueller 1995), of the modules that take part. The error includes what growth in proportion to
+    time would show, as that of a ball at rest.
 
     >>> exponent = largest_lyapunov(system.with_(f10_hat=0.5, f20_hat=0.5), [0, 0, 0, 0, 0, 0.5, 0, -0.5])
     >>> bool(exponent.mean > 3 * exponent.error)
@@ -23,8 +24,8 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
 
     Args:
         state: (8,) start at tau = 0; from rest a ball may stay idle for good.
-        cycles: forcing periods that are averaged over; settle: those before them. Raise `settle` where a motion settles
-            slowly; the start decides where several motions attract (`basins`).
+        cycles: forcing periods that are averaged over, a multiple of `blocks`; settle: those before them. Raise
+            `settle` where a motion settles slowly; the start decides where several motions attract (`basins`).
         blocks: parts of `cycles`, at least 2, whose scatter gives the error.
 
     Raises:
@@ -33,15 +34,18 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
     """
     blocks = whole("blocks", blocks, 2, _MOST)
     cycles = whole("cycles", cycles, blocks, _MOST)
+    if cycles % blocks:
+        raise ValueError(f"cycles: {cycles} is not a multiple of the {blocks} blocks")
     return lyapunov.largest_exponent(system, _settled(system, state, settle), blocks, cycles // blocks)
 
 
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000) -> Spectrum:
-    """All eight Lyapunov exponents of the motion that a start ends in, largest first, in nats per forcing period.
+    """All Lyapunov exponents of the motion that a start ends in, largest first, in nats per forcing period.
 
-    `.exponents` (8,), `.errors(block)`, `.dimension` (Kaplan-Yorke), `.without_double_sticks()`: a ball that sticks
-    loses two directions for good, whose exponents are -inf. They are those of the map from one period to the next; the
-    time itself, exponent 0, is not among them.
+    `.exponents` (8,), or (4,) if one module takes part (`PhysicalSystem.single`), `.errors(block)`, `.dimension`
+    (Kaplan-Yorke), `.without_double_sticks()`: a ball that sticks loses two directions for good, whose exponents are
+    -inf. They are those of the map from one period to the next; the time itself, exponent 0, is not among them. A
+    perturbation that grows with time t, as that of a ball at rest, shows ln(t) / t, which no error covers.
 
     >>> spectrum = lyapunov_spectrum(system, [0.0] * 8, cycles=200, settle=600)
     >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts

@@ -6,6 +6,7 @@ from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import MOST_CYCLES
 from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import counted
+from vibroimpact.system.state import takes_part
 
 _STEP = 100  # cycles of the transient between two lines of progress
 
@@ -22,7 +23,8 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     (4, 20)
 
     Args:
-        systems, states: combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0.
+        systems, states: combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0. A
+            module that takes no part (`PhysicalSystem.single`) is put at rest.
         cycles: forcing periods of each run; settle: those of them that are left out.
         progress: count the steps, of 100 cycles and then of 1, on standard error, if that is a terminal.
 
@@ -37,6 +39,8 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     settle = whole("settle", settle, 0, cycles - 1)
     begin, systems = settle % _STEP, np.array(systems, dtype=object)
     states, found = ensemble(systems, states, begin, settle=begin)["final"], []
+    moves = np.reshape([takes_part(system) for system in systems.flat], (*systems.shape, 8))
+    states = np.where(moves, states, 0.0)
     steps = [_STEP] * (settle // _STEP) + [1] * (cycles - settle)
     for step in counted(steps, "sections: step", progress):
         states = ensemble(systems, states, step, settle=step)["final"]

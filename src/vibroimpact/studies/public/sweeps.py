@@ -11,7 +11,7 @@ from vibroimpact.studies.sweeps.observations import COLUMNS
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import PEAKS, Spec
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, reals, whole
+from vibroimpact.system.arguments import MOST_SEED, instance, reals, whole
 from vibroimpact.system.progress import counted
 
 _MOST_STARTS = 10_000
@@ -69,7 +69,7 @@ def sweep(
     spec = Spec(
         observe=observe,
         starts=whole("starts", starts, 1, _MOST_STARTS),
-        seed=whole("seed", seed, 0, 2**32 - 1),
+        seed=whole("seed", seed, 0, MOST_SEED),
         cycles=cycles,
         settle=whole("settle", settle, 0, cycles - 1),
         band=_band(band, known, axes) if PEAKS in observe or band is not None else None,

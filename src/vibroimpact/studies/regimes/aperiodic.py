@@ -8,9 +8,9 @@ from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_P
 from vibroimpact.studies.regimes.lyapunov import Exponent, largest_exponent
 
 CERTAIN = 3.0
-"""Standard errors that count as the uncertainty of an exponent."""
+"""Errors that count as the uncertainty of an exponent."""
 RESOLVED = 0.02
-"""Smallest exponent, per forcing period, that is told from growth with a power of time."""
+"""Largest uncertainty, per forcing period, at which an exponent that may be 0 is called 0."""
 RECURRENT = 0.1
 """A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
@@ -50,10 +50,9 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 def sign(exponent: Exponent) -> str:
     """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
-    reach = CERTAIN * exponent.error
-    if exponent.mean - reach > RESOLVED:
+    if exponent.mean > CERTAIN * exponent.error:
         return POSITIVE
-    return ZERO if abs(exponent.mean) <= reach <= RESOLVED else OPEN
+    return ZERO if abs(exponent.mean) <= CERTAIN * exponent.scatter <= RESOLVED else OPEN
 
 
 def resonance(shares) -> str:

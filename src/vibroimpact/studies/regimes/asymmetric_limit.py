@@ -61,10 +61,10 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Orbit minus fixed point, shape (6,)."""
+    """Orbit minus fixed point, shape (6,), of a single machine (3,)."""
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))
-    return difference
+    return difference[np.isfinite(difference)]
 
 
 def leads_to(stations, points):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.studies.regimes.classification import UNSETTLED, Regime
+from vibroimpact.system.state import takes_part
 
 OPEN = -1
 """Label of a start that has not settled, as in Attractors.jl."""
@@ -51,10 +52,11 @@ def _same(one, other):
         return True
     ours, theirs = (regime.run.samples[: 2 * one.repeats, moving] for regime in (one, other))
     gaps = [np.abs(np.roll(ours, 2 * shift, axis=0) - theirs).max() for shift in range(one.repeats)]
-    return min(gaps) < (_SAME if len(moving) == 4 else _SAME_IDLE)
+    idle = len(moving) < np.count_nonzero(takes_part(one.run.system)[:4])
+    return min(gaps) < (_SAME_IDLE if idle else _SAME)
 
 
 def _moving(regime):
-    """Columns of the displacements, without those of balls at rest."""
-    samples = regime.run.samples
-    return np.array([k for k in range(4) if k in (0, 2) or samples[:, 4 + k].any()])
+    """Columns of the displacements of modules that take part, without those of balls at rest."""
+    samples, moves = regime.run.samples, takes_part(regime.run.system)
+    return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

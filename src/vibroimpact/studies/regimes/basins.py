@@ -11,9 +11,12 @@ MIRRORED = "asymmetric, mirrored"
 
 
 def stable_response(system):
-    """The stable asymmetric orbit with the largest flight time from wall +1 of ball 1; None if there is none."""
+    """The stable asymmetric orbit with the largest flight time from wall +1 of the first ball that takes part; None if
+    there is none.
+    """
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
-    return min(stable, key=lambda orbit: orbit.ball_speeds[0, 0] / orbit.ball_speeds[0].sum(), default=None)
+    first = system.modules[0] - 1 if stable else None
+    return min(stable, key=lambda orbit: orbit.ball_speeds[first, 0] / orbit.ball_speeds[first].sum(), default=None)
 
 
 def plane(state, points: int) -> np.ndarray:

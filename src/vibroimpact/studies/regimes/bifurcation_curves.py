@@ -7,20 +7,25 @@ antisymmetric changes of the impact times; by the theory, the distance of C_i fr
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import partial
 
 import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
-from vibroimpact.studies.regimes.branches import Branch, same_root
+from vibroimpact.studies.regimes.branches import Branch, equations, images
 from vibroimpact.studies.regimes.continuation import Curve, Lost
-from vibroimpact.studies.regimes.families import FOLD, SYMMETRY_BREAKING, AsymmetricOrbits, FixedPoints, SymmetricOrbits
-from vibroimpact.system.amplitude import path_of
+from vibroimpact.studies.regimes.families import (
+    FOLD,
+    SYMMETRY_BREAKING,
+    AsymmetricOrbits,
+    FixedPoints,
+    SymmetricOrbits,
+    asymmetric_root,
+)
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
 _DIFFERENCE = 1e-6
-_NEWTON, _SAME = 8, 1e-6
 
 
 @dataclass(frozen=True)
@@ -87,14 +92,21 @@ def bifurcation_curves(
         branches: pairs of a value of the second parameter, and a Branch along the first one there.
         longest: longest step along a curve. tell: called at each point, for a report of progress.
     """
-    found = []
+    found, passed = [], []
     for q, branch in branches:
         for node in branch.special:
             if node.kind not in TESTS[branch.family.name]:
                 continue
-            z = np.array([*node.x, node.p, q])
-            if plane.margin(z) >= 0 and not any(_passes(plane, curve, branch.family, node.kind, z) for curve in found):
-                found.append(_curve(plane, branch.family, node.kind, z, longest, tell))
+            z, of = np.array([*node.x, node.p, q]), (branch.family, node.kind)
+            curve = _curve(plane, *of)
+            known = any(curve.passes(places, z) for one, places in passed if one == of)
+            if plane.margin(z) >= 0 and not known:
+                points, places = curve.both_ways(z, partial(_half, plane, branch.family, curve, longest, tell))
+                points = np.array(points)
+                passed.append((of, places))
+                systems = [plane(*point) for point in points[:, -2:]]
+                amplitudes = [branch.family.amplitudes(*one) for one in zip(systems, points[:, :-2], strict=True)]
+                found.append(BifurcationCurve(*of, plane.names, points[:, -2:], np.array(amplitudes), points[:, :-2]))
     return found
 
 
@@ -104,10 +116,10 @@ def symmetry_breaking(system, x) -> float:
     Antisymmetric changes move the impacts at both walls oppositely; the sums of the conditions of restitution at both
     walls are what they change.
     """
-    times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
-    root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
-    jacobian = AsymmetricConditions(system)(root[None])[1][0]
-    return np.linalg.det(np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE)
+    jacobian = AsymmetricConditions(system)(asymmetric_root(system, x)[None])[1][0]
+    opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE
+    part = np.isin([1, 2], system.modules)
+    return np.linalg.det(opposite[part][:, part])
 
 
 _OPPOSITE = np.array([[1, -1, 0, 0], [0, 0, 1, -1]]).T
@@ -126,73 +138,42 @@ TESTS = {
 """Functions of a system and a root that vanish at special points, by family and kind."""
 
 
-def _equations(plane, family, kind):
-    """Residual (d + 1,) and Jacobian (d + 1, d + 1) by (x, p) of the extended equations, at (x, p) and q."""
-    test = TESTS[family.name][kind]
+def _curve(plane, family, kind):
+    """The roots (x, p, q) of the equations of a family at which a function of a kind vanishes."""
+    test, of_family = TESTS[family.name][kind], equations(family, plane)
 
     def extended(y, q):
         system, x = plane(y[-1], q), y[:-1]
-        residual, jacobian = family.equations(system, x)
+        residual, jacobian = of_family(x, y[-1], q)
         steps = _DIFFERENCE * (1 + np.abs(y))
         by = np.empty((len(y), len(y)))
         by[:-1, :-1] = jacobian
         for k, step in enumerate(steps[:-1]):
             shift = np.where(np.arange(len(x)) == k, step, 0.0)
             by[-1, k] = (test(system, x + shift) - test(system, x - shift)) / (2 * step)
-        ahead, behind = (plane(y[-1] + sign * steps[-1], q) for sign in (1, -1))
-        by[:-1, -1] = (family.equations(ahead, x)[0] - family.equations(behind, x)[0]) / (2 * steps[-1])
-        by[-1, -1] = (test(ahead, x) - test(behind, x)) / (2 * steps[-1])
+        ahead, behind = (y[-1] + sign * steps[-1] for sign in (1, -1))
+        by[:-1, -1] = (of_family(x, ahead, q)[0] - of_family(x, behind, q)[0]) / (2 * steps[-1])
+        by[-1, -1] = (test(plane(ahead, q), x) - test(plane(behind, q), x)) / (2 * steps[-1])
         return np.append(residual, test(system, x)), by
 
-    return extended
+    def same(z, near):
+        return [np.append(x, z[-2:]) for x in images(family, plane(*z[-2:]), z[:-2], near[:-2])]
+
+    return Curve(extended, same)
 
 
-def _curve(plane, family, kind, start, longest, tell):
-    """The curve through a point, followed both ways; a closed one once round."""
-    curve = Curve(_equations(plane, family, kind))
-    ahead = np.eye(len(start))[-1]
-    there, closed = _half(plane, family, curve, start, ahead, longest, tell)
-    back = [] if closed else _half(plane, family, curve, start, -ahead, longest, tell)[0][:0:-1]
-    z = np.array(back + there)
-    systems = [plane(*point) for point in z[:, -2:]]
-    amplitudes = [family.amplitudes(system, x) for system, x in zip(systems, z[:, :-2], strict=True)]
-    return BifurcationCurve(family, kind, plane.names, z[:, -2:], np.array(amplitudes), z[:, :-2])
-
-
-def _half(plane, family, curve, start, ahead, longest, tell):
-    """Points on one side of the start, to where a ball speed vanishes or the rectangle ends; True if it closes."""
+def _half(plane, family, curve, longest, tell, start):
+    """Points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
 
     def margin(z):
         return min(plane.margin(z), family.speed(z[:-2]))
 
-    found, before = [], None
-    for place in curve.trace(start, ahead, longest, inside=lambda z: margin(z) >= 0):
+    found, places = [], []
+    for place in curve.trace(start, longest, inside=lambda z: margin(z) >= 0):
         tell(*place.z[-2:])
-        if margin(place.z) < 0 and before is not None and margin(before.z) > 0:
-            return [*found, curve.zero(margin, before, place.z)], False
-        found.append(place.z)
-        if len(found) > 3 and np.linalg.norm(place.z - start) < np.linalg.norm(place.z - before.z):
-            return [*found, start], True
-        before = place
-    return found, False
-
-
-def _passes(plane, curve, family, kind, z):
-    """True if a special point lies on a curve."""
-    if curve.family is not family or curve.kind != kind:
-        return False
-    equations, q = _equations(plane, family, kind), z[-1]
-    for (one, x0), (two, x1) in pairwise(zip(curve.points, curve.x, strict=True)):
-        if one[1] != two[1] and min(one[1], two[1]) <= q <= max(one[1], two[1]):
-            part = (q - one[1]) / (two[1] - one[1])
-            y = np.append(x0 + part * (x1 - x0), one[0] + part * (two[0] - one[0]))
-            try:
-                for _ in range(_NEWTON):
-                    residual, by = equations(y, q)
-                    y = y - np.linalg.solve(by, residual)
-                images = family.images(plane(z[-2], q), z[:-2])
-            except (Lost, np.linalg.LinAlgError):
-                continue
-            if abs(y[-1] - z[-2]) < _SAME and any(same_root(family, plane(z[-2], q), y[:-1], x) for x in images):
-                return True
-    return False
+        if place.determinant == 0:
+            continue
+        end = margin(place.z) < 0 and places and margin(places[-1].z) > 0
+        found.append(curve.zero(margin, places[-1], place.z) if end else place.z)
+        places.append(place)
+    return found, places

@@ -1,16 +1,32 @@
 """Branches of 1:1 responses along a path through the parameters, with stability and special points."""
 
+import warnings
+from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
-from vibroimpact.studies.regimes.continuation import Curve, Lost
-from vibroimpact.studies.regimes.families import SPEED_ZERO, AsymmetricOrbits, flight_fractions
+from vibroimpact.studies.regimes.continuation import Curve, Lost, Place
+from vibroimpact.studies.regimes.families import (
+    BRANCH_POINT,
+    FOLD,
+    LOST,
+    SPEED_ZERO,
+    SYMMETRY_BREAKING,
+    AsymmetricOrbits,
+    SymmetricOrbits,
+    asymmetric_root,
+    flight_fractions,
+)
 from vibroimpact.system.representation import Representation, brief
 
-_SAME = 1e-6
+_EQUAL = 1e-6  # flights of unequal length differ by more; this near to an end of the interval a branch ends there
+_APART = 1e-3  # branch points less far apart are one, found again
+COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
+"""Columns of a table of branches."""
 
 
 @dataclass(frozen=True)
@@ -43,15 +59,21 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A piece of a solution curve: its nodes in their order along it."""
+    """A piece of a solution curve: its nodes in their order along it, of a closed one the first also last.
+
+    places: of the nodes that are not special, and where a ball speed has vanished.
+    """
 
     family: object
     nodes: list[Node]
+    closed: bool
+    places: list[Place]
 
     def _shown(self):
         ends = brief([self.nodes[0].p, self.nodes[-1].p])
         kinds = [f"{node.kind} at {node.p:.4g}" for node in self.special]
-        return {"family": self.family.name, "p": ends, "nodes": str(len(self.nodes)), "special": ", ".join(kinds)}
+        shown = {"family": self.family.name, "p": ends, "nodes": str(len(self.nodes)), "closed": str(self.closed)}
+        return shown | {"special": ", ".join(kinds)}
 
     @property
     def special(self) -> list[Node]:
@@ -82,6 +104,7 @@ class Branch(Representation):
                 "stable": inner.stable,
                 "admissible": inner.admissible,
                 "special": node.kind,
+                "closed": self.closed,
             }
             for piece, (inner, nodes) in enumerate(self.pieces())
             for node in nodes
@@ -89,66 +112,121 @@ class Branch(Representation):
 
 
 def branches(
-    family, path: Path, interval, seeds: Iterable[float], longest: float, tell: Callable = lambda p: None
+    family,
+    path: Path,
+    interval,
+    seeds: Iterable[float],
+    longest: float,
+    tell: Callable = lambda p: None,
+    symmetric: Iterable[Branch] = (),
 ) -> list[Branch]:
-    """All branches of a family within an interval of p that pass one of the seeds (values of p).
+    """All branches of a family within an interval of p that pass one of the seeds (values of p), or leave these.
 
-    A branch ends at the ends of the interval, where a ball speed vanishes, and, for asymmetric orbits, where it meets
-    its mirror image on a symmetric one; of two mirror images one is followed. A closed branch without a root at a seed
-    is missed.
+    A branch ends at the ends of the interval, where a ball speed vanishes, where it is lost, and, for asymmetric
+    orbits, where it meets its mirror image on a symmetric one; of two mirror images one is followed. A branch that
+    neither passes a seed nor leaves another branch is missed. A seed without roots is skipped with a warning.
 
     Args:
         family: one of `families.FAMILIES`. path: gives the system at p.
         longest: longest step along the curve.
         tell: called with p at each seed and node, for a report of progress.
+        symmetric: branches of symmetric orbits, which asymmetric ones leave.
     """
-    found = []
-    for p in seeds:
-        tell(p)
-        system = path(p)
-        for root in family.roots(system):
-            known = any(_passes(branch, path, p, image) for branch in found for image in family.images(system, root))
-            if family.speed(root) > 0 and not known:
-                found.append(_branch(family, path, interval, np.append(root, p), longest, tell))
+
+    def same(z, near):
+        return [np.append(x, z[-1]) for x in images(family, path(z[-1]), z[:-1], near[:-1])]
+
+    curve = Curve(equations(family, path), same)
+    half = partial(_half, family, path, interval, curve, longest, tell)
+    starts = deque(_seeds(family, path, seeds, tell))
+    for branch in symmetric if family is AsymmetricOrbits else ():
+        breaking = [node for node in branch.special if node.kind == SYMMETRY_BREAKING]
+        for node in breaking if branch.family is SymmetricOrbits else ():
+            arms = curve.arms(np.append(asymmetric_root(path(node.p), node.x), node.p))
+            starts += [z for z in arms if not _symmetric(family, path(z[-1]), z[:-1])]
+    found, crossings = [], []
+    while starts:
+        z = starts.popleft()
+        new = interval[0] <= z[-1] <= interval[1] and family.speed(z[:-1]) > 0
+        if new and not any(curve.passes(branch.places, z) for branch in found):
+            try:
+                nodes, places = curve.both_ways(z, half)
+            except Lost as error:  # other modules take part beside it, say
+                at = f"{family.name} at {' = '.join(path.names)} = {z[-1]:.6g}"
+                warnings.warn(f"{at} not followed: {error}", stacklevel=3)
+                continue
+            if len(places) > 1:  # else a seed at a branch point
+                found.append(Branch(family, nodes, places[-1].closing, places))
+            for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
+                if all(np.abs(crossing - known).max() > _APART for known in crossings):
+                    crossings.append(crossing)
+                    starts += curve.arms(crossing)
     return found
 
 
-def _branch(family, path, interval, start, longest, tell):
-    """The branch through a root, followed both ways."""
-    ahead = np.eye(len(start))[-1]
-    there, back = (_half(family, path, interval, start, sign * ahead, longest, tell) for sign in (1, -1))
-    return Branch(family, back[:0:-1] + there)
+def equations(family, path: Callable) -> Callable:
+    """Residual and Jacobian of a family at x and parameters p; Lost where there is no system or no steady response."""
+
+    def at(x, *p):
+        try:
+            return family.equations(path(*p), x)
+        except ValueError as error:
+            raise Lost(str(error)) from None
+
+    return at
 
 
-def _half(family, path, interval, start, ahead, longest, tell):
-    """Nodes on one side of the start."""
+def images(family, system, x, near) -> list[np.ndarray]:
+    """Roots that are the same motion or its mirror image, angles within half a turn of those of another root."""
+    found, turn = family.images(system, x.copy()), family.turn(system)
+    for image in found:
+        image[family.angles] += turn * np.rint((near - image)[family.angles] / turn)
+    return found
+
+
+def _seeds(family, path, seeds, tell):
+    """Roots z = (x, p) at the seeds."""
+    for p in seeds:
+        tell(p)
+        try:
+            roots = family.roots(path(p))
+        except (ValueError, ArithmeticError) as error:
+            warnings.warn(f"no {family.name} sought at {' = '.join(path.names)} = {p:.6g}: {error}", stacklevel=4)
+            continue
+        yield from (np.append(root, p) for root in roots)
+
+
+def _half(family, path, interval, curve, longest, tell, start):
+    """Nodes and places on one side of the start."""
     low, high = interval
-    curve = Curve(lambda x, p: family.equations(_system(path, p), x))
-    nodes, before = [], None
-    for place in curve.trace(start, ahead, longest, inside=lambda z: low <= z[-1] <= high):
+    nodes, places, tests, kind = [], [], {}, ""
+    for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
         tell(float(z[-1]))
         system = path(z[-1])
+        if place.determinant == 0:
+            kind = SYMMETRY_BREAKING if _symmetric(family, system, z[:-1]) else BRANCH_POINT
+            nodes.append(_node(family, path, z, kind=kind))
+            if kind == SYMMETRY_BREAKING:
+                return nodes, [*places, place]
+            continue
+        before, tests_before = places[-1] if places else None, tests
+        places.append(place)
         if family.speed(z[:-1]) <= 0:
-            end = curve.zero(lambda at: family.speed(at[:-1]), before[0], z)
-            return [*nodes, _node(family, path, end, kind=SPEED_ZERO)]
+            end = curve.place(curve.zero(lambda at: family.speed(at[:-1]), before, z), before.tangent)
+            nodes += _special(family, path, curve, before, {}, end, {})
+            return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None:
-            if family is AsymmetricOrbits and _meets_mirror_image(path, before[0].z, z):
-                return nodes
-            nodes += _crossings(family, path, curve, before, (z, tests))
+        if before is not None and not kind:  # on both sides of a branch point all that changes is there
+            nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
-        before = place, tests
-    return nodes
-
-
-def _system(path, p):
-    """The system at p; where there is none, a shorter step may still find one."""
-    try:
-        return path(p)
-    except ValueError as error:
-        raise Lost(str(error)) from None
+        kind = ""
+    z = places[-1].z
+    if low + _EQUAL < z[-1] < high - _EQUAL and not places[-1].closing:
+        end = SYMMETRY_BREAKING if _symmetric(family, path(z[-1]), z[:-1]) else BRANCH_POINT
+        nodes.append(_node(family, path, z, kind=end if curve.singular(z) else LOST))
+    return nodes, places
 
 
 def _node(family, path, z, kind="", member=None):
@@ -164,52 +242,25 @@ def _node(family, path, z, kind="", member=None):
     )
 
 
-def _meets_mirror_image(path, before, after):
-    """True if an asymmetric branch has just passed the symmetric orbit that it springs from."""
-    asymmetry = [flight_fractions(path(z[-1]), z[:-1]) - 0.5 for z in (before, after)]
-    return asymmetry[0] @ asymmetry[1] < 0
+def _symmetric(family, system, x):
+    """True for a root of the asymmetric equations with equal flights, where their branches meet mirror images."""
+    return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
-def _crossings(family, path, curve, before, after):
-    """Special points between two neighbouring points of the curve, in their order."""
-    place, tests = before
-    end, values = after
+def _special(family, path, curve, before, tests, after, values):
+    """Special points between two neighbouring places of the curve, in their order."""
 
-    def test(at, kind):
-        system = path(at[-1])
-        return family.tests(system, family.member(system, at[:-1]))[kind]
+    def test(z, kind):
+        if kind == FOLD:
+            return curve.place(z, before.tangent).tangent[-1]
+        system = path(z[-1])
+        return family.tests(system, family.member(system, z[:-1]))[kind]
 
     found = []
-    for kind in tests:
+    tests, values = ({FOLD: at.tangent[-1], **rest} for at, rest in ((before, tests), (after, values)))
+    for kind in values:
         if tests[kind] * values[kind] < 0:
-            zero = curve.zero(lambda at, kind=kind: test(at, kind), place, end)
+            zero = curve.zero(lambda z, kind=kind: test(z, kind), before, after.z)
             if family.genuine(kind, family.member(path(zero[-1]), zero[:-1])):
-                found.append((place.tangent @ zero, _node(family, path, zero, kind=kind)))
+                found.append((before.tangent @ zero, _node(family, path, zero, kind=kind)))
     return [node for _, node in sorted(found, key=lambda pair: pair[0])]
-
-
-def _passes(branch, path, p, root):
-    """True if a root at p lies on the branch."""
-    for (p0, x0), (p1, x1) in pairwise((node.p, node.x) for node in branch.nodes):
-        if p0 != p1 and min(p0, p1) <= p <= max(p0, p1):
-            chord = x1 - x0
-            x = _polished(branch.family, path(p), x0 + (p - p0) / (p1 - p0) * chord)
-            near = np.linalg.norm(x - x0) < 2 * np.linalg.norm(chord) + _SAME
-            if near and same_root(branch.family, path(p), x, root):
-                return True
-    return False
-
-
-def _polished(family, system, x):
-    """The root that Newton's method finds from a point next to a branch."""
-    for _ in range(8):
-        residual, jacobian = family.equations(system, x)
-        x = x - np.linalg.solve(jacobian, residual)
-    return x
-
-
-def same_root(family, system, x, root) -> bool:
-    """True if two roots of a family are one, times compared on their circle."""
-    gap, turn = x - root, family.turn(system)
-    gap[family.angles] -= turn * np.rint(gap[family.angles] / turn)
-    return bool(np.abs(gap).max() < _SAME)

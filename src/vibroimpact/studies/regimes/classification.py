@@ -2,13 +2,16 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
+from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_after
 from vibroimpact.system.amplitude import sawtooth_amplitude
-from vibroimpact.system.state import IMPACT
+from vibroimpact.system.arguments import MOST_SEED, real, whole
+from vibroimpact.system.state import IMPACT, takes_part
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
 STRONGLY_MODULATED, CHAOTIC, HOPPING = "strongly modulated", "chaotic", "hopping"
@@ -21,7 +24,11 @@ REGIMES = (*PERIODIC, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
 """All names; docs/studies/regimes.md states the test of each."""
 
 _PER_CYCLE = 2
+_MOST_STARTS = 1_000_000
 _NEWTON, _SETTLED = 12, 1e-11
+_SHRUNK, _LONGEST = 1e-6, 10_000
+"""A run that approaches a periodic motion is followed while the multipliers shrink its distance by so much, for so many
+cycles at most."""
 _REPEATED, _MIRRORED = 1e-8, 1e-6  # on a periodic motion known to rounding; mirror images part with a square root
 
 
@@ -71,41 +78,76 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
     """The regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
 
     Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
-    to the periodic motion itself, if an attracting one is that near; the window is then on that motion. This tells a
-    slow spiral into a 1:1 response from a modulated motion long before the spiral ends. What does not repeat is called
-    unsettled here (see `settling`).
+    to the periodic motion itself, if an attracting one is that near and the run approaches it (`_approaches`); the
+    window is then on that motion. This tells a slow spiral into a 1:1 response from a modulated motion before the
+    spiral ends. What does not repeat is called unsettled here (see `settling`).
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
         repeats = repeats_after(run.samples[:, :4], _PER_CYCLE, nearness)
         cycle = None if repeats is None else attracting_cycle(system, run.final, repeats, reach=10 * nearness)
-        if cycle is None:
+        motion = None if cycle is None else _window(system, cycle.state, window)
+        if motion is None or not _approaches(run, motion, repeats, cycle.multiplier):
             return Regime(run, UNSETTLED, None)
-        run = _window(system, cycle, window)
+        run = motion
     return Regime(run, *classify(run))
 
 
-def attracting_cycle(system, state, cycles: int, reach: float) -> np.ndarray | None:
-    """State (8,) on the attracting periodic motion of a number of cycles that Newton's method finds near a state.
+class Cycle(NamedTuple):
+    """A periodic motion: a state (8,) on it, and the modulus of its largest multiplier."""
 
-    None if there is none within `reach`, or one with a multiplier on or outside the unit circle.
+    state: np.ndarray
+    multiplier: float
+
+
+def attracting_cycle(system, state, cycles: int, reach: float) -> Cycle | None:
+    """The attracting periodic motion of a number of cycles that Newton's method finds near a state.
+
+    None if there is none within `reach`, or one with a multiplier on or outside the unit circle. A module that takes no
+    part keeps its state.
     """
-    x = np.array(state)
+    x, moves = np.array(state), takes_part(system)
+    block = np.ix_(moves, moves)
     for _ in range(_NEWTON):
         if max(abs(x[0] - x[1]), abs(x[2] - x[3])) > 1:
             return None
         run = simulate(system, x, cycles)
-        jacobian = run.jacobian
+        jacobian = run.jacobian[block]
         try:
-            step = np.linalg.solve(np.eye(8) - jacobian, run.final - x)
+            step = np.linalg.solve(np.eye(len(jacobian)) - jacobian, (run.final - x)[moves])
         except np.linalg.LinAlgError:
             return None
-        x = x + step
+        x[moves] += step
         if not np.abs(x - state).max() < reach:
             return None
         if np.abs(step).max() < _SETTLED:
-            return x if np.abs(np.linalg.eigvals(jacobian)).max() < 1 else None
+            multiplier = float(np.abs(np.linalg.eigvals(jacobian)).max())
+            return Cycle(x, multiplier) if multiplier < 1 else None
     return None
+
+
+def _approaches(run, motion, repeats, multiplier):
+    """True if a run has reached an attracting periodic motion, or approaches it from its end on.
+
+    Chaos may repeat within `nearness` next to a motion whose basin is narrower yet. So the run is followed until the
+    largest multiplier has shrunk the distance to _SHRUNK of itself: it has to shrink at half of this rate at least.
+
+    motion: a window on the periodic motion, which repeats after `repeats` cycles; it starts where the run ends.
+    """
+    size = len(run.samples)
+    before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])
+    if before <= _REPEATED:
+        return True
+    with np.errstate(divide="ignore"):
+        turns = np.clip(np.ceil(np.log(_SHRUNK) / np.log(multiplier)), 1, _LONGEST // repeats)
+    later = finals(run.system, run.final[None], int(turns) * repeats)[0]
+    after = _distance(_window(run.system, later, run.cycles), motion.samples)
+    return after <= max(before * multiplier ** (turns / 2), _REPEATED)
+
+
+def _distance(run, samples):
+    """Largest difference of the displacements of a run from others (n, 8) at its samples."""
+    return np.abs(run.samples - samples)[:, :4].max()
 
 
 def classify(run: Run) -> tuple[str, int | None]:
@@ -113,9 +155,10 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     run: samples every half period, both ends included.
 
-    A ball is idle if it is at rest throughout: one that drifts, however slowly, will meet a wall. With both at rest
+    A ball is idle if it is at rest throughout: one that drifts, however slowly, will meet a wall. With all at rest
     there will be no impacts once the boxes repeat. 1:1 responses repeat every cycle with one impact at each wall of
-    each module; their symmetry is that of state to minus state, half a period later.
+    each module; their symmetry is that of state to minus state, half a period later. A module that takes no part has no
+    say.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
@@ -138,17 +181,30 @@ def _window(system, state, cycles):
 
 
 def _at_rest(run):
-    """True for each ball that is at rest at all samples, shape (2,)."""
-    return ~run.samples[:, [5, 7]].any(axis=0)
+    """True for each ball that is at rest at all samples, of the n modules that take part, shape (n,)."""
+    return ~run.samples[:, _of_modules(run.system, (5, 7))].any(axis=0)
 
 
-def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
+def _of_modules(system, places):
+    """Those of some places in the state that are of modules that take part."""
+    moves = takes_part(system)
+    return [place for place in places if moves[place]]
+
+
+def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
     """Starts spread evenly over displacements, relative displacements and velocities, and the start from rest.
 
     Shape (count, 8): rest first, then scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach, |W_i| < 1.
+
+    Args:
+        count: from 1 on. seed: what scrambles them.
+
+    Raises:
+        ValueError: an argument is malformed.
     """
     from scipy.stats import qmc  # takes a second to load, and few who classify draw starts
 
+    count, seed, reach = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED), real("reach", reach)
     unit = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
     states = reach * unit
     states[:, [1, 3]] = states[:, [0, 2]] - unit[:, [1, 3]]
@@ -158,5 +214,5 @@ def starts(count: int, seed: int, reach: float = 1.0) -> np.ndarray:
 def _two_impacts(run):
     """True if each ball meets each wall once a cycle, but for an impact on the edge of the window."""
     impacts = run.events[run.events["kind"] == IMPACT]
-    counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in (1, 2) for w in (1, -1)]
+    counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

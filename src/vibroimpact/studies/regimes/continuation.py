@@ -4,21 +4,33 @@ A point z = (x, p) is stepped along the tangent and brought back at the p reache
 p, within the plane across the tangent, so that folds in p are passed like any other point. A special point is a sign
 change of a function along the curve, found by Brent's method in the arclength; every evaluation is a root of F to
 rounding, so the zero is as sharp as the function itself.
+
+Branches cross where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is ill-conditioned there, so
+a branch point is bracketed by bisection in the arclength to a length, and stepped over. The branches that leave it are
+the zeros, on a small circle in the plane of both null vectors, of the part of F that this plane cannot balance
+(Lyapunov and Schmidt).
 """
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-_DIFFERENCE = 1e-6  # step in p; central differences then tell dF/dp to about 1e-10
-_STEPS = 12
-_SETTLED = 1e-13
+_DIFFERENCE = 1e-6  # step in p; these differences then tell dF/dp to about 1e-10
+_STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
+_STEPS, _FEET = 12, 4
+_SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, near a singular Jacobian
+_REFINED = 1e-10
 _STEEP = 0.2  # part of p in the tangent from which on p is kept: a new p costs more than a new x
 _TURN = 0.15  # radians by which the tangent may turn in one step
-_SHORTEST = 1e-7
+_SHORTEST = 1e-7  # step, before the curve is given up
+_RESOLVED = 1e-6  # arclength to which bisection goes: Newton's method then keeps 10 digits beside a branch point
+_SINGULAR = 1e-5  # relative size of a singular value that rounding may leave of 0
+_CORNER = 1e-5  # step past a corner
+_CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
 class Lost(ArithmeticError):
@@ -26,29 +38,43 @@ class Lost(ArithmeticError):
 
 
 class Place(NamedTuple):
-    """A point z = (x, p) of the curve and its unit tangent, both (d + 1,)."""
+    """A point z = (x, p) of the curve and its unit tangent, both (d + 1,).
+
+    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True for the start of a closed curve, met again.
+    """
 
     z: np.ndarray
     tangent: np.ndarray
+    determinant: float
+    closing: bool = False
+
+    def reversed(self) -> "Place":
+        """The same point, passed the other way."""
+        return Place(self.z, -self.tangent, -self.determinant)
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
     """The solution set of F(x, p) = 0.
 
-    equations(x, p) returns the residual (d,) and its Jacobian (d, d) by x.
+    equations(x, p) returns the residual (d,) and its Jacobian (d, d) by x. images(z, near): the points that are the
+    same as z, angles within half a turn of those of another point.
     """
 
     equations: Callable
+    images: Callable = lambda z, near: [z]
 
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
-        """A point of the curve with its tangent, on the side of `ahead`, (d + 1,).
+        """A point of the curve with its tangent, on the side of `ahead`, (d + 1,)."""
+        by_z = self._by_z(z)
+        tangent = np.linalg.svd(by_z)[2][-1]
+        tangent = np.copysign(1.0, tangent @ ahead) * tangent
+        return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
-        Raises:
-            Lost: dF/dz has not full rank to rounding, so that there is no one tangent.
-        """
-        tangent = _solve(self.equations(z[:-1], z[-1])[1], self._by_p(z), ahead, np.eye(len(z))[-1])
-        return Place(z, tangent / np.linalg.norm(tangent))
+    def singular(self, z: np.ndarray) -> bool:
+        """True if dF/dz has not full rank at a point, to rounding, so that there is no one tangent."""
+        sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
+        return bool(sizes[-1] <= _SINGULAR * (1 + sizes[0]))
 
     def step(self, place: Place, length: float) -> np.ndarray:
         """The point z of the curve next to a step of this length along the tangent.
@@ -60,34 +86,39 @@ class Curve:
         steep = abs(place.tangent[-1]) > _STEEP
         row = np.eye(len(guess))[-1] if steep else place.tangent
         by_p = np.zeros(len(guess) - 1) if steep else self._by_p(guess)
-        z = guess
+        z, size = guess, np.inf
         for _ in range(_STEPS):
             residual, jacobian = self.equations(z[:-1], z[-1])
-            defect = np.append(residual, row @ (z - guess))
-            change = _solve(jacobian, by_p, row, defect)
+            change = _solve([[jacobian, by_p[:, None]], [row]], np.append(residual, row @ (z - guess)))
             z = z - change
-            if np.abs(change).max() <= _SETTLED * (1 + np.abs(z).max()):
+            last, size = size, np.abs(change).max() / (1 + np.abs(z).max())
+            if size <= _SETTLED or last / 2 < size <= _STALLED:
                 return z
         raise Lost(f"no root of the equations near {guess}")
 
-    def trace(self, start, ahead, longest: float, inside: Callable, points: int = 2000) -> Iterator[Place]:
-        """Places along the curve, from a root `start` towards `ahead`, both (d + 1,).
+    def trace(self, start: Place, longest: float, inside: Callable, points: int = 2000) -> Iterator[Place]:
+        """Places along the curve from a start, branch points among them.
 
-        Ends with the first point z for which inside(z) is False, which is given out, after so many points, or where the
-        curve is lost.
+        Ends with the first point z for which inside(z) is False, where the curve closes, after so many points, or where
+        the curve is lost.
 
         Args:
             longest: longest step.
         """
-        place, length = self.place(start, ahead), longest / 4
+        place, length = start, longest / 4
         yield place
         for _ in range(points):
-            after = self._next(place, length)
-            while after is None:
+            while not (ahead := self._ahead(place, length)) and length > _SHORTEST:
                 length /= 2
-                if length < _SHORTEST:
-                    return
-                after = self._next(place, length)
+            ahead = ahead or ([] if self.singular(place.z) else self._round(place))
+            if not ahead:
+                return
+            *crossing, after = ahead
+            yield from crossing
+            left = np.linalg.norm(place.z - start.z) > 2 * _RESOLVED
+            if left and (image := self.held(place, after, start.z)) is not None:
+                yield self.place(image, place.tangent)._replace(closing=True)
+                return
             if place.tangent @ after.tangent > np.cos(_TURN / 3):
                 length = min(longest, 1.5 * length)
             place = after
@@ -96,21 +127,110 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """The point between a place and z = end, a later point of the curve, at which function(z) vanishes.
-
-        Raises:
-            ValueError: the function has the same sign at both.
-            Lost: the curve between them cannot be followed from the place.
-        """
+        """The point between a place and z = end, a later point of the curve, at which function(z) vanishes."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
-        return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
+        try:
+            return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
+        except (Lost, ValueError):  # beside a branch point, or across a corner
+            after, sign = self.place(end, place.tangent), np.sign(function(place.z))
+            return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
+
+    def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
+        """Points and places of the curve through a root z, in their order; of a closed curve once round.
+
+        half(start) returns those on one side of a place. A multiple root, known to half the digits, is first refined.
+        """
+        for _ in range(_STEPS):
+            change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
+            if np.abs(change).max() < _REFINED:
+                break
+            z = z - change
+        start = self.place(z, np.eye(len(z))[-1])
+        points, places = half(start)
+        if places[-1].closing:
+            return points, places
+        back, behind = half(start.reversed())
+        return back[:0:-1] + points, [place.reversed() for place in behind[:0:-1]] + places
+
+    def passes(self, places: list[Place], z: np.ndarray) -> bool:
+        """True if a root z lies on the curve through some places."""
+        return any(self.held(*pair, z) is not None for pair in pairwise(places))
+
+    def held(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
+        """The image of a root z that lies on the curve between two neighbouring places, if one does."""
+        chord = after.z - place.z
+        length = np.linalg.norm(chord)
+        for image in self.images(z, place.z):
+            along = chord @ (image - place.z) / length
+            aside = np.linalg.norm(image - place.z - along / length * chord)
+            if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
+                # Beside a branch point a long step may end on the other branch.
+                found = self._foot(place, image) or self._bisected(
+                    place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
+                )
+                if found and np.linalg.norm(found[0].z - image) < 2 * _RESOLVED:
+                    return image
+        return None
+
+    def arms(self, z: np.ndarray) -> list[np.ndarray]:
+        """Points near a branch point z, one on each of the branches that leave it."""
+        left, _, right = np.linalg.svd(self._by_z(z))
+        unbalanced, plane = left[:, -1:], right[-2:]
+
+        def at(angle):
+            """The point on the circle where all of F vanishes but a multiple of `unbalanced`, and that multiple."""
+            guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
+            y, part = guess, 0.0
+            for _ in range(_STEPS // 4):
+                residual = self.equations(y[:-1], y[-1])[0] + part * unbalanced[:, 0]
+                blocks = [[self._by_z(y), unbalanced], [plane, np.zeros((2, 1))]]
+                change = _solve(blocks, np.append(residual, plane @ (y - guess)))
+                y, part = y - change[:-1], part - change[-1]
+            return y, part
+
+        try:
+            signs = [np.sign(at(angle)[1]) for angle in _ANGLES]
+            turns = [_ANGLES[k : k + 2] for k in np.flatnonzero(np.diff(signs))]
+            return [at(brentq(lambda angle: at(angle)[1], *ends, xtol=1e-9))[0] for ends in turns]
+        except Lost:  # F ends here
+            return []
 
     def _by_p(self, z):
-        """dF/dp, shape (d,), at z."""
+        """dF/dp, shape (d,), at z; one-sided where F ends."""
         x, p = z[:-1], z[-1]
         h = _DIFFERENCE * (1 + abs(p))
-        return (self.equations(x, p + h)[0] - self.equations(x, p - h)[0]) / (2 * h)
+        for stencil in _STENCILS:
+            try:
+                return sum(weight * self.equations(x, p + k * h)[0] for k, weight in stencil.items()) / h
+            except Lost as error:
+                lost = error
+        raise lost
+
+    def _by_z(self, z):
+        """dF/dz, shape (d, d + 1)."""
+        return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
+
+    def _ahead(self, place, length):
+        """The place a step ahead, last; [] if the curve turns too much or is lost.
+
+        Before it a branch point, if there is one, between two places beside it. A change of sign without a branch point
+        is a step to another curve.
+        """
+        after = self._next(place, length)
+        if after is None or after.determinant * place.determinant > 0:
+            return [after] if after else []
+        pair = self._bisected(place, after, lambda at: at.determinant * place.determinant > 0)
+        if pair is None:
+            return []
+        a, b = pair
+        part = a.determinant / (a.determinant - b.determinant)
+        crossing = Place(a.z + part * (b.z - a.z), a.tangent, 0.0)
+        behind, beyond = self._next(a.reversed(), _CIRCLE), self._next(b, _CIRCLE)
+        found = [behind and behind.reversed(), crossing, beyond, after]
+        return [
+            at for at in found if at and 0 < place.tangent @ (at.z - place.z) <= place.tangent @ (after.z - place.z)
+        ]
 
     def _next(self, place, length):
         """The place a step ahead; None if it is not found or the curve turns too much."""
@@ -120,10 +240,47 @@ class Curve:
             return None
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
+    def _foot(self, place, z):
+        """The place where z is across the tangent, next to another, as a list; [] unless z is on the curve there."""
+        for _ in range(_FEET):
+            place = self._next(place, place.tangent @ (z - place.z))
+            if place is None:
+                break
+            if np.linalg.norm(place.z - z) < _RESOLVED:
+                return [place]
+        return []
 
-def _solve(jacobian, by_p, row, right):
-    """Solution of the bordered system with the matrix [[jacobian, by_p], [row]]."""
+    def _round(self, place):
+        """A place beyond a corner just ahead, where F has a kink, as a list; [] if there is no corner.
+
+        There dF/dz jumps, as for orbits where impacts of both modules change places.
+        """
+        try:
+            across = self.place(place.z + _CORNER * place.tangent, place.tangent)
+        except Lost:
+            return []
+        after = (self._next(way._replace(z=place.z), _CORNER) for way in (across, across.reversed()))
+        return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
+
+    def _bisected(self, place, after, before: Callable):
+        """Two places between two others, so near to each other that they are one; None if the curve does not join them.
+
+        before(place): True on the side of the first.
+        """
+        while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
+            if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
+                return None
+            steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))  # one may meet a branch point
+            middle = next(filter(None, steps), None)
+            if middle is None:
+                return (place, after) if self.singular(place.z) else None
+            place, after = (middle, after) if before(middle) else (place, middle)
+        return place, after
+
+
+def _solve(blocks, right):
+    """Solution of a bordered system."""
     try:
-        return np.linalg.solve(np.vstack([np.column_stack([jacobian, by_p]), row]), right)
+        return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:
         raise Lost("the bordered matrix is singular") from None

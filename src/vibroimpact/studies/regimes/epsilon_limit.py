@@ -26,6 +26,8 @@ class Comparison:
     multipliers, predicted_multipliers: (8,) complex, exact and by slow flow (first four) and impact map (last four),
     paired so that they are nearest together.
     rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four, exact and by the slow flow.
+
+    Of a single machine all have half as many numbers.
     """
 
     epsilon: float
@@ -48,29 +50,29 @@ def compare(system, point) -> Comparison:
         NoOrbit: the system has no symmetric orbit.
     """
     root, offset = _nearest(system, point)
-    fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C])
+    fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C[np.isfinite(point.C)]])
     return paired(system, offset, symmetric_orbit(system, root).multipliers, point.slow_eigenvalues, fast)
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """The Comparison of exact multipliers (8,) with slow eigenvalues (4,) and fast multipliers (4,)."""
+    """The Comparison of exact multipliers with slow eigenvalues and fast multipliers, each half as many."""
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
     # Slow multipliers are predicted to second order in epsilon, fast ones to first: weighed so that both count alike.
-    weights = np.repeat([1 / slow_time, 1.0], 4)
+    weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(
         epsilon=system.epsilon,
         offset=offset,
         multipliers=exact[pairs],
         predicted_multipliers=predicted,
-        rates=np.log(exact[pairs[:4]]) / slow_time,
+        rates=np.log(exact[pairs[: len(slow)]]) / slow_time,
         predicted=slow,
     )
 
 
 def first_order(system, point, step: float, response=impulse_response) -> np.ndarray:
-    """Return the second term of (10.7) at a fixed point, per epsilon: C and impact phases [rad], (4,).
+    """Return the second term of (10.7) at a fixed point, per epsilon: C and impact phases [rad], as `offset`.
 
     The derivative of the exact orbit by epsilon at 0: the conditions of the orbit are solved from the fixed point.
 
@@ -123,7 +125,7 @@ def _nearest(system, point):
 
 def _reached(system, point, response):
     """Offset of the orbit that Newton's method reaches from a fixed point."""
-    start = np.concatenate([impact_times(system, point), point.C])
+    start = np.nan_to_num(np.concatenate([impact_times(system, point), point.C]))
     roots = newton(SymmetricConditions(system, response(system, -1)), start[None])
     if not len(roots):
         raise NoOrbit("system: no symmetric 1:1 orbit is reached from the fixed point")
@@ -131,6 +133,7 @@ def _reached(system, point, response):
 
 
 def _offsets(system, point, roots):
-    """Roots minus fixed point: C and impact phases [rad] of both modules, (n, 4)."""
+    """Roots minus fixed point: C and impact phases [rad] of the modules that take part, (n, 4) or (n, 2)."""
     phases = np.angle(np.exp(1j * system.Omega * (roots[:, :2] - impact_times(system, point))))
-    return np.concatenate([roots[:, 2:] - point.C, phases], axis=1)
+    part = np.isfinite(point.C)
+    return np.concatenate([(roots[:, 2:] - point.C)[:, part], phases[:, part]], axis=1)

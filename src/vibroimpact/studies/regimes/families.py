@@ -1,35 +1,44 @@
 """Families of 1:1 responses as continuation sees them: equations, members, functions whose zeros are special points.
 
 The functions are polynomials in the entries of a monodromy matrix, written in its multipliers, so that they pass
-through their zeros: prod (1 - mu) at a fold, prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a
-pair meets the unit circle (Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half
-a period and mirroring, and -1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld
-1984).
+through their zeros: prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a pair meets the unit circle
+(Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half a period and mirroring, and
+-1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld 1984). Folds and branch points,
+mu = 1, are those of the curve.
+
+The unknowns of a module that takes no part are held at the constants `rest`: its angles at 0 and its size, C_i or I_i,
+at 1, so that a size of 0 always means a ball without speed. Its amplitude is NaN.
 """
 
 from itertools import combinations
 
 import numpy as np
 
+from vibroimpact.exact.orbits import asymmetric, symmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
-from vibroimpact.system.amplitude import sawtooth_amplitude
+from vibroimpact.studies.regimes.continuation import Lost
+from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
+from vibroimpact.theory import slow_flow
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
-from vibroimpact.theory.slow_flow import linearisation, rates, slow_eigenvalues
+from vibroimpact.theory.slow_flow import linearisation, slow_eigenvalues
 
-FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = "fold", "symmetry breaking", "period doubling"
+FOLD, BRANCH_POINT, LOST = "fold", "branch point", "lost"
+SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
+_HELD = 1e-12
 
 
 class SymmetricOrbits:
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
 
     name, angles = "symmetric orbit", slice(0, 2)
+    modules, rest = symmetric.MODULES, np.array([0.0, 0.0, 1.0, 1.0])
     _conditions, _orbit = SymmetricConditions, staticmethod(symmetric_orbit)
 
     @staticmethod
@@ -37,10 +46,10 @@ class SymmetricOrbits:
         """A full turn of the angles among the unknowns."""
         return system.period
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """All roots, shape (n, 4)."""
-        return symmetric_solutions(system)
+        return np.where(_idle(cls, system), cls.rest, symmetric_solutions(system))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
@@ -49,9 +58,14 @@ class SymmetricOrbits:
 
     @classmethod
     def equations(cls, system, x):
-        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,)."""
+        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,).
+
+        Raises:
+            Lost: both modules take part in the system, and x is a response of one.
+        """
+        _refuse_one_of_two(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
-        return residual[0], jacobian[0]
+        return np.where(_idle(cls, system), x - cls.rest, residual[0]), jacobian[0]
 
     @classmethod
     def speed(cls, x) -> float:
@@ -61,7 +75,7 @@ class SymmetricOrbits:
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
-        return x[2:]
+        return _of_modules(system, x[2:])
 
     @classmethod
     def member(cls, system, x):
@@ -95,23 +109,25 @@ class AsymmetricOrbits(SymmetricOrbits):
     """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
 
     name, angles = "asymmetric orbit", slice(0, 4)
+    modules, rest = asymmetric.MODULES, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
     _conditions, _orbit = AsymmetricConditions, staticmethod(asymmetric_orbit)
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """Roots found, shape (n, 6)."""
-        return asymmetric_solutions(system)[0]
+        return np.where(_idle(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
+    @classmethod
+    def images(cls, system, x) -> list[np.ndarray]:
         """Roots that are the same motion or its mirror image."""
-        return [x, np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])]
+        image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
+        return [x, np.where(_idle(cls, system), x, image)]
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
         u = flight_fractions(system, x)
-        return sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period)
+        return _of_modules(system, sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
@@ -123,28 +139,35 @@ class FixedPoints:
     """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
 
     name, angles = "fixed point", slice(1, 4, 2)
+    modules, rest = slow_flow.MODULES, np.array([1.0, 0.0, 1.0, 0.0])
 
     @staticmethod
     def turn(system) -> float:
         """A full turn of the angles among the unknowns."""
         return 2 * np.pi
 
-    @staticmethod
-    def roots(system) -> np.ndarray:
+    @classmethod
+    def roots(cls, system) -> np.ndarray:
         """All fixed points with C_1, C_2 >= 0, shape (n, 4)."""
-        return np.array([np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]).reshape(-1, 4)
+        found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
+        return np.where(_idle(cls, system), cls.rest, np.reshape(found, (-1, 4)))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
         """Roots that are the same motion or its mirror image."""
         return [x]
 
-    @staticmethod
-    def equations(system, x):
-        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4)."""
-        C, psi = x[0::2], x[1::2]
-        residual = np.stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C), axis=1).ravel()
-        return residual, linearisation(system, psi, C)[0]
+    @classmethod
+    def equations(cls, system, x):
+        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4).
+
+        Raises:
+            Lost: both modules take part in the system, and x is a response of one.
+        """
+        _refuse_one_of_two(cls, system, x)
+        residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
+        residual[part], jacobian[np.ix_(part, part)] = slow_flow.equations(system, x[1::2], x[0::2])
+        return residual, jacobian
 
     @staticmethod
     def speed(x) -> float:
@@ -154,12 +177,12 @@ class FixedPoints:
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """C_i, shape (2,)."""
-        return x[0::2]
+        return _of_modules(system, x[0::2])
 
     @staticmethod
     def member(system, x):
         """The FixedPoint of a root."""
-        C, psi = x[0::2], x[1::2]
+        C, psi = _of_modules(system, x[0::2]), _of_modules(system, x[1::2])
         values = slow_eigenvalues(system, psi, C)
         return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
 
@@ -170,21 +193,20 @@ class FixedPoints:
         Where the manifold folds, one eigenvalue of the slow flow is infinite; its pole is multiplied away.
         """
         r = rho(system.kappa)
-        J, M = linearisation(system, point.psi, point.C)
+        M = linearisation(system, point.psi, point.C)[1]
         finite = np.isfinite(point.slow_eigenvalues).all()
         sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
         return {
-            FOLD: np.linalg.det(J),
-            HOPF: float(np.prod(sums).real * np.linalg.det(M) ** 3),
-            **{f"{MANIFOLD_FOLD}, module {i + 1}": slope(point.C[i], r) for i in range(2)},
-            **{f"{SYMMETRY_BREAKING}, module {i + 1}": SYMMETRY_BREAKING_C - point.C[i] for i in range(2)},
+            HOPF: float(np.prod(sums).real * np.linalg.det(M) ** (len(M) - 1)),
+            **{f"{MANIFOLD_FOLD}, module {k}": slope(point.C[k - 1], r) for k in system.modules},
+            **{f"{SYMMETRY_BREAKING}, module {k}": SYMMETRY_BREAKING_C - point.C[k - 1] for k in system.modules},
         }
 
     @staticmethod
     def stable(system, point) -> bool:
         """True if slow flow and impact map are both stable."""
-        fast = (C_min(rho(system.kappa)) < point.C) & (point.C < SYMMETRY_BREAKING_C)
-        return bool(fast.all() and (point.slow_eigenvalues.real < 0).all())
+        beyond = (C_min(rho(system.kappa)) >= point.C) | (point.C >= SYMMETRY_BREAKING_C)
+        return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod
     def admissible(point) -> bool:
@@ -202,12 +224,43 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,)."""
-    return wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
+    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,).
+
+    It is 1/2 of a module that takes no part.
+    """
+    u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
+    return np.where(np.isin([1, 2], system.modules), u, 0.5)
+
+
+def _idle(family, system):
+    """True (d,) for the unknowns of a module that takes no part."""
+    return ~np.isin(family.modules, system.modules)
+
+
+def _of_modules(system, values):
+    """Numbers of both modules, (2,), NaN of one that takes no part."""
+    return np.where(np.isin([1, 2], system.modules), values, np.nan)
+
+
+def _refuse_one_of_two(family, system, x):
+    """Refuse a response of one module where both take part.
+
+    Raises:
+        Lost: x is one.
+    """
+    held = np.abs(x - family.rest) < _HELD
+    if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
+        raise Lost("both modules take part, and the response is that of one")
+
+
+def asymmetric_root(system, x) -> np.ndarray:
+    """A symmetric orbit's root (tau_1, tau_2, C_1, C_2) as one of the asymmetric equations, (6,)."""
+    times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
+    root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
+    return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
 def _tests(mu, at_minus_one, orbit):
     """Functions of an orbit's multipliers mu and of its excursion; `at_minus_one`: the name of the point at mu = -1."""
-    found = {FOLD: 1 - mu, at_minus_one: 1 + mu}
-    found[NEIMARK_SACKER] = np.array([1 - a * b for a, b in combinations(mu, 2)])
+    found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()} | {GRAZING: 1 - orbit.excursion}

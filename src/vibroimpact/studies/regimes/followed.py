@@ -1,25 +1,28 @@
 """Follow stable asymmetric orbits as a parameter moves from value to value."""
 
+import warnings
 from collections.abc import Iterator
 
 import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
-from vibroimpact.studies.regimes.branches import same_root
+from vibroimpact.studies.regimes.branches import images
 from vibroimpact.studies.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
 """Orbits are sought at the values these parts of the way along the list."""
 NEAR = 0.1
 """Within this of the root at the last value is that at the next: the same branch, by steps as short as a slider's."""
+SAME = 1e-6
 
 
 def followed(systems: dict) -> Iterator[tuple[float, object]]:
     """Value and Orbit of every motion on the branches of the stable asymmetric orbits, one of two mirror images.
 
     What is sought at a few values is followed to both sides by Newton's method, to where a branch folds, the orbit
-    leaves the walls or becomes symmetric. Branches without a stable orbit at one of those values are missed.
+    leaves the walls or becomes symmetric. Branches without a stable orbit at one of those values are missed; a value at
+    a resonance of undamped boxes is skipped, with a warning if it is one of those.
 
     Args:
         systems: value of the parameter (ascending) -> system.
@@ -40,7 +43,12 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 def _stable(system):
     """Roots of motions that are stable, one of two mirror images."""
     stable = []
-    for x in AsymmetricOrbits.roots(system):
+    try:
+        roots = AsymmetricOrbits.roots(system)
+    except ValueError as error:
+        warnings.warn(f"no asymmetric orbit sought: {error}", stacklevel=3)
+        return []
+    for x in roots:
         orbit = AsymmetricOrbits.member(system, x)
         if orbit.admissible and AsymmetricOrbits.stable(system, orbit) and not _known(x, stable, system):
             stable.append(x)
@@ -49,14 +57,17 @@ def _stable(system):
 
 def _known(x, roots, system):
     """True if a root or its mirror image is among others."""
-    images = AsymmetricOrbits.images(system, x)
-    return any(same_root(AsymmetricOrbits, system, image, root) for image in images for root in roots)
+    near = (image - root for root in roots for image in images(AsymmetricOrbits, system, x, root))
+    return any(np.abs(gap).max() < SAME for gap in near)
 
 
 def _along(values, systems, x):
     """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
     for value in values:
-        found = newton(AsymmetricConditions(systems[value]), x[None])
+        try:
+            found = newton(AsymmetricConditions(systems[value]), x[None])
+        except ValueError:
+            return
         if not len(found) or np.abs(found[0] - x).max() > NEAR:
             return
         x = found[0]

@@ -75,6 +75,7 @@ def of_harmonics(system, highest: int, free_mass: bool) -> Level:
 
 def error(C: np.ndarray, exact: np.ndarray) -> float:
     """Largest relative error of a level's C (n, 2) against the exact (m, 2); nan if n is not m."""
+    C, exact = np.nan_to_num(C), np.nan_to_num(exact)
     if len(C) != len(exact):
         return np.nan
     if not len(C):
@@ -98,10 +99,10 @@ def _two_terms(system, points):
 
 
 def _solved(system, response):
-    """The roots (n, 4) that are motions, C > 0, and the number of evaluations of the response."""
+    """The roots (n, 4) that are motions, no C < 0, and the number of evaluations of the response."""
     counted = _Counted(response)
     roots = symmetric_solutions(system, counted)
-    return roots[(roots[:, 2:] > 0).all(axis=1)], counted.evaluations
+    return roots[(roots[:, 2:] >= 0).all(axis=1)], counted.evaluations
 
 
 def _stack(C):

@@ -17,27 +17,41 @@ import numpy as np
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.engine.variation import growth
+from vibroimpact.system.arguments import MOST_SEED, whole
 from vibroimpact.system.matrices import damping_matrix
+from vibroimpact.system.state import idle_at_rest, takes_part
 
-SIZE, BOTH = 8, 2
+BOTH = 2
 AT_ONCE = 1000
 """Cycles that are simulated at a time."""
-_OTHERS = np.random.default_rng(1).normal(size=(SIZE, SIZE - 1))  # a frame with a pattern may span too little
-_FRAME = np.linalg.qr(np.column_stack([np.ones(SIZE), _OTHERS]))[0]
+_OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # a frame with a pattern may span too little
+_VECTORS = np.column_stack([np.ones(8), _OTHERS])
+_MOST_RESAMPLES = 1_000_000
 
 
 class Exponent(NamedTuple):
-    """Mean growth rate of a perturbation per forcing period, in nats, and its standard error, from block means."""
+    """Mean growth rate of a perturbation per forcing period, in nats, and its error.
+
+    error: the root of the sum of two squares, of the standard error from block means and of ln(t1 / t0) / (t1 - t0),
+    the apparent rate between the ends t0 and t1 of the blocks of a perturbation that grows linearly in time. The true
+    exponent of such a perturbation, of a ball at rest for example, is 0.
+    """
 
     mean: float
     error: float
 
 
-def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Exponent:
-    """Largest Lyapunov exponent, with its scatter.
+class Measured(Exponent):
+    """An exponent with its `scatter`, the standard error from block means alone."""
+
+    scatter: float
+
+
+def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Measured:
+    """Largest Lyapunov exponent, with its error.
 
     On a periodic motion this is the log of its largest multiplier's modulus, over the period. The error takes the
-    growth in different blocks as independent.
+    growth in different blocks as independent. The perturbation is of the modules that take part.
 
     Args:
         state: (8,) on the attractor, at the start of a forcing cycle.
@@ -55,15 +69,20 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
     if not factors.all():
         raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
-    return Exponent(float(rates.mean()), float(rates.std(ddof=1) / np.sqrt(blocks)))
+    mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
+    first, last = max(discarded * cycles, 1), (discarded + blocks) * cycles
+    with_time = np.log(last / first) / (blocks * cycles)
+    found = Measured(float(mean), float(np.hypot(scatter, with_time)))
+    found.scatter = float(scatter)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """All Lyapunov exponents of a motion, of the map from one forcing cycle to the next, largest first.
 
-    growth: (n, 8) of the eight directions in each of n cycles; where a ball sticks, how it came to its wall is
-        forgotten: -inf for two of them, for four where both stick at once.
+    growth: (n, 8) of the eight directions in each of n cycles, (n, 4) if one module takes part; where a ball sticks,
+        how it came to its wall is forgotten: -inf for two of them, for four where both stick at once.
     contraction: (n,) of volume in each cycle, in closed form: what the growths add up to.
     stuck: (n,) most balls that stick at one time in each cycle.
     """
@@ -88,7 +107,7 @@ class Spectrum:
 
     @property
     def exponents(self) -> np.ndarray:
-        """(8,) per forcing period, in nats."""
+        """(8,), or (4,) if one module takes part, per forcing period, in nats."""
         return self.growth.mean(axis=0)
 
     @property
@@ -97,14 +116,24 @@ class Spectrum:
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
-        """Standard errors of the exponents, (8,), nan where they are -inf, and of the dimension.
+        """Standard errors of the exponents, in their shape, nan where they are -inf, and of the dimension.
 
         By the circular block bootstrap (Politis and Romano 1992): the n cycles are drawn anew in n / block stretches of
         `block` cycles, which keep what one cycle has to do with the next.
+
+        Args:
+            block: from 1 to n / 2. resamples: number of draws, at least 2. seed: of the draws.
+
+        Raises:
+            ValueError: an argument is malformed; there are fewer than 2 cycles.
         """
         n, forgotten = len(self.growth), np.isneginf(self.exponents)
+        if n < 2:
+            raise ValueError(f"growth: {n} cycles have no scatter; errors need at least 2")
+        block, resamples = whole("block", block, 1, n // 2), whole("resamples", resamples, 2, _MOST_RESAMPLES)
+        seed = whole("seed", seed, 0, MOST_SEED)
         finite = np.where(forgotten, 0.0, self.growth)
-        sums = np.cumsum(np.concatenate([np.zeros((1, SIZE)), finite, finite[: block - 1]]), axis=0)
+        sums = np.cumsum(np.concatenate([np.zeros_like(finite[:1]), finite, finite[: block - 1]]), axis=0)
         stretches = (sums[block:] - sums[:-block]) / block
         drawn = stretches[np.random.default_rng(seed).integers(n, size=(resamples, n // block))].mean(axis=1)
         dimensions = [kaplan_yorke(np.where(forgotten, -np.inf, exponents)) for exponents in drawn]
@@ -113,12 +142,13 @@ class Spectrum:
 
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
     """All Lyapunov exponents over `cycles` forcing cycles after others, from a state as for `largest_exponent`."""
-    whole, rest = divmod(discarded + cycles, AT_ONCE)
-    parts = zip(*_frame_growth(system, state, [AT_ONCE] * whole + [rest] * (rest > 0), SIZE), strict=True)
+    full, rest = divmod(discarded + cycles, AT_ONCE)
+    size = np.count_nonzero(takes_part(system))
+    parts = zip(*_frame_growth(system, state, [AT_ONCE] * full + [rest] * (rest > 0), size), strict=True)
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(SIZE) >= SIZE - 2 * stuck[:, None]] = -np.inf  # in floats, rounding
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # in floats, rounding
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
@@ -129,11 +159,13 @@ def _largest_first(rates):
 def contraction(system, impacts, stuck) -> np.ndarray:
     """Logarithm of the factor by which each cycle shrinks volumes of states, of its impacts and balls that stick, (n,).
 
-    Flights shrink them by the damping, exp(-tr D t). In the gap of its module, its rate and the motion of their centre
-    of mass an impact is triangular, with -kappa for the gap (the saltation) and -kappa for its rate (Newton's rule):
-    the factor is kappa^2, whatever the flights around it. A ball that sticks leaves no volume: -inf.
+    Flights shrink them by the damping, exp(-tr D t), D of the modules that take part. In the gap of its module, its
+    rate and the motion of their centre of mass an impact is triangular, with -kappa for the gap (the saltation) and
+    -kappa for its rate (Newton's rule): the factor is kappa^2, whatever the flights around it. A ball that sticks
+    leaves no volume: -inf.
     """
-    volume = 2 * np.asarray(impacts) * np.log(system.kappa) - np.trace(damping_matrix(system)) * system.period
+    damping = np.diag(damping_matrix(system))[takes_part(system)[[0, 2]]].sum()
+    volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period
     return np.where(np.asarray(stuck) > 0, -np.inf, volume)
 
 
@@ -144,15 +176,17 @@ def kaplan_yorke(exponents) -> float:
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)
-    whole = int(np.argmax(sums < 0)) if (sums < 0).any() else len(sums)
-    if whole in (0, len(sums)):
-        return float(whole)
-    return float(whole + sums[whole - 1] / -exponents[whole])
+    full = int(np.argmax(sums < 0)) if (sums < 0).any() else len(sums)
+    if full in (0, len(sums)):
+        return float(full)
+    return float(full + sums[full - 1] / -exponents[full])
 
 
 def _frame_growth(system, state, runs, directions):
     """Growth of a frame along each of some runs, of so many cycles, one after another."""
-    frame = _FRAME[:, :directions]
+    places = np.flatnonzero(takes_part(system))
+    frame, state = np.zeros((8, directions)), idle_at_rest(system, state)
+    frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
     for cycles in runs:
         run = simulate(system, state, cycles)
         grown = growth(run, frame)

@@ -21,6 +21,7 @@ from vibroimpact.studies.regimes.classification import (
 )
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.progress import counted
+from vibroimpact.system.state import idle_at_rest
 
 MOST_WITNESSES = 5
 
@@ -61,13 +62,14 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
 
     Args:
-        states: (n, 8) starts at tau = 0.
+        states: (n, 8) starts at tau = 0; a module that takes no part is put at rest.
         observation: how long they are looked at. progress: count them on standard error, if that is a terminal.
     """
-    first = _rounds(system, states, observation, progress)
+    first = _rounds(system, idle_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        members = [k for k, regime in enumerate(first) if regime.name == name and regime.repeats is None]
+        now = first if name in CHAOS else regimes  # with what chaos has turned into since
+        members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _try(system, regimes, members, observation, progress)
     return regimes
@@ -76,7 +78,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 def _rounds(system, states, observation, progress):
     """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
     found: list[Regime | None] = [None] * len(states)
-    waiting, now = np.arange(len(states)), np.asarray(states)
+    waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
         for place, state in counted([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):

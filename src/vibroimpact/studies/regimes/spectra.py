@@ -5,15 +5,15 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.measures.modulation import mean_and_error
-from vibroimpact.studies.regimes.lyapunov import SIZE, Spectrum, spectrum
+from vibroimpact.studies.regimes.lyapunov import Spectrum, spectrum
 
 DIMENSION, SUM, CONTRACTION = "Kaplan-Yorke dimension", "sum of exponents", "contraction"
 DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class Watched(NamedTuple):
-    """Spectrum of a motion without the cycles in which both balls stick at once; bootstrap errors of its exponents,
-    (8,), and of its dimension; how many cycles were left out."""
+    """Spectrum of a motion without the cycles in which both balls stick at once; bootstrap errors of its exponents
+    and of its dimension; how many cycles were left out."""
 
     spectrum: Spectrum
     errors: np.ndarray
@@ -28,7 +28,8 @@ def watch(system, states, cycles: int, block: int) -> list[Watched]:
     for state in states:
         one = spectrum(system, state, cycles, 10 * block)
         single = one.without_double_sticks()
-        found.append(Watched(single, *single.errors(block), one.double_sticks))
+        errors = single.errors(min(block, len(single.growth) // 2))
+        found.append(Watched(single, *errors, one.double_sticks))
     return found
 
 
@@ -37,7 +38,8 @@ def rows(key: dict, found) -> list[dict]:
 
     Sum and contraction are of the cycles in which no ball sticks. Double sticks are counted over all motions.
     """
-    columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(SIZE)}
+    size = found[0].spectrum.growth.shape[1]
+    columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
     columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
     columns[SUM] = [(_free(one, one.growth.sum(axis=1)), np.nan) for one, *_ in found]
     columns[CONTRACTION] = [(_free(one, one.contraction), np.nan) for one, *_ in found]

@@ -20,12 +20,14 @@ _FOLD_STEP, _FOLD_ERROR = 2e-3, 1e-9
 
 
 def amplitudes(system, point, response=impulse_response) -> np.ndarray:
-    """C_1, C_2 to the next order, shape (2,); `response` as for `first_order`.
+    """C_1, C_2 to the next order, shape (2,), NaN of a module that takes no part; `response` as for `first_order`.
 
     Raises:
         NoOrbit: no orbit is reached from the fixed point at small epsilon.
     """
-    return point.C + system.epsilon * first_order(system, point, STEP, response)[:2]
+    C, part = point.C.copy(), np.isfinite(point.C)
+    C[part] += system.epsilon * first_order(system, point, STEP, response)[: part.sum()]
+    return C
 
 
 def symmetry_breaking(epsilon: float) -> float:
@@ -39,9 +41,9 @@ def verdict(system, point, C) -> str:
     The slow flow's eigenvalues are those of leading order, and so is the lower limit: there the fast time scale meets
     the slow one, and has no second term of its own.
     """
-    fast = (lower_limit(system.kappa) < C) & (symmetry_breaking(system.epsilon) > C)
+    beyond = (lower_limit(system.kappa) >= C) | (symmetry_breaking(system.epsilon) <= C)
     slow = criteria.of_fixed_point(system, point)["slow"]
-    return STABLE if fast.all() and slow == STABLE else UNSTABLE
+    return STABLE if not beyond.any() and slow == STABLE else UNSTABLE
 
 
 def fold(system, name: str, interval) -> dict[str, float]:

@@ -13,6 +13,7 @@ from vibroimpact.studies.regimes.families import FixedPoints
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.spec import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Spec
+from vibroimpact.system.state import idle_at_rest
 
 FROM_REST = "from_rest"
 AMPLITUDE_COLUMNS = (
@@ -34,16 +35,16 @@ LOW, HIGH = 0.05, 0.95
 
 
 def observed(system, spec: Spec) -> dict:
-    """The columns of all observations at one point.
+    """The columns of all observations at one point, as Python numbers; a module that takes no part is at rest.
 
     Raises:
         ArithmeticError, RuntimeError, ValueError: one of them cannot be had there.
     """
-    states = spread_starts(spec.starts, spec.seed) if spec.runs else None
+    states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
     for name in spec.observe:
         row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, spec), strict=True)
-    return row
+    return {name: value.item() if isinstance(value, np.generic) else value for name, value in row.items()}
 
 
 def _regimes(system, states, spec):
@@ -81,7 +82,8 @@ def _peaks(system, states, spec):
         return np.nan, np.nan, np.nan, np.nan, runs.unfinished
     peaks = peak_of(runs.largest)
     at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
-    return np.nanmax(peaks), runs.rms, at, _one_ball(runs), runs.unfinished
+    both = {module for one in systems for module in one.modules} == {1, 2}
+    return np.nanmax(peaks), runs.rms, at, _one_ball(runs) if both else np.nan, runs.unfinished
 
 
 def _one_ball(runs):

@@ -12,6 +12,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from scipy.linalg import eigvals
 
 from vibroimpact.studies.theory import branch
@@ -39,6 +40,8 @@ _ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
 class AsymmetricPoint(Representation):
     """A fixed point with unequal flights of one module or both; it stands for its mirror images, too.
 
+    Of a single machine it is that of the module that takes part: of the other, squared, C, B, psi and middle are NaN.
+
     Attributes:
         charts: the chart of each module.
         x: its parameter there, shape (2,).
@@ -59,7 +62,7 @@ class AsymmetricPoint(Representation):
     slow_eigenvalues: np.ndarray
 
     def fast(self, kappa) -> np.ndarray:
-        """Multipliers, shape (4,), of the impact maps of both modules over a cycle, B and phi held."""
+        """Multipliers, shape (4,), of the impact maps of both modules over a cycle, B and phi held; (2,) of one."""
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
     def fast_verdict(self, kappa) -> str:
@@ -67,9 +70,14 @@ class AsymmetricPoint(Representation):
         return all_stable(one[0] for one in self._modules(kappa))
 
     def _modules(self, kappa):
-        for skewed, C, squared in zip(self.asymmetric, self.C, self.squared, strict=True):
+        for skewed, C, squared in self._taking_part():
             theory, x = (branch, squared) if skewed else (masri, C)
             yield theory.stable(x, kappa), theory.multipliers(x, kappa)
+
+    def _taking_part(self):
+        """Return asymmetric, C and v^2 of each module that takes part."""
+        part = np.isfinite(self.C)
+        return zip(self.asymmetric[part], self.C[part], self.squared[part], strict=True)
 
     def slow_verdict(self) -> str:
         """ "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
@@ -78,16 +86,15 @@ class AsymmetricPoint(Representation):
 
     def admissible(self, kappa) -> bool:
         """True if it is a motion at leading order and both balls stay between their walls."""
-        modules = zip(self.asymmetric, self.C, self.squared, strict=True)
         return self.real and all(
             branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
-            for skewed, C, squared in modules
+            for skewed, C, squared in self._taking_part()
         )
 
     @property
     def real(self) -> bool:
         """True if it is a motion at leading order: no v^2 below 0."""
-        return bool((self.squared >= 0).all())
+        return not (self.squared < 0).any()
 
     def _shown(self):
         numbers = {name: brief(getattr(self, name)) for name in ("squared", "C", "B", "psi")}
@@ -95,12 +102,16 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions on (x_1, x_2) in one pair of charts."""
+    """The two conditions on (x_1, x_2) in one pair of charts; x_i = 0 of a module that takes no part."""
 
     def __init__(self, system, one: Chart, two: Chart):
+        self._idle = ~np.isin([1, 2], system.modules)
         e, self.K = impedances(system)
         f1, f2, total = system.f10_hat, system.f20_hat, (system.f10_hat + system.f20_hat) * self.K
-        q1, q2 = e[0] * one.z + one.n, e[1] * two.z + two.n
+        q1, q2 = (
+            Polynomial([1.0]) if idle else impedance * chart.z + chart.n
+            for idle, impedance, chart in zip(self._idle, e, (one, two), strict=True)
+        )
         n1, n2 = f1 * q2 + total * two.z, f2 * q1 + total * one.z
         sides = (q1, 0), (q2, 1), (one.z, 0), (two.z, 1), (n1, 1), (n2, 0), (one.beta, 0), (two.beta, 1)
         self._functions = [(function, function.deriv(), side) for function, side in sides]
@@ -113,7 +124,7 @@ class Balance:
         )
         size = _size(_product(q1, q2) + self.K * (_product(z1, q2) + _product(q1, z2)))
         residual, *slopes = np.stack([size - _size(_product(b1, n1)), size - _size(_product(b2, n2))], axis=-1)
-        return residual, np.stack(slopes, axis=-1)
+        return np.where(self._idle, x, residual), np.where(self._idle[:, None], np.eye(2), np.stack(slopes, axis=-1))
 
     def phasors(self, x):
         """b_i = B_i exp(-i psi_i), shape (2,)."""
@@ -137,7 +148,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     Raises:
         ValueError: system is not a System, or as `symmetric_points.search`.
     """
-    return [point for point in search(system) if (point.C >= 0).all()]
+    return [point for point in search(system) if not (point.C < 0).any()]
 
 
 def search(system: System) -> list[AsymmetricPoint]:
@@ -147,10 +158,14 @@ def search(system: System) -> list[AsymmetricPoint]:
         ValueError: as `fixed_points`.
     """
     refuse_free_motion(instance("system", system, System))
-    if system.modules != (1, 2):
-        return []
-    found = [_point(system, pair, x) for pair in PAIRS for x in _zeros(balance(system, pair))]
-    return sorted(found, key=lambda point: tuple(point.C))
+    found = [_point(system, pair, x) for pair in pairs_of(system, PAIRS) for x in _zeros(balance(system, pair))]
+    return sorted(found, key=lambda point: tuple(np.nan_to_num(point.C)))
+
+
+def pairs_of(system, pairs) -> list[tuple[str, str]]:
+    """The pairs of charts on which a system can have fixed points: a module that takes no part has x_i = 0, small C."""
+    idle = {1, 2} - set(system.modules)
+    return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
 
 
 def balance(system, pair) -> Balance:
@@ -184,6 +199,7 @@ def _point(system, pair, x):
     known = charts(system.kappa)
     places = [(known[name], value) for name, value in zip(pair, x, strict=True)]
     psi = -np.angle(balance(system, pair).phasors(x))
+    alone = np.where(np.isin([1, 2], system.modules), 1.0, np.nan)
     C = np.array([chart.amplitudes(value)[0] for chart, value in places])
     B, ball, B_x, ball_x = np.transpose([chart.ball(value) for chart, value in places])
     asymmetric = np.array([name == ASYMMETRIC for name in pair])
@@ -191,10 +207,10 @@ def _point(system, pair, x):
         charts=pair,
         x=x,
         asymmetric=asymmetric,
-        squared=np.where(asymmetric, x, 0.0),
-        C=C,
-        B=B.real,
-        psi=psi,
-        middle=np.angle([-chart.z(value) / chart.beta(value) for chart, value in places]),
+        squared=alone * np.where(asymmetric, x, 0.0),
+        C=alone * C,
+        B=alone * B.real,
+        psi=alone * psi,
+        middle=alone * np.angle([-chart.z(value) / chart.beta(value) for chart, value in places]),
         slow_eigenvalues=descending(eigvals(*pencil(system, psi, B.real, ball, B_x.real, ball_x))),
     )

@@ -95,9 +95,10 @@ def lost_at(system, point) -> float:
     Args:
         point: an asymmetric fixed point of the system; it is followed in small steps.
     """
-    (symmetric,) = np.flatnonzero(~point.asymmetric) if point.asymmetric.sum() == 1 else (None,)
-    if symmetric is None:
+    symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
+    if len(symmetric) != 1 or not point.asymmetric.any():
         return np.nan
+    (symmetric,) = symmetric
 
     def excess(factor, x):
         """C beyond the fold at a factor, and where the point is: Newton's method from x."""

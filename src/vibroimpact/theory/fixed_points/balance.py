@@ -13,6 +13,8 @@ import numpy as np
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
+_ROUNDING = 100 * np.finfo(float).eps
+
 
 @dataclass(frozen=True, eq=False)
 class Balance:
@@ -46,6 +48,21 @@ class Balance:
         """psi (2,) at a common zero C of the polynomials."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
+
+    def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
+        """C (n,) and psi (n,) at which module i, 0 or 1, uncoupled, is balanced, and whether two are one to rounding.
+
+        |q_i|^2 = f_i^2 is quadratic in C_i: the line q_i in the complex plane meets a circle.
+        """
+        (q0, q1), f = self.q[i], self.forcing[i]
+        along = q0 * q1.conjugate() / abs(q1)
+        nearest, force, noise = abs(along.imag), abs(f), _ROUNDING * (abs(q0) + abs(f))
+        multiple = abs(force - nearest) <= noise
+        if force < nearest - noise:
+            return np.empty(0), np.empty(0), False
+        half = 0.0 if multiple else np.sqrt((force - nearest) * (force + nearest))
+        C = (-along.real + half * np.array([0.0] if multiple else [-1.0, 1.0])) / abs(q1)
+        return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
         """Return two polynomials equivalent to (10.24), |u_1| = |u_2| = 1 without denominators, and their moduli, each
@@ -105,6 +122,8 @@ def singular_points(system, point, module) -> np.ndarray:
         raise ValueError(f"module: {module!r} is neither 1 nor 2")
     own, other = module - 1, 2 - module
     balance = Balance.of(system)
+    if balance.K == 0:
+        return np.empty((0, 2))
     z, q = balance.at(point.C)
     held = (q[other] + balance.K * z[other]) * (z[other] * balance.K**2).conjugate()
     C = _real_roots((held * np.convolve(balance.q[own] + balance.K * balance.z, balance.z.conj())).imag)

@@ -14,7 +14,7 @@ import numpy as np
 
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
-from vibroimpact.system.representation import Representation, brief
+from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.theory.criteria import FAST, SLOW, THEORY, Stability, of_fixed_point
 from vibroimpact.theory.fixed_points.balance import Balance
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
@@ -28,17 +28,24 @@ _SAME = 1e-9
 _NEAR = 1e-3  # a fixed point this far from where the search left off belongs to another zero
 _OPEN = 1e-3  # by this share of its perimeter a triangle stays open at every C that rounding confuses with a zero
 _REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
+_AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
+COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
+"""Columns of a table of fixed points."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FixedPoint(Representation):
     """A periodic response with two impacts per cycle and module, (10.23).
 
+    Of a single machine (`PhysicalSystem.single`) it is that of the module that takes part: C, B and psi of the other,
+    which stays at rest, are NaN.
+
     Attributes:
         system: the system it belongs to.
         C, B: saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
         psi: phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
-        slow_eigenvalues: of the slow flow, per unit of tau_1, shape (4,), complex; infinite at a fold of the manifold.
+        slow_eigenvalues: of the slow flow, per unit of tau_1, shape (4,), of a single machine (2,), complex; infinite
+            at a fold of the manifold.
         multiple: rounding leaves open whether several fixed points coincide here (a fold or branch point in the
             parameters); C and psi are then known to about the square root of rounding.
         label: "a", "b", ... as in the figures (see `labels`); "" outside a list of all fixed points with C >= 0.
@@ -60,11 +67,11 @@ class FixedPoint(Representation):
 
     def row(self) -> dict:
         """Numbers and verdicts by name, the columns of `to_frame`."""
-        numbers = {f"{name}{i}": float(x) for name in ("C", "B", "psi") for i, x in enumerate(getattr(self, name), 1)}
+        numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
-        verdicts = {FAST: fast, SLOW: slow, THEORY: stability.theory}
-        return {"label": self.label, **numbers, **verdicts, "slow_growth": growth, "multiple": self.multiple}
+        verdicts = fast, slow, stability.theory
+        return dict(zip(COLUMNS, (self.label, *numbers, *verdicts, growth, self.multiple), strict=True))
 
     def _shown(self):
         numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
@@ -83,13 +90,13 @@ def fixed_points(system: System) -> list[FixedPoint]:
     """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
     Returns:
-        A list of FixedPoint, ascending in C_1, which is not the order of their labels. `theory.completeness_proof`
-        proves that none is missing.
+        A list of FixedPoint, ascending in C_1 (of a single machine in the C of its module), which is not the order of
+        their labels. `theory.completeness_proof` proves that none is missing.
 
     Raises:
         ValueError: system is not a System; else as `search`.
     """
-    return search(system).points
+    return Found(search(system).points, COLUMNS)
 
 
 def search(system: System) -> FixedPointSearch:
@@ -101,14 +108,17 @@ def search(system: System) -> FixedPointSearch:
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
-    zeros, multiple = np.empty((0, 2)), np.empty(0, bool)
-    if system.modules == (1, 2):  # what its ball dissipates would leave it no fixed point
+    if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
-    points = [_fixed_point(system, *solution) for solution in _solutions(system, balance, zeros, multiple)]
-    points.sort(key=lambda point: tuple(point.C))
-    inside = [point for point in points if (point.C >= 0).all()]
+        solutions = _solutions(system, balance, zeros, multiple)
+    else:  # none at rest: what the ball dissipates would leave it no fixed point
+        solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
+    points = [_fixed_point(system, *solution) for solution in solutions]
+    points.sort(key=lambda point: tuple(np.nan_to_num(point.C)))
+    outside = [point for point in points if (point.C < 0).any()]
+    inside = [point for point in points if not (point.C < 0).any()]
     named = [replace(point, label=label) for point, label in zip(inside, labels(system, inside), strict=True)]
-    return FixedPointSearch(named, [point for point in points if not (point.C >= 0).all()])
+    return FixedPointSearch(named, outside)
 
 
 def search_radius(system) -> float:
@@ -132,7 +142,7 @@ def labels(system, points) -> list[str]:
     that on Figs. 10.7 and 10.8 included; docs/errata.md lists sentence by sentence.
     """
     limit = printed_limit(rho(system.kappa))
-    keys = [(bool(point.C.min() > limit), -point.slow_eigenvalues.real.max()) for point in points]
+    keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
     order = sorted(range(len(points)), key=keys.__getitem__)
     return [ascii_lowercase[order.index(k)] for k in range(len(points))]
 
@@ -143,6 +153,8 @@ def refuse_free_motion(system) -> None:
     Raises:
         ValueError: as `search`.
     """
+    if len(system.modules) == 1:  # its force loads the only resonance that matters
+        return
     balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
     own, force = np.abs(balance.q[:, 0]).max(), np.abs(balance.forcing).max()
@@ -156,6 +168,13 @@ def refuse_free_motion(system) -> None:
 
 def _fixed_point(system, C, psi, multiple):
     return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, slow_eigenvalues(system, psi, C), multiple)
+
+
+def _of_one_module(balance, i):
+    """(C, psi, multiple) of every fixed point of module i, 0 or 1, alone; NaN for the other."""
+    C, psi, multiple = balance.of_module(i)
+    alone = np.where(np.arange(2) == i, 1.0, np.nan)
+    return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
 
 
 def _solutions(system, balance, zeros, multiple):

@@ -65,7 +65,7 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 
 
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the place of each fixed point on the manifold: one row per point and module.
+    """Return the place of each fixed point on the manifold: one row per point and module that takes part.
 
     Columns label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable", (10.26)),
     overshoot (how far W leaves the walls at leading order, 0 where |W| <= 1).
@@ -83,6 +83,7 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
         }
         for point in labelled_points(table)
         for module, C, B in zip((1, 2), point.C, point.B, strict=True)
+        if module in system.modules
     ]
     return pd.DataFrame(rows, columns=["label", "module", "C", "B", "arm", "branch", "overshoot"])
 

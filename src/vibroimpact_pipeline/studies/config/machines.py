@@ -1,6 +1,5 @@
 """Section `machines`: machines in SI units."""
 
-
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 

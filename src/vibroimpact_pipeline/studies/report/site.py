@@ -16,6 +16,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import docutils_namespace
 
 import vibroimpact
+from vibroimpact_pipeline.code import is_source
 from vibroimpact_pipeline.html.mathematics import STYLE, mathml
 from vibroimpact_pipeline.html.policy import policy
 from vibroimpact_pipeline.studies.report.pages import anchor
@@ -75,12 +76,12 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
     settings, told = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
         scratch, static = Path(scratch), Path(scratch) / "static"
-        for path in (root / "docs").glob("*.*"):
+        for path in (root / "docs").glob("[!.]*.*"):
             shutil.copy(path, scratch)
         for name in pages.names:
             (scratch / f"{name}.md").touch()
         (scratch / "figures").symlink_to(folder.resolve() / "figures")
-        shutil.copytree(root / "report/live", static)
+        shutil.copytree(root / "report/live", static, ignore=shutil.ignore_patterns(".*"))
         (static / "mathematics.css").write_text(STYLE, encoding="utf-8")
         write_library(scratch / "api", settings["left_out"])
         options = SPHINX | {
@@ -105,7 +106,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
 def write_library(folder: Path, left_out) -> None:
     """Write a source for Sphinx for each part of the library, but for modules that match a pattern."""
     library, parts = Path(vibroimpact.__file__).parent, {}
-    for path in sorted(library.rglob("*.py")):
+    for path in sorted(path for path in library.rglob("*.py") if is_source(path.relative_to(library))):
         name = ".".join(path.relative_to(library.parent).with_suffix("").parts).removesuffix(".__init__")
         if not any(re.fullmatch(pattern, name) for pattern in left_out):
             parts.setdefault(".".join(name.split(".")[:2]), []).append(name)

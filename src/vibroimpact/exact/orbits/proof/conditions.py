@@ -2,7 +2,7 @@
 
 They are six smooth equations for p_1, q_1, p_2, q_2, I_1, I_2 as long as no two impacts change their order. Orbits of
 both kinds are roots; a symmetric one is its own mirror image. Between impacts the boxes move steadily under forcing and
-trains of impulses.
+trains of impulses. A module that takes no part has p_i = q_i = I_i = 0.
 """
 
 import itertools
@@ -30,7 +30,7 @@ class SteadyBoxes:
     """
 
     def __init__(self, system, sign: int):
-        rate = rate_matrix(system)
+        rate = rate_matrix(system.with_idle_damped())
         self.omega = arb(system.Omega)
         self.period = 2 * arb.pi() / self.omega
         self.rate = arb_mat(rate[:4, :4].tolist())
@@ -66,6 +66,8 @@ class EnclosedConditions:
     def __init__(self, system):
         self.boxes = SteadyBoxes(system, sign=1)
         self.period = self.boxes.period
+        self.modules = [module - 1 for module in system.modules]
+        self.impacts = [m for m in range(4) if m // 2 in self.modules]
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
@@ -73,9 +75,12 @@ class EnclosedConditions:
         lags = self.lags(unknowns)
         if lags is None:
             return None
-        boxes, one = [self.before(m, unknowns, lags) for m in range(4)], _jet(arb(1))
+        boxes, one = {m: self.before(m, unknowns, lags) for m in self.impacts}, _jet(arb(1))
         outward, rows = 1 + self.kappa, []
         for i, (start, end) in enumerate(((0, 1), (2, 3))):
+            if i not in self.modules:
+                rows += [_jet(unknowns[k], k) for k in (start, end, 4 + i)]
+                continue
             u, strength = _jet(self.fraction(i, lags)), _jet(unknowns[4 + i], 4 + i)
             u[1 + start], u[1 + end] = -1 / self.period, 1 / self.period
             rows += [
@@ -88,7 +93,7 @@ class EnclosedConditions:
     def lags(self, unknowns):
         """Time since impact k at impact m, by (m, k), above 0 and below a period; None where impacts may coincide."""
         lags = {}
-        for m, k in itertools.permutations(range(4), 2):
+        for m, k in itertools.permutations(self.impacts, 2):
             lag = unknowns[m] - unknowns[k]
             lag += self.period if lag.mid() < 0 else 0
             if not (lag > 0 and lag < self.period):
@@ -106,7 +111,7 @@ class EnclosedConditions:
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
         state[:, 0] = [entry.imag for entry in forced.entries()]
         state[:, 1 + m] = [(entry * acb(0, self.boxes.omega)).imag for entry in forced.entries()]
-        for k in range(4):
+        for k in self.impacts:
             box, kick = k // 2, _KICKS[k] * self.epsilon
             motion = self.boxes.start if m == k else self.boxes.free(lags[m, k]) * self.boxes.start
             motion = arb_mat([[kick * (motion[row, box] - int(m == k and row == 2 + box))] for row in range(4)])

@@ -33,7 +33,7 @@ class OrbitProof:
         the listed kind (symmetric or not); 0 where nothing is proved.
     error: bound on the distance of the listed impact times and speeds from those of the root; inf without one.
     motion: "legal", "not legal" or "not proved": every ball meets its walls from inside and |W_i| < 1 between.
-    multipliers: enclosures, eight acb by descending modulus, or none.
+    multipliers: enclosures, eight acb, of a single machine four, by descending modulus, or none.
     moduli_error: bound on the error of the listed moduli; inf without enclosures.
     """
 
@@ -64,18 +64,18 @@ def prove(orbit) -> OrbitProof:
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
         times, changes = orbit.impact_phases.ravel() * orbit.system.period, orbit.ball_speeds.sum(axis=1)
-        listed = np.concatenate([times, changes])
+        listed = np.nan_to_num(np.concatenate([times, changes]))
         root, radius = krawczyk(conditions, listed)
         if root is None or not _of_kind(orbit.symmetric, conditions, root, listed, radius):
             return _NOTHING
         passage = EnclosedPassage(orbit.system, conditions, root)
-        numbers = [*orbit.impact_phases.ravel(), *orbit.ball_speeds.ravel()]
+        numbers = np.concatenate([of.ravel()[conditions.impacts] for of in (orbit.impact_phases, orbit.ball_speeds)])
         multipliers = _multipliers(passage.monodromy())
         if not _has_state(orbit, passage) or not _has_multipliers(orbit, multipliers):
             return _NOTHING
         return OrbitProof(
             radius=radius,
-            error=_distance(passage.phases + passage.speeds, numbers),
+            error=_distance([*passage.phases.values(), *passage.speeds.values()], numbers),
             motion=between_walls(passage),
             multipliers=multipliers,
             moduli_error=_distance(map(abs, multipliers), np.abs(orbit.multipliers)) if multipliers else math.inf,
@@ -95,8 +95,8 @@ def _of_kind(symmetric, conditions, root, listed, radius):
     """Return True if the root is proved to be of the kind (symmetric or asymmetric) of the orbit."""
     if not symmetric:
         lags = conditions.lags(root)
-        return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in range(2))
-    gaps = [abs(root[a] - listed[b]) - conditions.period / 2 for a, b in ((0, 1), (1, 0), (2, 3), (3, 2))]
+        return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in conditions.modules)
+    gaps = [abs(root[m] - listed[m ^ 1]) - conditions.period / 2 for m in conditions.impacts]
     return all(abs(gap) < radius for gap in gaps)
 
 

@@ -12,7 +12,7 @@ from flint import arb, arb_mat
 from vibroimpact.exact.orbits.proof.conditions import WALLS, identity
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
-from vibroimpact.system.state import BALLS, BOXES
+from vibroimpact.system.state import BALLS, BOXES, MODULES
 
 _SIZE = 10
 _DRIVEN = [*BOXES.tolist(), 8, 9]
@@ -26,22 +26,22 @@ _MOST = 2000  # pieces of a flight to look at
 class EnclosedPassage:
     """The motion of a root of `EnclosedConditions`, given by intervals around the six unknowns.
 
-    rate (10, 10): rate matrix of free flight; phases, speeds (4,): of the impacts, in forcing periods, and of the
-    flights that start with them, module by module, wall +1 first.
+    rate (10, 10): rate matrix of free flight; phases, speeds: of the impacts, in forcing periods, and of the flights
+    that start with them, each by the number of the impact, module by module, wall +1 first.
     """
 
     def __init__(self, system, conditions, unknowns):
         self._conditions, self._unknowns = conditions, unknowns
         self._lags = conditions.lags(unknowns)
-        self.phases = [time / conditions.period for time in unknowns[:4]]
-        self.speeds = [self._speed(k) for k in range(4)]
-        self._boxes = [conditions.before(m, unknowns, self._lags) for m in range(4)]
+        self.phases = {m: unknowns[m] / conditions.period for m in conditions.impacts}
+        self.speeds = {m: self._speed(m) for m in conditions.impacts}
+        self._boxes = {m: conditions.before(m, unknowns, self._lags) for m in conditions.impacts}
         self._impacts = [_impact(i, conditions) for i in range(2)]
         self.rate = _rate(system)
 
     def flights(self):
         """Impact that it starts with, impact that it ends with, state after the first one and duration of each."""
-        order = sorted(range(4), key=lambda m: float(self._unknowns[m].mid()))
+        order = sorted(self.phases, key=lambda m: float(self._unknowns[m].mid()))
         for m, following in zip(order, [*order[1:], order[0]], strict=True):
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
 
@@ -55,18 +55,20 @@ class EnclosedPassage:
     def monodromy(self) -> arb_mat:
         """Derivative (8, 8) of the state before the first impact of a period by that before the same one earlier.
 
-        Entries are not finite where an impact may be without relative velocity.
+        Of a single machine it is that of the state (4,) of the module that takes part. Entries are not finite where an
+        impact may be without relative velocity.
         """
         maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
         whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
-        return arb_mat([row[:8] for row in whole.tolist()[:8]])
+        part = [place for place, module in enumerate(MODULES - 1) if module in self._conditions.modules]
+        return arb_mat([[whole[row, column] for column in part] for row in part])
 
     def _before(self, m):
         """State (10, 1) just before impact m."""
         state = [arb(0)] * _SIZE
         for place, row in zip(BOXES, self._boxes[m], strict=True):
             state[place] = row[0]
-        for i in range(2):
+        for i in self._conditions.modules:
             last = min((k for k in (2 * i, 2 * i + 1) if k != m), key=lambda k: float(self._lags[m, k].mid()))
             velocity = WALLS[last] * self.speeds[last]
             state[BALLS[i]] = self._boxes[last][i][0] - WALLS[last] + velocity * self._lags[m, last]

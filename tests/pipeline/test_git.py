@@ -1,0 +1,207 @@
+"""Calls of git: the same answer with any settings of the user; without git, refused and changed are told apart."""
+
+import os
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from archives import commit
+from archives import git as run_git
+from pipeline_trees import ROOT
+from vibroimpact_pipeline import archive
+from vibroimpact_pipeline.git import GitRefused, call, changes, committed, git, origin
+
+SETTINGS = """
+[core]
+    autocrlf = true
+    abbrev = 40
+    attributesFile = {home}/attributes
+    fsmonitor = {home}/monitor
+    quotePath = true
+[log]
+    showSignature = true
+[status]
+    showUntrackedFiles = no
+[tar]
+    umask = 0777
+[gpg]
+    program = {home}/gpg
+"""
+GPG = """#!/bin/sh
+case "$*" in
+    *--verify*) echo "gpg: Good signature" >&2 ;;
+    *) cat >/dev/null
+       echo "[GNUPG:] SIG_CREATED " >&2
+       printf -- '-----BEGIN PGP SIGNATURE-----\\n\\nx\\n-----END PGP SIGNATURE-----\\n' ;;
+esac
+"""
+CITED = "version: 0.1\ntitle: t\nlicense: MIT\nauthors: [{name: A}]\n"
+LETTERS = "zwei Kästen.txt"
+
+
+@pytest.fixture
+def repository(tmp_path):
+    """A checkout with a signed commit."""
+    root, gpg = tmp_path / "checkout", tmp_path / "gpg"
+    gpg.write_text(GPG)
+    gpg.chmod(0o755)
+    for name in ("Makefile", ".gitignore", "workflow/set_up.sh"):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, root / name)
+    (root / "CITATION.cff").write_text(CITED)
+    (root / "Snakefile").touch()
+    (root / LETTERS).write_text("a\nb\n")
+    commit(root)
+    run_git(root, "-c", f"gpg.program={gpg}", "commit", "--amend", "--no-edit", "--gpg-sign")
+    return root
+
+
+@pytest.fixture
+def settings_of_a_user(tmp_path, monkeypatch):
+    """Settings that change what git prints and writes, and variables that name another repository."""
+    home, other = tmp_path / "home", tmp_path / "other"
+    for folder in (home, other):
+        folder.mkdir()
+    (home / ".gitconfig").write_text(SETTINGS.format(home=home))
+    (home / "attributes").write_text("*.sh export-ignore\nMakefile text eol=crlf\n")
+    (home / "monitor").write_text(f"#!/bin/sh\ntouch {home}/started\n")
+    shutil.copy(tmp_path / "gpg", home)
+    (home / "monitor").chmod(0o755)
+    (other / "file").touch()
+    commit(other)
+
+    def apply():
+        monkeypatch.setenv("HOME", str(home))
+        monkeypatch.setenv("GIT_DIR", str(other / ".git"))
+        monkeypatch.setenv("GIT_WORK_TREE", str(other))
+        monkeypatch.setenv("GIT_INDEX_FILE", str(other / ".git/index"))
+        monkeypatch.setenv("GIT_CONFIG_COUNT", "1")
+        monkeypatch.setenv("GIT_CONFIG_KEY_0", "core.autocrlf")
+        monkeypatch.setenv("GIT_CONFIG_VALUE_0", "true")
+        monkeypatch.setenv("TAR_OPTIONS", "--exclude=Makefile")
+
+    apply.home = home
+    return apply
+
+
+def answers(root):
+    described = [git(*words.split(), root=root) for words in ("describe --always", "log -1 --format=%ct", "ls-files")]
+    return committed(root), origin(root), changes(root), described
+
+
+def test_settings_of_the_user_change_no_answer_and_no_byte_of_an_archive(repository, settings_of_a_user, tmp_path):
+    packed, before = tmp_path / "archive.tar.gz", answers(repository)
+    archive.write(repository, [], {}, packed)
+    content = packed.read_bytes()
+    settings_of_a_user()
+    assert answers(repository) == before
+    archive.write(repository, [], {}, packed)
+    assert packed.read_bytes() == content
+    assert before[1] == (before[0], "clean")
+    assert not (settings_of_a_user.home / "started").exists()
+
+
+def test_what_is_not_committed_is_named(repository, settings_of_a_user):
+    settings_of_a_user()
+    (repository / "Makefile").write_text("all:\n")
+    (repository / "new.py").touch()
+    (repository / LETTERS).unlink()
+    assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", LETTERS]
+    assert origin(repository)[1] == "modified"
+    with pytest.raises(ValueError, match=r"^not committed: .*Makefile.*\. Commit, ignore or remove them first$"):
+        committed(repository)
+
+
+def test_results_on_another_disk_are_no_change(repository, tmp_path):
+    for name in ("results", ".venv", ".cache", ".snakemake", "dist"):
+        (repository / name).symlink_to(tmp_path)
+    assert changes(repository) == []
+
+
+def outside(repository, monkeypatch):
+    return repository.parent
+
+
+def inside_another(repository, monkeypatch):
+    (repository / "copy").mkdir()
+    return repository / "copy"
+
+
+def without_a_program(repository, monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    return repository
+
+
+@pytest.mark.parametrize("place", [outside, inside_another, without_a_program])
+def test_a_copy_without_git_is_told(repository, monkeypatch, place):
+    root = place(repository, monkeypatch)
+    assert origin(root) == (None, "without git")
+    assert changes(root) is None
+    with pytest.raises(ValueError, match="there is no git"):
+        committed(root)
+
+
+@pytest.fixture
+def of_another_owner(repository, tmp_path, monkeypatch):
+    """A checkout that seems to belong to another user, to whom git says what it says then."""
+    program = tmp_path / "bin/git"
+    program.parent.mkdir()
+    program.write_text(f'#!/bin/sh\nGIT_TEST_ASSUME_DIFFERENT_OWNER=1 exec {shutil.which("git")} "$@"\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("LANGUAGE", "de")
+    return repository
+
+
+def test_a_refusal_is_told_in_one_line_with_what_allows_it(of_another_owner, tmp_path, capsys):
+    allow = f"git config --global --add safe.directory {of_another_owner}"
+    for ask in (committed, changes, lambda root: git("rev-parse", "HEAD", root=root)):
+        with pytest.raises(GitRefused, match=f"^git refuses: fatal: .*{re.escape(str(of_another_owner))}.*") as refused:
+            ask(of_another_owner)
+        assert str(refused.value).endswith(allow)
+        assert "\n" not in str(refused.value)
+    assert origin(of_another_owner) == (None, "refused by git")
+    assert allow in capsys.readouterr().err
+    (tmp_path / "home").mkdir()
+    (tmp_path / "home/.gitconfig").write_text(f"[safe]\n    directory = {of_another_owner}\n")
+    assert origin(of_another_owner)[1] == "clean"
+
+
+def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
+    """A shell does not read scripts with carriage returns; pictures would be spoilt."""
+    root, clone = tmp_path / "checkout", tmp_path / "clone"
+    names = [".gitattributes", ".ci/run", "Makefile", "workflow/set_up.sh", "config/config.yaml"]
+    names += ["figures/fig10_04.png", "src/vibroimpact_pipeline/html/mathematics/stix_two_math.woff"]
+    for name in names:
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, root / name)
+    (root / "text.pdf").write_bytes(b"%PDF-1.4\n%%EOF\n")
+    commit(root)
+    run_git(tmp_path, "-c", "core.autocrlf=true", "-c", "core.eol=crlf", "clone", root, clone)
+    assert [name for name in [*names, "text.pdf"] if (clone / name).read_bytes() != (root / name).read_bytes()] == []
+
+
+CALLS = {"py": r"""["']git["']""", "sh": r"(^|[;&|($]|\bexec|\benv|\bthen|\bdo)[ \t]*git\b"}
+"""Commands of git in Python and in shell."""
+
+
+def test_one_place_calls_git():
+    scripts = [ROOT / "Makefile", ROOT / "Dockerfile", ROOT / ".ci/run", *(ROOT / "workflow").glob("*.sh")]
+    modules = [path for top in ("src", "workflow", "tests") for path in (ROOT / top).rglob("*") if path.is_file()]
+    modules = [path for path in modules if path.suffix in (".py", ".smk") or path.name == "Snakefile"]
+    calling = [path for path in scripts if re.search(CALLS["sh"], path.read_text(), re.MULTILINE)]
+    calling += [path for path in modules if re.search(CALLS["py"], path.read_text(encoding="utf-8"))]
+    assert calling == [ROOT / "src/vibroimpact_pipeline/git.py", Path(__file__)]
+
+
+def test_a_call_has_no_variable_of_git_but_its_own(monkeypatch, tmp_path):
+    monkeypatch.setenv("GIT_DIR", "/nowhere")
+    run = call("-c", "alias.show-environment=!env", "show-environment", root=tmp_path, GIT_COMMITTER_DATE="2020-01-01")
+    told = dict(line.split("=", 1) for line in run.stdout.decode().splitlines() if line.startswith(("GIT_", "LC_ALL")))
+    assert told.keys() <= {
+        "GIT_ATTR_NOSYSTEM", "GIT_COMMITTER_DATE", "GIT_CONFIG_PARAMETERS", "GIT_EXEC_PATH", "GIT_PREFIX", "LC_ALL",
+    }  # fmt: skip
+    assert told["LC_ALL"] == "C"

@@ -1,0 +1,161 @@
+"""A machine alone: regimes, exponents, sections and sweeps are those of the first module of its twin.
+
+The twin has the same force on the module that takes no part, so that both modules do the same without a word of
+which takes part. What a start says of the idle module does not count, and neither do its parameters.
+"""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.studies.regimes.lyapunov import contraction, spectrum
+from vibroimpact.system.state import STICK
+
+MACHINE = vi.PhysicalSystem.single(M=1, m=0.05, k=1, c=0.02, F=0.05, L=1, kappa=0.65).dimensionless()
+TWIN = MACHINE.with_(f20_hat=MACHINE.f10_hat)
+SECOND = MACHINE.with_(f10_hat=0.0, f20_hat=MACHINE.f10_hat)
+OTHER = MACHINE.with_(sigma20_hat=7.0, gamma2_hat=0.0)
+ALONE = {"first": MACHINE, "second": SECOND, "beside another": OTHER}
+MULTIPLIER = 0.882208
+"""Of the only admissible orbit (Masri's closed form; all others of the twin are no motions)."""
+OF = {1: [0, 1, 4, 5], 2: [2, 3, 6, 7]}
+
+
+def moving(system):
+    """The module that takes part."""
+    [module] = system.modules
+    return module
+
+
+def starts(system, count=6):
+    """Starts of module 1 for the one that takes part; the other one moves, too."""
+    states = vi.starts(count, seed=1)
+    return states if moving(system) == 1 else states[:, [2, 3, 0, 1, 6, 7, 4, 5]]
+
+
+@pytest.fixture(scope="module", params=ALONE)
+def machine(request):
+    return ALONE[request.param]
+
+
+def test_the_largest_exponent_is_that_of_the_orbit(machine):
+    for start in starts(machine, 3):
+        found = vi.largest_lyapunov(machine, start)
+        assert found.mean == pytest.approx(np.log(MULTIPLIER), abs=found.error)
+        assert found.mean < 0
+        assert found.error < 1e-3
+
+
+def test_the_spectrum_has_the_four_exponents_of_the_orbit(machine):
+    found = vi.lyapunov_spectrum(machine, starts(machine)[1], cycles=400)
+    [orbit] = [one for one in vi.orbits(TWIN) if one.admissible]
+    logs = np.sort(np.log(np.abs(orbit.multipliers)))[::-1]
+    np.testing.assert_allclose(found.exponents, logs[::2], atol=0.01)  # each of them twice in the twin
+    assert found.exponents.sum() == pytest.approx(logs.sum() / 2, abs=1e-9)
+    assert found.dimension == 0
+    assert found.errors(20)[0].shape == (4,)
+
+
+def test_a_ball_that_sticks_leaves_two_directions_of_four():
+    """Against the Jacobians of the single cycles, cut to the module that takes part."""
+    machine = vi.System(
+        **dict(epsilon=0.3, kappa=0.1, alpha12_hat=0.0, gamma1_hat=0.3, gamma2_hat=0.3, gamma12_hat=0.0),
+        **dict(sigma20_hat=0.0, sigma_e_hat=0.0, f10_hat=9.0, f20_hat=0.0),
+    )
+    state, cycles = vi.simulate(machine, np.zeros(8), 200).final, 60
+    found = spectrum(machine, state, cycles, 0)
+    frame, sums = np.eye(4), np.zeros(2)
+    for _ in range(cycles):
+        run = vi.simulate(machine, state, 1)
+        assert (run.events["kind"] == STICK).any()
+        frame, triangle = np.linalg.qr(run.jacobian[np.ix_(OF[1], OF[1])] @ frame)
+        sums, state = sums + np.log(np.abs(np.diag(triangle)[:2])), run.final
+    assert np.isneginf(found.exponents[2:]).all()
+    np.testing.assert_allclose(found.exponents[:2], sums / cycles, atol=0.1)
+    assert vi.largest_lyapunov(machine, np.zeros(8), 400, 200).mean == pytest.approx(found.exponents[0], abs=0.02)
+
+
+def test_chaos_has_the_exponent_of_the_twin_and_the_closed_sum():
+    machine = MACHINE.with_(kappa=0.9, f10_hat=0.2)
+    twin, start = machine.with_(f20_hat=0.2), np.array([0.0, 0.3, 0.0, 0.3, 0.0, 0.5, 0.0, 0.5])
+    alone, both = (vi.largest_lyapunov(one, start, 4000) for one in (machine, twin))
+    assert alone.mean == pytest.approx(both.mean, abs=4 * np.hypot(alone.error, both.error))
+    assert alone.mean > 3 * alone.error
+    found = vi.lyapunov_spectrum(machine, start, 300)
+    np.testing.assert_allclose(found.growth.sum(axis=1), found.contraction, rtol=0, atol=1e-8)
+    assert contraction(machine, 4, 0) == pytest.approx(contraction(twin, 8, 0) / 2)
+
+
+def test_all_starts_end_on_the_orbit_of_the_twin(machine):
+    found = vi.attractors(machine, starts(machine, 12))
+    assert found.shares == {1: 1.0}
+    [attractor] = found.attractors.values()
+    [orbit] = [one for one in vi.orbits(TWIN) if one.admissible]
+    assert (attractor.regime, attractor.cycles) == ("symmetric", 1)
+    module = moving(machine)
+    np.testing.assert_allclose(attractor.states[0, OF[module]], orbit.state[OF[1]], atol=1e-9)
+    assert not attractor.states[0, OF[3 - module]].any()
+
+
+def test_basins_do_not_depend_on_the_idle_module(machine):
+    module, values = moving(machine), [-0.5, 0.2, 0.7]
+    found = vi.basins(machine, {f"W{module}": values, f"dY{3 - module}": [0.0, 0.4]})
+    assert found.shares == {1: 1.0}
+
+
+@pytest.mark.parametrize(
+    ("force", "kappa", "name"),
+    [
+        (0.01, 0.65, "no impacts"),
+        (0.01, 0.65, "hopping"),
+        (0.2, 0.9, "strongly modulated"),
+        (2.0, 0.2, "chaotic"),
+        (2.0, 0.3, "other periodic"),
+    ],
+)
+def test_regimes_have_the_names_of_the_twin(machine, force, kappa, name):
+    """From equal starts of both modules."""
+    module = moving(machine)
+    alone = machine.with_(kappa=kappa, **{f"f{module}0_hat": force})
+    twin = TWIN.with_(kappa=kappa, f10_hat=force, f20_hat=force)
+    states = starts(machine, 4)
+    both = np.empty_like(states)
+    both[:, OF[1]] = both[:, OF[2]] = states[:, OF[module]]
+    ours, theirs = vi.attractors(alone, states), vi.attractors(twin, both)
+    names = [row["regime"] for row in ours.rows()]
+    assert names == [row["regime"] for row in theirs.rows()]
+    assert name in names
+
+
+def test_a_section_is_that_of_the_twin():
+    start = vi.starts(2, seed=1)[1]
+    ours, theirs = (vi.sections(system, start, 30, settle=20) for system in (MACHINE, TWIN))
+    np.testing.assert_allclose(ours[:, OF[1]], theirs[:, OF[1]], atol=1e-9)
+    mixed = vi.sections([TWIN, SECOND, MACHINE], start, 30, settle=20)
+    moved = [[bool(states[:, OF[module]].any()) for module in (1, 2)] for states in mixed]
+    assert moved == [[True, True], [False, True], [True, False]]
+
+
+SIMULATED = ["regimes", "amplitudes", "envelopes", "energy", "peaks"]
+
+
+def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
+    given = dict(observe=SIMULATED, starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
+    [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, **given) for system in (machine, TWIN))
+    module = moving(machine)
+    assert (ours.pop("failed"), theirs.pop("failed")) == ("", "")
+    assert ours.pop("from_rest") == theirs.pop("from_rest") == "symmetric"
+    for name, value in ours.items():
+        if name.endswith(("X1", "X2", "_1", "_2")):
+            expected = theirs[f"{name[:-1]}1"] if name.endswith(str(module)) else 0.0
+        else:
+            expected = theirs[name]
+        assert value == pytest.approx(expected, rel=1e-6, nan_ok=True), name
+    assert ours["symmetric"] == 1.0
+
+
+def test_without_a_force_both_modules_decay_as_before():
+    free = MACHINE.with_(f10_hat=0.0)
+    start = [0.2, 0.1, 0.4, 0.3, 0.0, 0.5, 0.0, -0.7]
+    assert vi.lyapunov_spectrum(free, start, 50).exponents.shape == (8,)
+    np.testing.assert_allclose(vi.sections(free, start, 5)[-1], vi.simulate(free, start, 5).final, atol=1e-12)
