@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+import vibroimpact
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.studies import one_machine
 from vibroimpact.system import PhysicalSystem, System
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.chapter import CASES, PARAMETERS
@@ -145,8 +145,8 @@ def _design_options(parser):
         help="clearances to choose from, half of the play [m] (default: 8 about F / k M / m and some beside the best)",
     )  # fmt: skip
     parser.add_argument(
-        "--restitution", type=float, nargs="+", metavar="E", default=one_machine.RESTITUTIONS,
-        help=f"restitution coefficients to choose from (default: {' '.join(map(str, one_machine.RESTITUTIONS))})",
+        "--restitution", type=float, nargs="+", metavar="E",
+        help="restitution coefficients to choose from (default: five from 0.05 to 0.8)",
     )  # fmt: skip
     parser.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
 
@@ -173,7 +173,8 @@ def _design(options):
         raise ValueError(f"m: {least:g}..{most:g}; needs 0 <= A < B [kg]")
     masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASSES + 1) if m > 0]
     machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
-    found = one_machine.design(machine, (low, high), options.clearance, options.restitution, masses=masses)
+    choices = {"restitutions": options.restitution} if options.restitution else {}
+    found = vibroimpact.design(machine, (low, high), options.clearance, masses=masses, **choices)
     return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found), found.plot)
 
 
