@@ -16,7 +16,8 @@ from vibroimpact_pipeline.git import origin
 from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
-CONFIG = "config/config.yaml"
+CONFIG = "config"
+"""Folder of the config files, in a build or in the checkout."""
 
 
 def write(job, out) -> None:
@@ -92,7 +93,7 @@ def _at(config, place):
 
 def main() -> int:
     """Return the exit status: 0 the file matches, 1 it does not, 2 it has no record."""
-    from vibroimpact_pipeline.config import checked
+    from vibroimpact_pipeline.config import checked, merged
     from vibroimpact_pipeline.config import read as read_config
 
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
@@ -101,9 +102,10 @@ def main() -> int:
     # Not resolved: `results` may be a link to another disk.
     parents = Path(os.path.abspath(file)).parents
     build = next((folder.parent for folder in parents if folder.name == RESULTS), code.ROOT)
-    settings = next(path for path in (build / CONFIG, code.ROOT / CONFIG) if path.is_file())
+    of_checkout = sorted((code.ROOT / CONFIG).glob("*.yaml"))
+    settings = [own if (own := build / CONFIG / path.name).is_file() else path for path in of_checkout]
     try:
-        record, config = read(file), checked(read_config(settings))
+        record, config = read(file), checked(merged([(path, read_config(path)) for path in settings]))
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -9,7 +9,7 @@ FILES = {
     "figures/fig10_06.png": "",
     "figures/fig10_06.svg": "",
     "figures/fig10_06.csv": "",
-    "figures/companion.png": "",
+    "figures/mine.png": "",
     "notebooks/fig10_06.html": PAGE,
     "sweeps/coupling.html": "",
     "fixed_points.csv": "",
@@ -30,12 +30,12 @@ def add(path, text):
 
 
 def test_the_page_of_results_links_what_is_there_with_its_exact_line(results):
-    html = page(results, {"fig10_06": "Points & <planes>", "companion": "Beside it", "fig10_07": "Not made"})
+    html = page(results, {"The chapter": {"fig10_06": "Points & <planes>", "fig10_07": "Not made"}, "More": {"mine": "Beside it"}})
     assert "Points &amp; &lt;planes&gt;" in html
     assert PAGE.removeprefix("<p>").removesuffix("</p>") in html
-    assert 'href="figures/companion.png"' in html
+    assert 'href="figures/mine.png"' in html
     assert '<img src="figures/fig10_06.svg"' in html
-    assert html.index("Figures of the chapter") < html.index("Points &amp;") < html.index("Beside it")
+    assert html.index("The chapter") < html.index("Points &amp;") < html.index("More") < html.index("Beside it")
     assert 'href="report/index.html"' in html
     assert "Not made" not in html
     assert "2 claims of the chapter" in html

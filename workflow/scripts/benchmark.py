@@ -8,7 +8,7 @@ import pandas as pd
 
 from vibroimpact.system import System
 from vibroimpact_pipeline.code import ROOT
-from vibroimpact_pipeline.config import ConfigError, checked, read
+from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import case_parameters
 
@@ -74,8 +74,9 @@ if __name__ == "__main__":
     parser.add_argument("--output", type=Path, default=ROOT / "results/accuracy/benchmark.csv")
     arguments = parser.parse_args()
     try:
-        given = read(arguments.config)
-        config = checked(given, [(arguments.config, given)])
+        files = *sorted((ROOT / "config").glob("*.yaml")), arguments.config
+        sources = [(path, read(path)) for path in files]
+        config = checked(merged(sources), sources)
     except ConfigError as error:
         parser.exit(1, f"{error}\n")
     main(config, arguments.output)
