@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 import vibroimpact_pipeline  # noqa: F401 (sets the environment)
-from pipeline_trees import ROOT, Tree, made_once, with_results
+from pipeline_trees import ROOT, Tree, copied, made_once, whole_copy, with_results, without_studies
 
 os.environ["PYTHONPATH"] = str(ROOT / "src")
 
@@ -37,5 +37,23 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
-    """The project after a build. Read it, do not change it."""
+    """The project after the default build. Read it, do not change it."""
     return made_once(tmp_path_factory, "built", lambda path: with_results(ROOT, path))
+
+
+@pytest.fixture(scope="session")
+def alone(built, tmp_path_factory) -> Tree:
+    """The same without the studies. Read it, do not change it."""
+    return made_once(tmp_path_factory, "alone", lambda path: without_studies(whole_copy(built, path)))
+
+
+@pytest.fixture
+def tree(tmp_path) -> Tree:
+    """The project before a build, which a test may change."""
+    return copied(ROOT, tmp_path / "tree")
+
+
+@pytest.fixture
+def rebuilt(built, tmp_path) -> Tree:
+    """A built tree that a test may change."""
+    return whole_copy(built, tmp_path / "tree")

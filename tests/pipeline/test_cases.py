@@ -43,7 +43,7 @@ def test_a_case_of_the_chapter_with_a_parameter_of_its_own_is_a_departure():
 
 
 def test_a_record_tells_of_the_parameter(tmp_path):
-    others = {"code": {}, "inputs": {}, "files": {}}
+    others = {"versions": {"python": "2.7"}, "code": {}, "inputs": {}, "files": {}}
     made = {"config": {"cases.weak": case_parameters(checked(GOOD), "weak")}, **others}
     told, *_ = differences(tmp_path / "none", made, checked(edited("cases.weak.kappa = 0.5")))
     assert told.startswith("config, cases.weak: is ")

@@ -96,7 +96,9 @@ def test_a_null_takes_nothing_else_away(text, key):
 
 
 def test_a_null_removes_once():
-    with pytest.raises(ConfigError, match=r"\A2.yaml: figures.fig10_10: has no value, and no earlier source defines it"):
+    with pytest.raises(
+        ConfigError, match=r"\A2.yaml: figures.fig10_10: has no value, and no earlier source defines it"
+    ):
         combined("figures: {fig10_10: null}", "figures: {fig10_10: null}")
 
 

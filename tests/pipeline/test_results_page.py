@@ -30,7 +30,10 @@ def add(path, text):
 
 
 def test_the_page_of_results_links_what_is_there_with_its_exact_line(results):
-    html = page(results, {"The chapter": {"fig10_06": "Points & <planes>", "fig10_07": "Not made"}, "More": {"mine": "Beside it"}})
+    html = page(
+        results,
+        {"The chapter": {"fig10_06": "Points & <planes>", "fig10_07": "Not made"}, "More": {"mine": "Beside it"}},
+    )
     assert "Points &amp; &lt;planes&gt;" in html
     assert PAGE.removeprefix("<p>").removesuffix("</p>") in html
     assert 'href="figures/mine.png"' in html

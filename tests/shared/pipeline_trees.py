@@ -79,7 +79,7 @@ class Tree:
             for line in output.splitlines()
             if line.startswith(("rule ", "localrule ", "checkpoint "))
         }
-        return rules - {"all", "figures", "stability", "companions", "accuracy", "sweeps"}
+        return rules - {"all", "figures", "stability", "companions", "accuracy", "sweeps", "studies"}
 
     def edit(self, name, old, new):
         """Replace a text that must be there in a file of the tree."""
@@ -110,6 +110,14 @@ def whole_copy(source: Tree, path: Path) -> Tree:
     shutil.copytree(source.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
     share(path / "src/vibroimpact")
     return Tree(path)
+
+
+def without_studies(tree: Tree) -> Tree:
+    """A tree after every folder and file called `studies` in it is deleted."""
+    for path in [*tree.path.rglob("studies"), *tree.path.rglob("studies.*")]:
+        if ".snakemake" not in path.parts:
+            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+    return tree
 
 
 def run_module(tree: Path, module: str, *arguments: str) -> tuple[int, str]:

@@ -2,6 +2,7 @@
 
 import json
 
+import pandas as pd
 import pytest
 
 from vibroimpact import tables
@@ -21,14 +22,26 @@ def test_every_figure_of_the_chapter_is_there_with_its_page_and_numbers(built):
 def test_a_second_build_has_nothing_to_do_and_one_without_what_snakemake_recorded_has_all(rebuilt):
     assert rebuilt.planned() == set()
     (rebuilt / ".snakemake").rename(rebuilt / "aside")
-    assert {"fixed_points", "simulation", "fig10_06", "work_precision", "claims"} <= rebuilt.planned()
+    assert {"fixed_points", "simulation", "fig10_06", "work_precision", "index"} <= rebuilt.planned()
 
 
 def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
-    (rebuilt / "results/figures/companion_10_05.png").unlink()
-    said = rebuilt.snakemake("companion_10_05")
+    (rebuilt / "results/figures/fig10_04.png").unlink()
+    said = rebuilt.snakemake("fig10_04")
     assert "1 of 1 steps (100%) done" in said
     assert f"All results are in {rebuilt / 'results'}/." in said
+
+
+def test_orbits_of_all_cases_are_gathered(built):
+    table = pd.read_csv(built / "results/orbits.csv")
+    assert table.groupby("case", sort=False)["symmetric"].sum().to_dict() == {"equal": 4, "unequal": 4, "weak": 2}
+    assert table["residual"].max() < 1e-11
+    moduli = table.filter(like="modulus_")
+    assert moduli.shape[1] == 8
+    assert ((moduli["modulus_1"] < 1) == (table["exact"] == "stable")).all()
+    assert (table["exact"] == table["floquet_proved"]).all()
+    assert ((table["motion_proved"] == "legal") == table["admissible"]).all()
+    assert table.filter(like="phase").stack().between(0, 1, inclusive="left").all()
 
 
 def test_every_result_has_a_record_and_every_record_its_result(built):
@@ -36,32 +49,32 @@ def test_every_result_has_a_record_and_every_record_its_result(built):
         str(path.relative_to(built / RECORDS)).removesuffix(".json") for path in (built / RECORDS).rglob("*.json")
     }
     assert [path for path in records if not (built / path).exists()] == []
-    folders = ("figures", "fixed_points", "orbits", "verdicts", "simulations", "regimes", "accuracy", "notebooks")
+    folders = ("figures", "fixed_points", "orbits", "verdicts", "simulations", "accuracy", "notebooks")
     files = (path for folder in folders for path in (built / "results" / folder).rglob("*") if path.is_file())
     assert {str(path.relative_to(built.path)) for path in files} <= records
 
 
 def test_a_failed_job_shows_its_log(tree):
     tree.edit(
-        "src/vibroimpact/studies/figures/companion_10_05.py",
-        "def compute(",
-        "raise SystemExit('no such figure')\n\n\ndef compute(",
+        "workflow/scripts/fixed_points.py",
+        "    tables.write(",
+        "    raise SystemExit('no such table')\n    tables.write(",
     )
-    said = tree.snakemake("companion_10_05", check=False)
+    said = tree.snakemake("results/fixed_points/equal.csv", check=False)
     assert tree.returncode != 0
-    assert "no such figure" in said
-    assert "results/logs/figures/companion_10_05.log" in said
+    assert "no such table" in said
+    assert "results/logs/fixed_points/equal.log" in said
 
 
-UNEQUAL_LEAVES = {"fig10_06", "fig10_10", "work_precision", "verdict_grid"}
+UNEQUAL_LEAVES = {"fig10_06", "fig10_10", "work_precision"}
 EDITS = {
     "a parameter of a case": (
         "f20_hat: 0.89",
         "f20_hat: 0.89\n    kappa: 0.6",
-        {"fig10_09", "companion_branches"},
+        {"fig10_09", "orbits"},
         UNEQUAL_LEAVES,
     ),
-    "a force": ("f20_hat: 0.89", "f20_hat: 0.88", {"fig10_09", "companion_branches"}, UNEQUAL_LEAVES),
+    "a force": ("f20_hat: 0.89", "f20_hat: 0.88", {"fig10_09", "orbits"}, UNEQUAL_LEAVES),
     "one figure": (
         "C_range: [0.5, 1.1]",
         "C_range: [0.5, 1.2]",

@@ -12,7 +12,7 @@ from archives import commit, git
 from compiled_code import share
 from pipeline_trees import ROOT, SNAKEMAKE, Tree
 
-FIGURES = "fig10_03", "companion_10_05"
+FIGURE, TABLE = "fig10_03", "results/fixed_points/equal.csv"
 """One that a notebook of the package draws, and one of a script; both in seconds."""
 OUTER = """
 module vibroimpact:
@@ -77,25 +77,22 @@ def record_of(figure, results):
     return {name: value for name, value in record.items() if name not in ("commit", "tree")}
 
 
-def test_figures_are_those_of_the_checkout_and_are_made_once(tree, outer):
-    targets = [f"chapter_{figure}" for figure in FIGURES]
+def test_figures_are_those_of_the_checkout_and_are_made_once(outer, built):
+    targets = f"chapter_{FIGURE}", TABLE
     status, said = outer(*targets)
     assert status == 0, said
-    tree.snakemake(*FIGURES)
-    for figure in FIGURES:
-        for kind in ("csv", "png", "pdf", "svg"):
-            name = f"results/figures/{figure}.{kind}"
-            assert (outer.path / name).read_bytes() == (tree / name).read_bytes(), name
-        assert record_of(figure, outer.path / "results") == record_of(figure, tree / "results")
+    for name in (TABLE, *(f"results/figures/{FIGURE}.{kind}" for kind in ("csv", "png", "pdf", "svg"))):
+        assert (outer.path / name).read_bytes() == (built / name).read_bytes(), name
+    assert record_of(FIGURE, outer.path / "results") == record_of(FIGURE, built / "results")
     status, said = outer("--dry-run", *targets)
     assert "Nothing to be done" in said, said
 
 
 def test_rules_of_another_commit_than_the_installed_package_are_refused(tree, outer):
-    tree.edit("workflow/scripts/figure.py", '"""One figure', '"""A figure')
+    tree.edit("workflow/scripts/notebook.py", '"""One figure', '"""A figure')
     commit(tree.path)
-    status, said = outer("--dry-run", "chapter_companion_10_05")
+    status, said = outer("--dry-run", f"chapter_{FIGURE}")
     assert status == 1
     assert said.splitlines()[-1] == (
-        "workflow/scripts/figure.py is not that of the installed vibroimpact: install the commit of these rules."
+        "workflow/scripts/notebook.py is not that of the installed vibroimpact: install the commit of these rules."
     ), said

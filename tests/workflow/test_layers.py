@@ -13,18 +13,12 @@ QUICK = "tests/system", "tests/theory", "tests/pipeline", "tests/figures/test_sp
 """Tests that need no build."""
 
 
-def without_studies(tree: Tree) -> Tree:
-    """The tree after every folder and file called `studies` is deleted, and with the tests that are left."""
-    shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__", "studies"))
-    for path in [*tree.path.rglob("studies"), *tree.path.rglob("studies.*")]:
-        if ".snakemake" not in path.parts:
-            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    return tree
-
-
 @pytest.fixture
-def chapter_alone(built, tmp_path) -> Tree:
-    return without_studies(whole_copy(built, tmp_path / "tree"))
+def chapter_alone(alone, tmp_path) -> Tree:
+    """The built chapter without the studies, with the tests that are left."""
+    tree = whole_copy(alone, tmp_path / "tree")
+    shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__", "studies"))
+    return tree
 
 
 def tests_in(tree, *arguments):

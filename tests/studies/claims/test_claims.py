@@ -33,9 +33,9 @@ REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 
 @pytest.fixture(scope="module")
-def inputs(built):
+def inputs(studied):
     """Files of a build by name."""
-    results = built / "results"
+    results = studied / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
     inputs |= {name: results / f"sweeps/{name}.csv" for name in SWEEPS}

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
-from absorber_sweeps import BAND, tables_of
 from chapter import FORCES, PARAMETERS
+from studies.absorber_sweeps import BAND, tables_of
 from verdict_tables import verdicts_of
 from vibroimpact.figures.plotting import style
 from vibroimpact.studies.absorbers.references import fixed_balls, without_balls

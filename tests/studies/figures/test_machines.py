@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-import yaml
 
-from pipeline_trees import ROOT
+from configs import GOOD
 from vibroimpact.studies.figures import machines
 
-SCENE = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))["figures"]["machines"]
+SCENE = GOOD["machines"]["machines"]
 SETTINGS = {name: SCENE[name] for name in ("plant", "clearances", "shown")}
 SETTINGS |= {"frequencies": SCENE["frequencies"] | {"values": 5}, "cycles": 250, "settle": 150}
 

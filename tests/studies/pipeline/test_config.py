@@ -42,7 +42,7 @@ def test_a_null_removes_an_entry_of_the_studies():
     nulls = {"regimes": {"epsilon": {"mixed": None}}, "sweeps": {"design": None}}
     made = checked(merged([("config", GOOD), ("--config", nulls)]))
     assert made == checked(edited("regimes.epsilon.mixed = ... & sweeps.design = ..."))
-    with pytest.raises(ConfigError, match="sweeps.regime_mapp: .*, did you mean 'regime_map'\\?"):
+    with pytest.raises(ConfigError, match=r"sweeps.regime_mapp: .*, did you mean 'regime_map'\?"):
         merged([("config", GOOD), ("--config", {"sweeps": {"regime_mapp": None}})])
 
 

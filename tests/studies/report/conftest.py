@@ -12,9 +12,9 @@ SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-
 
 
 @pytest.fixture(scope="session")
-def reported(built, tmp_path_factory) -> Tree:
-    """The built project with its report. Read it, do not change it."""
-    return made_once(tmp_path_factory, "reported", lambda path: whole_copy(built, path), "report")
+def reported(studied, tmp_path_factory) -> Tree:
+    """The project with its studies and its report. Read it, do not change it."""
+    return made_once(tmp_path_factory, "reported", lambda path: whole_copy(studied, path), "report")
 
 
 @pytest.fixture(scope="session")

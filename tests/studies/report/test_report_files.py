@@ -15,14 +15,16 @@ import yaml
 from fontTools.ttLib import TTFont
 
 import vibroimpact as vi
+from configs import GOOD as CONFIG
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.html.mathematics import FONT
 
 SETTINGS = yaml.safe_load((ROOT / "report/report.yaml").read_text(encoding="utf-8"))
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-PAGES = sorted(path.stem for folder in ("docs", "report/pages") for path in (ROOT / folder).glob("*.md"))
+PAGES = sorted(
+    path.stem for folder in ("docs", "docs/studies", "report/pages") for path in (ROOT / folder).glob("*.md")
+)
 MEGABYTE = 1e6
 
 

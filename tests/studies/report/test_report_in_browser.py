@@ -5,12 +5,14 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from configs import GOOD
 from pipeline_trees import ROOT
 from vibroimpact.theory.manifold import B_of_C, rho
-from vibroimpact_pipeline.config import read
 
-ANIMATIONS = read(ROOT / "config/config.yaml")["report"]["animations"]
-PAGES = sorted(path.stem for folder in ("docs", "report/pages") for path in (ROOT / folder).glob("*.md"))
+ANIMATIONS = GOOD["report"]["animations"]
+PAGES = sorted(
+    path.stem for folder in ("docs", "docs/studies", "report/pages") for path in (ROOT / folder).glob("*.md")
+)
 NARROW = 390
 PROSE = """[...document.querySelectorAll('article p, article li, article td, article h1, article h2, article h3')].map(
   block => [...block.childNodes].filter(n => n.nodeName !== 'CODE').map(n => n.textContent).join('')

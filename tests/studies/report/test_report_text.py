@@ -12,6 +12,7 @@ import yaml
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from configs import GOOD as CONFIG
 from pipeline_trees import ROOT
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact_pipeline.html.figure_texts import figure_texts
@@ -19,8 +20,6 @@ from vibroimpact_pipeline.html.mathematics import mathml
 from vibroimpact_pipeline.studies.report.live import SAMPLES, live_data, verdict_data
 from vibroimpact_pipeline.studies.report.pages import Pages, cell, digits, table
 from vibroimpact_pipeline.studies.report.results import Results
-
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize(

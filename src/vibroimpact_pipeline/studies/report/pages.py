@@ -15,9 +15,9 @@ from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.studies.report.live import live_data, verdict_data, verdict_dots
 
 TEMPLATES = "report/pages"
-NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\(numbers\.yaml#(?P<key>[\w.-]+)\)")
+NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
 """A number of a document, with the key to its place among the results."""
-PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\(\.\./results/\w+/(?P<name>\w+)\.png\)")
+PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\((?:\.\./)+results/\w+/(?P<name>\w+)\.png\)")
 """A figure that a document shows, with its caption, or links to."""
 LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
 """What stands in a document for a part of report/parts, on paper and where a build has no data for it."""

@@ -28,6 +28,10 @@ NOTICE = (
 )
 THEME_SCRIPT = '\n      document.body.dataset.theme = localStorage.getItem("theme") || "auto";\n    '
 """The one script that the theme has within its pages."""
+DOCUMENTS = "docs", "docs/studies"
+"""Folders of documents, which are beside each other on the site."""
+ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.)/(?=\w+\.md)")
+"""Where a link to a document of the other folder begins."""
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
 """Where the number of an equation is not explained."""
@@ -76,7 +80,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
     settings, told = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
         scratch, static = Path(scratch), Path(scratch) / "static"
-        for path in (root / "docs").glob("[!.]*.*"):
+        for path in (path for folder in DOCUMENTS for path in (root / folder).glob("[!.]*.*")):
             shutil.copy(path, scratch)
         for name in pages.names:
             (scratch / f"{name}.md").touch()
@@ -124,7 +128,7 @@ def fill(pages, name: str, source: list[str]) -> None:
     if name in pages.names:
         source[0] = pages.filled(name)
     elif not name.startswith("api/"):
-        source[0] = pages.with_numbers(source[0])
+        source[0] = pages.with_numbers(ELSEWHERE.sub("", source[0]))
 
 
 def explain(page: str, tree, equations: dict) -> None:
@@ -149,7 +153,8 @@ def explain(page: str, tree, equations: dict) -> None:
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
     """Write the findings as PDF; links lead to the pages beside it."""
-    text = pages.with_numbers((root / f"docs/{ARTICLE}.md").read_text(encoding="utf-8") + pages.plates(), paper=True)
+    article = ELSEWHERE.sub("", (root / f"docs/studies/{ARTICLE}.md").read_text(encoding="utf-8"))
+    text = pages.with_numbers(article + pages.plates(), paper=True)
     told = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
     options = ["--standalone", "--shift-heading-level-by=-1", "--variable=papersize=a4", "--variable=fontsize=10pt"]
     options += [f"--metadata={name}={value}" for name, value in told.items()]

@@ -33,9 +33,9 @@ STEPS = re.compile(
 
 
 @pytest.fixture
-def project(built, tmp_path):
+def project(studied, tmp_path):
     """A copy of the project after a build, with its tests, which uses its own library."""
-    tree = whole_copy(built, tmp_path / "project")
+    tree = whole_copy(studied, tmp_path / "project")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
     return tree
 
@@ -169,5 +169,5 @@ def test_machines_can_be_designed(tmp_path):
 def test_the_machine_of_the_config_is_accepted():
     page = RECIPES["Design a machine"]
     (entry,) = re.findall(r"(?:^ {4}.*\n)*^ {4}my_machine:\n(?:^ {4}.*\n)+", page, re.MULTILINE)
-    figures = GOOD["figures"] | yaml.safe_load(entry)
-    assert checked(GOOD | {"figures": figures})["figures"]["my_machine"]["plant"]["k12"] == 0
+    machines = GOOD["machines"] | yaml.safe_load(entry)
+    assert checked(GOOD | {"machines": machines})["machines"]["my_machine"]["plant"]["k12"] == 0

@@ -15,8 +15,8 @@ from vibroimpact_pipeline.specs import LIKE, spec_of
 
 
 @pytest.fixture(scope="module")
-def package(built):
-    return built / "results", json.loads((built / "results/datapackage.json").read_text(encoding="utf-8"))
+def package(studied):
+    return studied / "results", json.loads((studied / "results/datapackage.json").read_text(encoding="utf-8"))
 
 
 def problems(folder, resource) -> list[str]:
@@ -105,13 +105,13 @@ def test_a_column_that_the_dictionary_lacks_is_refused():
 
 
 @pytest.mark.parametrize(("notebook", "like"), LIKE.items())
-def test_tables_of_a_figure_of_ones_own_are_described_as_those_of_the_figure_it_is_drawn_like(built, notebook, like):
+def test_tables_of_a_figure_of_ones_own_are_described_as_those_of_the_figure_it_is_drawn_like(studied, notebook, like):
     specs, data = read(ROOT)
     scene = {"notebook": notebook, "case": "equal", "fixed_point": "b"}
     mine = spec_of("mine", scene, specs)
     headers = {}
     for name, table in specs[like]["tables"].items():
-        with open(built / table["file"], encoding="utf-8", newline="") as file:
+        with open(studied / table["file"], encoding="utf-8", newline="") as file:
             headers[mine["tables"][name]["file"]] = next(csv.reader(file))
     cited = {"title": "t", "abstract": "a", "version": 1, "keywords": [], "license": "MIT", "authors": []}
     package = data_package(headers, files(specs | {"mine": mine}, data), data["units"], cited)

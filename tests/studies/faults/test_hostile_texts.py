@@ -1,0 +1,101 @@
+"""Texts from the config, results and git that are made to be markup or programs: the report shows them as text."""
+
+import re
+
+import pypdfium2 as pdfium
+import pytest
+from docutils.core import publish_string
+from myst_parser.parsers.docutils_ import Parser
+
+from headless_browser import Browser, executable
+from hostile import HOSTILE, TEXTS, Markup, assert_nothing_is_live
+from pipeline_trees import ROOT
+from studies import hostile_results
+from vibroimpact.figures.plotting.markdown import code, one_line, plain
+from vibroimpact_pipeline.studies.report.pages import Pages, anchor, attribute, data
+from vibroimpact_pipeline.studies.report.results import Results
+from vibroimpact_pipeline.studies.report.site import SPHINX, write_article, write_site
+
+FILLED_PAGES = sorted(path.stem for path in (ROOT / "report/pages").glob("*.md"))
+LIVE = ("motion", "fixed_points", "play")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The pages that are filled from results, where every text from elsewhere is hostile."""
+    folder = tmp_path_factory.mktemp("hostile") / "site"
+    results = hostile_results.results(folder.parent / "results")
+    (folder / "figures").mkdir(parents=True)
+    pages = Pages(ROOT, Results(results), hostile_results.config(), hostile_results.SHOWN, [HOSTILE])
+    for name in pages.about:
+        (folder / f"figures/{name}.svg").write_text(hostile_results.PICTURE)
+    write_site(folder, ROOT, pages, HOSTILE, HOSTILE)
+    write_article(folder, ROOT, pages, HOSTILE, HOSTILE)
+    return folder
+
+
+@pytest.mark.parametrize("page", FILLED_PAGES)
+def test_a_page_of_the_report_shows_texts_as_texts(site, page):
+    text = (site / f"{page}.html").read_text(encoding="utf-8")
+    markup, article = Markup(text), Markup(text[text.index("<article") : text.index("</article>")])
+    assert_nothing_is_live(markup, scripts=1)  # that of the theme
+    assert markup.text.count(one_line(HOSTILE)) >= 2  # where the build departs from the chapter, and what it is from
+    if page in ("accuracy", "data", "figures", "fixed_points", "play"):
+        assert one_line(HOSTILE) in article.text
+
+
+def test_the_article_shows_texts_as_texts(site):
+    """In Typst, too, a text could be a program, which would fail here: there is nothing for it to read."""
+    first = pdfium.PdfDocument(site / "findings.pdf")[0].get_textpage().get_text_bounded()
+    assert "#read('x')" in first
+
+
+@pytest.mark.parametrize(("written", "line", "tag"), [(plain, "| {} |", "td"), (code, "{}\n", "p")])
+def test_any_text_is_shown_by_sphinx_as_it_is(written, line, tag):
+    """Plain also in a cell of a table, which is the narrowest place."""
+    lines = "\n".join(line.format(written(text)) for text in TEXTS)
+    settings = {f"myst_{name}": SPHINX[f"myst_{name}"] for name in ("enable_extensions", "disable_syntax")}
+    source = f"# Here\n\n{'| head |' if tag == 'td' else ''}\n{'| --- |' if tag == 'td' else ''}\n{lines}\n"
+    page = publish_string(source, parser=Parser(), writer="html5", settings_overrides=settings).decode()
+    shown = re.findall(rf"<{tag}\b[^>]*>(.*?)</{tag}>", page, re.DOTALL)
+    assert [" ".join(Markup(text).text.split()) for text in shown] == [one_line(text) for text in TEXTS]
+
+
+def test_values_in_other_places_stay_there():
+    assert Markup(f'<p title="{attribute(HOSTILE)}">').elements == [("p", {"title": one_line(HOSTILE)})]
+    assert re.fullmatch(r"[\w-]+", anchor(HOSTILE))
+    assert data("a", '{"a": "</script>"}').count("<") == 2
+    with pytest.raises(ValueError, match="Expecting"):
+        data("a", "</script><script>")
+
+
+@pytest.fixture(scope="module")
+def browser():
+    path = executable()
+    if path is None:
+        pytest.skip("no page was opened in a browser: there is no Chromium here (Debian: apt install chromium)")
+    browser = Browser(path)
+    yield browser
+    browser.close()
+
+
+@pytest.mark.parametrize("page", FILLED_PAGES)
+def test_a_browser_runs_the_scripts_of_the_report_and_no_other(browser, site, page):
+    browser.open((site / f"{page}.html").as_uri())
+    assert browser.problems == []
+    assert browser.run("document.title") != "taken"
+    assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
+    assert browser.run("getComputedStyle(document.querySelector('.skip-to-content')).position") == "fixed"
+    drawn = browser.run(
+        "[...document.querySelectorAll('.live svg, .live output, .play svg')].map(e => e.innerHTML.length)"
+    )
+    assert all(length > 3 for length in drawn)
+    assert bool(drawn) == (page in LIVE)
+
+
+def test_the_slider_moves_the_points_of_hostile_results(browser, site):
+    browser.open((site / "fixed_points.html").as_uri())
+    browser.run("document.querySelector('#f20').focus()")
+    browser.press("End")
+    assert browser.run("document.querySelector('output').textContent") == "0.50"
+    assert HOSTILE in browser.run("document.querySelector('.live tbody').textContent")
