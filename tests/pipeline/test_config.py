@@ -109,7 +109,7 @@ def test_a_key_that_is_a_word_for_false_is_named_as_it_is_written(tmp_path):
     whole.write_text(TEXT)
     other.write_text("system: {no: 1, yes: 2}\nsweeps: {off: }\n")
     sources = [(path, read(path)) for path in (whole, other)]
-    with pytest.raises(ConfigError, match=rf"\A{other}: sweeps.off: nothing is given"):
+    with pytest.raises(ConfigError, match=rf"\A{other}: sweeps.off: has no value, and no earlier source defines it"):
         merged(sources)
     sources[1] = (other, {"system": read(other)["system"]})
     with pytest.raises(ConfigError) as refusal:

@@ -4,7 +4,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
-from vibroimpact.regimes.lyapunov import Exponent, largest_exponent
+from vibroimpact.regimes.lyapunov import Measured, largest_exponent
 from vibroimpact.regimes.modulation import bursts_in
 
 CERTAIN = 3.0
@@ -48,7 +48,7 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
 
 
-def sign(exponent: Exponent) -> str:
+def sign(exponent: Measured) -> str:
     """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
     if exponent.mean > CERTAIN * exponent.error:
         return POSITIVE
