@@ -72,7 +72,7 @@ def checked_config(given):
         given = with_cases(given)
         validate(given, schema=str(ROOT / "workflow/schemas/config.schema.json"))
         return given
-    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
+    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", dict(workflow.config_settings.config))
     sources = [*SOURCES, last]
     try:
         return checked(merged(sources), sources)
@@ -253,7 +253,7 @@ def made_with_now(name, wildcards):
 
 
 def results_of_a_commit(wildcards):
-    """Results of the default build; refused, before anything is built, where they would not be those of the commit."""
+    """Return the results of the default build; refuse, before anything is built, what is not of the commit."""
     from vibroimpact_pipeline.archive import differences, made_otherwise
     from vibroimpact_pipeline.config import checked, read
 
