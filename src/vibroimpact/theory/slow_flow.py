@@ -111,7 +111,8 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 def _taking_part(system):
     """Rows (4,) of the modules that take part; all of a system at rest, for motions that die out."""
-    return np.isin(MODULES, system.modules or (1, 2))
+    part = system.modules or (1, 2)
+    return np.array([module in part for module in MODULES])
 
 
 def jacobian(system, psi, C) -> np.ndarray:

@@ -33,10 +33,17 @@ def test_a_peak_is_a_quantile_of_the_cycles_of_certified_runs():
 
 
 def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_largest_does():
-    short, long = (peak(CHAOTIC, starts(24, 3), 150 + cycles, 150) for cycles in (100, 1600))
-    assert long.largest > 1.03 * short.largest
-    assert long.value == pytest.approx(short.value, abs=3 * short.error)
-    assert long.error < short.error
+    """In the mean of ten sets of starts: single runs are chaotic, and rounding decides what they meet."""
+    short, long = (
+        [peak(CHAOTIC, starts(24, seed), 150 + cycles, 150) for seed in range(3, 13)] for cycles in (100, 1600)
+    )
+
+    def growth(what):
+        return np.mean([what(one) for one in long]) / np.mean([what(one) for one in short])
+
+    assert growth(lambda one: one.largest) > 1.01
+    assert growth(lambda one: one.value) == pytest.approx(1.0, abs=0.03)
+    assert growth(lambda one: one.error**2) < 0.5
 
 
 def test_the_standard_error_is_the_scatter_of_fresh_starts():

@@ -89,8 +89,15 @@ def _most(a, b):
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
     """Return row k of exp(A h) - 1 times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
-    low, high = _of_boxes(c, LOW_PARTS + 4 * k, x1, x2, v1, v2), _of_boxes(c, 6 * k, x1, x2, v1, v2)
-    return high + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
+    low = _of_boxes(c, LOW_PARTS + 4 * k, x1, x2, v1, v2)
+    return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
+
+
+@inlined
+def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
+    """Return the same without the rounding errors of the constants; low: their part, where it is needed."""
+    boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
+    return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
 
 
 @inlined
@@ -185,8 +192,8 @@ def meet(runs, c, work, integrals):
 
     # when the first ball meets a wall, if it does
     until = _least(_most(trial, 0.0), reach - passed)
-    a1 = x1 - fused(step, u1, y1) + _change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
-    a2 = x2 - fused(step, u2, y2) + _change(c, 1, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
+    a1 = x1 - fused(step, u1, y1) + _rough_change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
+    a2 = x2 - fused(step, u2, y2) + _rough_change(c, 1, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
     t1 = where(abs(a1) >= 1.0, _about(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
     t2 = where(abs(a2) >= 1.0, _about(work, n, touch2 == wall2, wall2, y2, u2, step), math.inf)
@@ -360,21 +367,27 @@ def _about(work, first, leaves, wall, y, u, step):
 @inlined
 def _sharp(work, one, near, speed, t):
     """Return (the zero of a relative position by two steps of Newton's method from t, True if they converge); one: of
-    module 1; near, speed: its first two coefficients.
+    module 1; near, speed: its first two coefficients. The first step takes fewer terms: the second corrects it.
     """
-    n, change = ORDER + 1, t
-    for _ in range(2):
-        value, slope = where(one, load(work, ORDER), load(work, n + ORDER)), 0.0 * t
-        for m in range(ORDER - 1, 1, -1):
-            slope = fused(slope, t, value)
-            value = fused(value, t, where(one, load(work, m), load(work, n + m)))
-        slope = fused(slope, t, value)
-        value = fused(value, t, speed)
-        slope = fused(slope, t, value)
-        value = fused(value, t, near)
-        change = value / slope
-        t = t - change
+    t = t - _newton_step(work, one, near, speed, t, TERMS + 2)
+    change = _newton_step(work, one, near, speed, t, ORDER)
+    t = t - change
     return t, abs(change) <= CONVERGING * t
+
+
+@inlined
+def _newton_step(work, one, near, speed, t, order):
+    """Return the step of Newton's method at t, by the terms up to an order."""
+    n = ORDER + 1
+    value, slope = where(one, load(work, order), load(work, n + order)), 0.0 * t
+    for m in range(order - 1, 1, -1):
+        slope = fused(slope, t, value)
+        value = fused(value, t, where(one, load(work, m), load(work, n + m)))
+    slope = fused(slope, t, value)
+    value = fused(value, t, speed)
+    slope = fused(slope, t, value)
+    value = fused(value, t, near)
+    return value / slope
 
 
 @inlined

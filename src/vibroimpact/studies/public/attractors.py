@@ -102,7 +102,7 @@ def basins(
         if name not in _PLACES:
             raise ValueError(f"axes: {name!r} is none of {', '.join(_PLACES)}")
     if len({_PLACES[name][-1] for name in axes}) < len(axes):
-        raise ValueError(f"axes: {' and '.join(axes)} both place one ball; needs one of them")
+        raise ValueError(f"axes: {' and '.join(axes)} set the same ball; give one of them")
     axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
     for name, values in axes.items():
         if not len(values):

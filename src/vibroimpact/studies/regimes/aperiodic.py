@@ -5,7 +5,7 @@ import numpy as np
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.exact.measures.modulation import bursts_in
 from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
-from vibroimpact.studies.regimes.lyapunov import Exponent, largest_exponent
+from vibroimpact.studies.regimes.lyapunov import Measured, largest_exponent
 
 CERTAIN = 3.0
 """Errors that count as the uncertainty of an exponent."""
@@ -48,7 +48,7 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
 
 
-def sign(exponent: Exponent) -> str:
+def sign(exponent: Measured) -> str:
     """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
     if exponent.mean > CERTAIN * exponent.error:
         return POSITIVE

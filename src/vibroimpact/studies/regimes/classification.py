@@ -157,8 +157,7 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     A ball is idle if it is at rest throughout: one that drifts, however slowly, will meet a wall. With all at rest
     there will be no impacts once the boxes repeat. 1:1 responses repeat every cycle with one impact at each wall of
-    each module; their symmetry is that of state to minus state, half a period later. A module that takes no part has no
-    say.
+    each module; their symmetry is that of state to minus state, half a period later. Only modules that take part count.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)

@@ -234,7 +234,8 @@ def flight_fractions(system, x) -> np.ndarray:
 
 def _idle(family, system):
     """True (d,) for the unknowns of a module that takes no part."""
-    return ~np.isin(family.modules, system.modules)
+    part = system.modules
+    return np.array([module not in part for module in family.modules])
 
 
 def _of_modules(system, values):
