@@ -25,10 +25,7 @@ export PIP_CONFIG_FILE=/dev/null TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE
 if [[ ${1:-} != uv ]]; then
     exec .venv/bin/python -I -m pip --disable-pip-version-check "$@"
 fi
-# The same settings in the words of uv, and none of its own. What is not said to uv keeps it from reaching packages at most.
-for name in "${!UV_@}"; do
-    unset "$name"
-done
+# The same settings in the words of uv.
 set -f
 options=()
 for pair in default-index:INDEX_URL index:EXTRA_INDEX_URL find-links:FIND_LINKS; do

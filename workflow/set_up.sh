@@ -3,8 +3,9 @@
 # (`workflow/set_up.sh development`), once. One at a time; an interrupted set-up starts over.
 # With WHEELS=folder all packages come from that folder, which `make wheels` fills, and nothing from the network.
 set -euo pipefail
-# Another PYTHONHOME, PYTHONPATH or PYTHONUSERBASE would bring modules from elsewhere, CDPATH lead to another folder.
-for name in "${!PYTHON@}" CDPATH; do
+# Another PYTHONHOME, PYTHONPATH or PYTHONUSERBASE would bring modules from elsewhere, a variable of uv packages, CDPATH lead to
+# another folder.
+for name in "${!PYTHON@}" "${!UV_@}" CDPATH; do
     [[ $name == PYTHON ]] || unset "$name"
 done
 cd -P -- "$(dirname -- "$0")/.."
@@ -70,8 +71,7 @@ install() {
 }
 
 check() {
-    local conflicts
-    conflicts=$(workflow/pip.sh check) || { echo "$conflicts" >&2; exit 1; }
+    .venv/bin/uv --no-config --quiet pip check --python .venv/bin/python
 }
 
 if ! done_with complete "$complete"; then
@@ -86,7 +86,7 @@ if ! done_with complete "$complete"; then
     # A relative path: Python before 3.13 reads this file as the locale has it, which may lack letters of the path of this directory.
     echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
     check
-    echo "3 of 3  compiling the simulation engine"
+    echo "3 of 3  compiling the simulation, its certificate and other methods (half a minute)"
     .venv/bin/python workflow/scripts/compile.py
     echo "$complete" >.venv/.complete
     echo "Set up in $((SECONDS / 60)) min $((SECONDS % 60)) s."
