@@ -22,7 +22,7 @@ PLACE = Path(".cache/matrix")
 LINES = 12
 """Of the output of a step that failed, the last ones are shown."""
 PACKAGES = {"lock": None, "lowest": "lowest-direct", "newest": "highest"}
-"""Name of each set of packages, and what uv calls its resolution; None for environment.lock as it is."""
+"""Name of each set of packages, and what uv calls its resolution; None for the locks as they are."""
 STEPS = {
     "set-up": ["make", "set-up"],
     "figures": ["make", "figures"],
@@ -30,7 +30,7 @@ STEPS = {
     "tests": ["make", "test-quick"],
 }
 APART = ["snakemake-executor-plugin-slurm", "jupyterlab"]
-"""Packages that `make lock` leaves out of environment.lock, too."""
+"""Packages that `make lock` leaves out, too."""
 WITHOUT_WHEEL = ["connection-pool"]
 """Packages in pure Python of which no release has a wheel."""
 
@@ -56,7 +56,7 @@ def interpreter(version: str) -> str | None:
 
 
 def pin(clone: Path, python: str, resolution: str, log) -> int:
-    """Replace environment.lock of a clone by the lowest or newest allowed packages; return uv's exit status.
+    """Replace the locks of a clone by one of the lowest or newest allowed packages; return uv's exit status.
 
     Only releases with a wheel for this Python count: nobody without a compiler can install older ones.
     """
@@ -75,6 +75,7 @@ def pin(clone: Path, python: str, resolution: str, log) -> int:
     ]
     command += ["--no-emit-index-url", "--cache-dir", ROOT / ".cache/uv", "--upgrade", "pyproject.toml"]
     command += ["--output-file", "environment.lock"]
+    (clone / "development.lock").write_text("", encoding="utf-8")
     return subprocess.run(command, cwd=clone, stdout=log, stderr=subprocess.STDOUT).returncode
 
 

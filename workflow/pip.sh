@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pip of .venv. Of the user's settings only those count that say where packages are and how to reach them: `user` or `target`
+# pip of .venv, or with `uv` before its arguments uv in its place. Of the user's settings only those count that say where packages are and how to reach them: `user` or `target`
 # would install elsewhere, `constraint` or `only-binary` refuse packages of the lock.
 set -euo pipefail
 unset CDPATH
@@ -22,4 +22,27 @@ done < <(PIP_USER=0 .venv/bin/python -I -m pip config list | sort --reverse |
     sed -nE "s/^(global|install)\.($reach)='(.*)'$/\2=\3/p" | sed 's/\\n/ /g')
 # What pip itself needs meanwhile lies in the checkout, too.
 export PIP_CONFIG_FILE=/dev/null TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
-exec .venv/bin/python -I -m pip --disable-pip-version-check "$@"
+if [[ ${1:-} != uv ]]; then
+    exec .venv/bin/python -I -m pip --disable-pip-version-check "$@"
+fi
+# The same settings in the words of uv.
+set -f
+options=()
+for pair in default-index:INDEX_URL index:EXTRA_INDEX_URL find-links:FIND_LINKS; do
+    name=PIP_${pair#*:}
+    for word in ${!name:-}; do
+        options+=("--${pair%:*}" "$word")
+    done
+done
+if [[ ${PIP_NO_INDEX:-} =~ ^([1yYtT]|[oO][nN]) ]]; then
+    options+=(--no-index)
+fi
+if [[ -n ${PIP_CERT:-} ]]; then
+    export SSL_CERT_FILE=$PIP_CERT
+fi
+if [[ -n ${PIP_PROXY:-} ]]; then
+    export HTTP_PROXY=$PIP_PROXY HTTPS_PROXY=$PIP_PROXY http_proxy=$PIP_PROXY https_proxy=$PIP_PROXY
+fi
+# Hashes decide which file is taken, so that any index may have it, as with pip.
+exec .venv/bin/uv --quiet --no-config pip "${@:2}" --python .venv/bin/python --cache-dir .cache/uv \
+    --index-strategy unsafe-best-match "${options[@]}"

@@ -3,6 +3,7 @@
 Numba keeps the code beside the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
 """
 
+import gc
 import sys
 
 from vibroimpact.interrupt import without_traceback
@@ -10,11 +11,17 @@ from vibroimpact.interrupt import without_traceback
 
 def main() -> None:
     """Compile all that is not compiled yet."""
+    beforehand()
+    for work in (event_loop, certificates, results_of_runs, ensembles):
+        work()
+
+
+def beforehand() -> None:
+    """Prepare a process that only compiles: no hint in its notices, no garbage collection, which would take long."""
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.beforehand()
-    for work in (event_loop, results_of_runs, ensembles):
-        work()
+    gc.disable()
 
 
 def event_loop() -> None:
@@ -29,17 +36,20 @@ def event_loop() -> None:
     integrate.compile(tuple(map(typeof, arguments)))
 
 
+def certificates() -> None:
+    """Compile certificates and Jacobians of runs with a made-up one, so that they need not wait for the event loop."""
+    run = _made_up_run()
+    _ = run.certificate, run.jacobian
+
+
 def results_of_runs() -> None:
-    """Compile what is computed from runs with one that is made up, so that it need not wait for the event loop."""
+    """Compile what else is computed from runs."""
     import numpy as np
 
-    from vibroimpact.exact.engine.motion import ENTRIES, ROW
-    from vibroimpact.exact.engine.simulation import Run
     from vibroimpact.exact.engine.variation import growth
 
-    state, final, samples = np.zeros(8), np.zeros(8), np.empty((0, 8))
-    run = Run(_system(), state, 0.0, 1, samples, final, [np.empty((0, ROW))], np.zeros(ENTRIES))
-    _ = run.certificate, run.jacobian, run.energy, run.errors([]), growth(run, np.eye(8))
+    run = _made_up_run()
+    _ = run.energy, run.errors([]), growth(run, np.eye(8))
 
 
 def ensembles() -> None:
@@ -49,6 +59,16 @@ def ensembles() -> None:
     system = _system()
     ensemble(system, [0.0] * 8, cycles=1)
     ensemble(system.with_(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0), [0.0] * 8, cycles=1, energy=True)
+
+
+def _made_up_run():
+    import numpy as np
+
+    from vibroimpact.exact.engine.motion import ENTRIES, ROW
+    from vibroimpact.exact.engine.simulation import Run
+
+    state, final, samples = np.zeros(8), np.zeros(8), np.empty((0, 8))
+    return Run(_system(), state, 0.0, 1, samples, final, [np.empty((0, ROW))], np.zeros(ENTRIES))
 
 
 def _system():

@@ -10,11 +10,15 @@ from importlib.metadata import version
 from pathlib import Path
 
 import yaml
-from rocrate.model import ContextEntity
-from rocrate.rocrate import ROCrate
 
+from vibroimpact.system.extras import need
 from vibroimpact_pipeline.git import committed, git, output
 from vibroimpact_pipeline.result_records import digest_of, records
+
+need("archive", "rocrate")
+
+from rocrate.model import ContextEntity  # noqa: E402 (after the word on what is missing)
+from rocrate.rocrate import ROCrate  # noqa: E402
 
 WORKFLOW = "Snakefile"
 

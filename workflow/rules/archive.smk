@@ -49,7 +49,7 @@ rule archive:
     output:
         archive=f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
     params:
-        code=code("archive"),
+        code=code("archive", "development.lock"),
     log:
         "results/logs/archive.log",
     benchmark:

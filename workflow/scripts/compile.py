@@ -1,20 +1,14 @@
-"""Compile the engine and the other integrators into the cache of the checkout, so that the first build need not."""
+"""Compile what the default build needs into the cache of the checkout; the rest is compiled at its first use."""
 
 import pkgutil
 from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
 
 import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba reads when it is imported)
-from vibroimpact.compile import ensembles, event_loop, results_of_runs
+from vibroimpact.compile import beforehand, certificates, event_loop
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
 """Modules that jobs import by name, without an import statement."""
-
-
-def beforehand():
-    from vibroimpact.exact.engine.compiled import NOTICE
-
-    NOTICE.beforehand()
 
 
 def other_methods():
@@ -40,8 +34,6 @@ def imports():
 
 
 if __name__ == "__main__":
-    with ProcessPoolExecutor(initializer=beforehand) as pool:
-        first, beside_it = pool.submit(event_loop), pool.submit(results_of_runs)  # others wait for them
-        first.result()
-        for done in [beside_it, *(pool.submit(work) for work in (ensembles, other_methods, imports))]:
+    with ProcessPoolExecutor(2, initializer=beforehand) as pool:
+        for done in [pool.submit(work) for work in (certificates, event_loop, other_methods, imports)]:
             done.result()

@@ -7,19 +7,23 @@ from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import pypandoc
-import typst
 import yaml
 from docutils import nodes
-from sphinx import addnodes
-from sphinx.application import Sphinx
-from sphinx.util.docutils import docutils_namespace
 
 import vibroimpact
+from vibroimpact.system.extras import need
 from vibroimpact_pipeline.code import is_source
 from vibroimpact_pipeline.html.mathematics import STYLE, mathml
 from vibroimpact_pipeline.html.policy import policy
 from vibroimpact_pipeline.studies.report.pages import anchor
+
+need("report", "pypandoc", "sphinx", "typst")
+
+import pypandoc  # noqa: E402 (after the word on what is missing)
+import typst  # noqa: E402
+from sphinx import addnodes  # noqa: E402
+from sphinx.application import Sphinx  # noqa: E402
+from sphinx.util.docutils import docutils_namespace  # noqa: E402
 
 ARTICLE = "findings"
 NOTICE = (
