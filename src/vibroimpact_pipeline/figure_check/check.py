@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from vibroimpact.figures.plotting.versions import drawing_versions
 from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.table_distances import compare
+from vibroimpact_pipeline.figure_check.table_distances import compare, printed_distances
 from vibroimpact_pipeline.specs import each
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
@@ -40,7 +40,8 @@ def reference_sums(reference) -> dict[str, dict]:
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
     """Return verdicts on all figures that a config makes (`specs.made`) or that have a reference, by name."""
-    figures = sorted(({path.stem: None for path in Path(reference).glob("*.png")} | figures).items())
+    known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
+    figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
         return list(pool.map(check, *zip(*figures, strict=True), repeat(reference), repeat(build)))
 
@@ -84,6 +85,12 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
             found, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
             reasons += [f"{file}: {reason}" for reason in found]
             verdict["tables"] += [{"table": file, **one} for one in distances]
+    printed = reference / f"published/{figure}.csv"
+    if printed.is_file():
+        with _errors_as_reasons(reasons, f"published/{printed.name}: unreadable"):
+            found, distances = printed_distances(read(printed), new["csv"])
+            reasons += [f"published/{printed.name}: {reason}" for reason in found]
+            verdict["tables"] += [{"table": f"published/{printed.name}", **one} for one in distances]
     others = []
     with _errors_as_reasons(reasons, "picture: cannot be read or drawn"), TemporaryDirectory() as folder:
         # Where the tables are equal, the built picture is what today's `draw` makes of the reference's tables.

@@ -5,10 +5,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import yaml
-from scipy.stats import ks_2samp
 
-KINDS = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text(encoding="utf-8"))
+KINDS = {}
 """Kinds of numbers: the limit of each of the MEASURES that compare them, and the reason."""
+for path in (Path(__file__).with_name("tolerances.yaml"), Path(__file__).parents[1] / "studies/tolerances.yaml"):
+    if path.is_file():  # a checkout may lack the second
+        KINDS |= yaml.safe_load(path.read_text(encoding="utf-8"))
 OTHERS = "others"
 """Stands for the series that have no kind of their own."""
 FAR = 999.0
@@ -17,48 +19,53 @@ SMALLEST = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
 SAME = 1e-6
 """Counts and shares that differ by less are the same."""
-DIGITS = 6
-"""Decimals of the values of a sample, so that those equal but for rounding are ties."""
+SCARCE = 3
+"""Rows that a class has at least, of which rounding does not move all."""
+STILL = 1e-3
+"""Part of a number by which it has to move to count as moved."""
 
 
 def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, one line each, and the distance of each column from its reference.
 
     Rows whose first two words, of those that are not compared, are equal are a series. In a series rows correspond one
-    by one, unless its numbers are samples.
+    by one.
 
     Args:
         columns: entries of a SPEC. A column of words that is not compared must be the same.
 
     Returns as distances: column, kind, measure, distance (1 is the limit), where the largest is, and there the value of
-    the reference and the new one (of a whole series the medians).
+    the reference and the new one (of a whole column the medians).
     """
     if list(old) != list(new):
         return [f"columns {', '.join(new)} instead of {', '.join(old)}"], []
-    reasons, farthest = _wrong_in_itself(new, columns), {}
+    reasons, parts, farthest = _wrong_in_itself(new, columns), {}, []
     before, after = _by_series(old, columns), _by_series(new, columns)
     for series in before | after:
-        a, b = (parts.get(series, old.iloc[:0]) for parts in (before, after))
+        a, b = (rows.get(series, old.iloc[:0]) for rows in (before, after))
         kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and _given(a[name]).any()}
         words = [name for name in _words(old) if name not in kinds]
-        sample = bool(kinds) and all("distribution" in KINDS[kind]["limits"] for kind in kinds.values())
-        if a.empty or b.empty or not (sample or _same(a[words], b[words])):
+        if not _same(a[words], b[words]):
             reasons.append(f"{', '.join(series)}: other rows, {len(b)} instead of {len(a)}")
             continue
         for name in (name for name in old if name not in words):
-            if not sample and (_given(a[name]).to_numpy() != _given(b[name]).to_numpy()).any():
+            if (_given(a[name]).to_numpy() != _given(b[name]).to_numpy()).any():
                 reasons.append(f"{name}: blank in other rows ({', '.join(series)})")
             elif name in kinds:
-                for found in _distances(a, b, name, kinds[name]):
-                    key = name, found["kind"], found["measure"]
-                    farthest[key] = max(farthest.get(key, found), found, key=lambda one: one["distance"])
+                parts.setdefault((name, kinds[name]), []).append((a, b))
             elif _given(a[name]).any():
                 reasons.append(f"no limit is stated for column {name}")
+    for (name, kind), pairs in parts.items():
+        whole = [tuple(pd.concat(rows) for rows in zip(*pairs, strict=True))]
+        for measure in KINDS[kind]["limits"]:
+            each = pairs if measure == "balance" else whole
+            found = [_distance(a, b, name, kind, measure) for a, b in each]
+            farthest.append(max(found, key=lambda one: one["distance"]))
     reasons += ["the same series in another order"] * (not reasons and list(before) != list(after))
-    for one in (one for one in farthest.values() if one["distance"] > 1):
+    for one in (one for one in farthest if one["distance"] > 1):
         far = f"{one['column']} is off by {one['distance']:.2g} times its limit ({one['kind']}, {one['measure']})"
         reasons.append(f"{far}: {one['new']} instead of {one['reference']} ({one['where']})")
-    return reasons, list(farthest.values())
+    return reasons, farthest
 
 
 def _wrong_in_itself(table, columns):
@@ -98,22 +105,61 @@ def _given(values):
     return values.notna() & (values != "")
 
 
-def _distances(old, new, name, kind):
-    """Yield the largest distance of a column in a series by each measure of its kind."""
+def _distance(old, new, name, kind, measure):
+    """Return the largest distance of a column by a measure of its kind."""
     before, after = (part[name].to_numpy() for part in (old, new))
-    for measure, limit in KINDS[kind]["limits"].items():
-        with np.errstate(all="ignore"):
-            far = np.nan_to_num(MEASURES[measure](before, after, limit), nan=FAR)
-        if np.ndim(far):
-            far = np.where((before == after) | pd.isna(before), 0.0, far)
-            row = int(far.argmax())
-            far, values, place = far[row], (before[row], after[row]), f"row {old.index[row] + 1}"
-        else:
-            row, values, place = 0, (np.nanmedian(before), np.nanmedian(after)), "in the middle"
-        where = ", ".join([*map(str, old[_words(old)].iloc[row].dropna()), place])
-        old_value, new_value = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
-        found = {"column": name, "kind": kind, "measure": measure, "distance": min(float(far), FAR), "where": where}
-        yield found | {"reference": old_value, "new": new_value}
+    with np.errstate(all="ignore"):
+        far = np.nan_to_num(MEASURES[measure](before, after, KINDS[kind]["limits"][measure]), nan=FAR)
+    if np.ndim(far):
+        far = np.where((before == after) | pd.isna(before), 0.0, far)
+        row = int(far.argmax())
+        far, values, place = far[row], (before[row], after[row]), f"row {old.index[row] + 1}"
+    else:
+        row, values, place = 0, (np.nanmedian(before), np.nanmedian(after)), "in the middle"
+    where = ", ".join([*map(str, old[_words(old)].iloc[row].dropna()), place])
+    old_value, new_value = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
+    found = {"column": name, "kind": kind, "measure": measure, "distance": min(float(far), FAR), "where": where}
+    return found | {"reference": old_value, "new": new_value}
+
+
+def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
+    """Return the reasons why a table fails, and the largest distance of a point of the printed book, as `compare`.
+
+    Args:
+        points: rows with columns of `table`, and the tolerance as a part of the extent of each axis. The words of a
+            point name its curve, which joins the rows of `table` with these words. A blank cell does not count.
+    """
+    if unknown := set(points) - {*table, "tolerance"}:
+        return [f"columns that the figure does not have: {', '.join(sorted(unknown))}"], []
+    reasons, found = [], []
+    for number, point in points.iterrows():
+        point = point[_given(point)]
+        words = [name for name in _words(table) if name in point]
+        axes = [name for name in table if name in point and name not in words]
+        where = ", ".join([*map(str, point[words]), f"row {number + 1}"])
+        curve = table.loc[(table[words] == point[words]).all(axis=1), axes].dropna()
+        if curve.empty or "panel" not in point or not point.get("tolerance", 0) > 0:
+            reasons.append(f"no such curve, no panel or no tolerance above 0 ({where})")
+            continue
+        panel = table.loc[table["panel"] == point["panel"], axes]
+        extent = (panel.max() - panel.min()).replace(0.0, 1.0)
+        printed = point[axes].to_numpy(float) / extent
+        nearest = _nearest(printed.to_numpy(), (curve / extent).to_numpy())
+        far = np.linalg.norm(nearest - printed) / point["tolerance"]
+        old, new = (", ".join(f"{value:.9g}" for value in place * extent) for place in (printed, nearest))
+        one = {"column": ", ".join(axes), "kind": "printed", "measure": "nearest", "distance": min(far, FAR)}
+        found.append(one | {"where": where, "reference": old, "new": new})
+        if far > 1:
+            reasons.append(f"{one['column']} is off by {far:.2g} times its tolerance: {new} instead of {old} ({where})")
+    return reasons, sorted(found, key=lambda one: one["distance"])[-1:]
+
+
+def _nearest(point, curve):
+    """Return the place nearest to a point (d,) on the polyline through the rows of `curve`, (n, d)."""
+    step = np.diff(curve, axis=0, append=curve[-1:])
+    part = ((point - curve) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
+    places = curve + np.clip(part, 0.0, 1.0)[:, None] * step
+    return places[np.linalg.norm(places - point, axis=1).argmin()]
 
 
 # Measures of two columns, arrays (n,): the distance of each row, or one of all rows, of which 1 is the limit.
@@ -130,7 +176,7 @@ def _decades(old, new, limit):
 
 
 def _middle(old, new, limit):
-    """Compare numbers by the median shift of their logarithms, whatever single ones do."""
+    """Compare a column by the median shift of its logarithms, whatever single rows do."""
     return np.abs(np.nanmedian(_shifts(old, new))) / limit
 
 
@@ -138,45 +184,38 @@ def _shifts(old, new):
     return np.log10(np.maximum(new, SMALLEST)) - np.log10(np.maximum(old, SMALLEST))
 
 
+def _mean(old, new, limit):
+    """Compare a column by its mean, relative to the reference, whatever single rows do."""
+    return np.abs(np.nanmean(new) / np.nanmean(old) - 1) / limit
+
+
 def _rows(old, new, limit):
-    """Compare classes, or counts, by the share of rows in which they differ."""
+    """Compare classes, or numbers, by the share of rows in which they differ."""
     differ = old != new if old.dtype == object else np.abs(new - old) > SAME
     return differ * differ.mean() / limit
 
 
-def _classes(old, new, limit):
-    """Compare numbers of rows in each class, or sums of counts, in standard deviations of Poisson counts.
+def _balance(old, new, limit):
+    """Compare rows that join a class with rows that leave it, or numbers that rise with numbers that fall.
 
-    A class that vanishes is never near.
+    Rounding moves as many one way as the other: their difference is measured in standard deviations of tosses of a
+    coin, one for each row that moved. A class that vanishes is never near, unless it is scarce.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
-        before, after = (np.nan_to_num((x if label is None else x == label).astype(float)) for x in (old, new))
-        n, m = before.sum(), after.sum()
-        distance = FAR if n and not m else abs(n - m) / np.sqrt(n + m) / limit
-        far = np.maximum(far, np.where(before != after, distance, 0.0))
+        before, after = (np.nan_to_num(x if label is None else (x == label).astype(float)) for x in (old, new))
+        moved = np.where(np.abs(after - before) > STILL * np.abs(before), np.sign(after - before), 0.0)
+        vanished = np.count_nonzero(before) >= SCARCE and not after.any()
+        distance = FAR if vanished else abs(moved.sum()) / np.sqrt(max(np.count_nonzero(moved), 1)) / limit
+        far = np.maximum(far, np.where(moved != 0, distance, 0.0))
     return far
-
-
-def _distribution(old, new, limit):
-    """Compare samples by the two-sample Kolmogorov-Smirnov statistic, times the root of their size."""
-    old, new = (np.round(values[~np.isnan(values)], DIGITS) for values in (old, new))
-    n, m = len(old), len(new)
-    return ks_2samp(old, new, method="asymp").statistic * np.sqrt(n * m / (n + m)) / limit
-
-
-def _size(old, new, limit):
-    """Compare sizes of samples, in standard deviations of Poisson counts."""
-    n, m = (np.count_nonzero(~np.isnan(values)) for values in (old, new))
-    return abs(n - m) / np.sqrt(n + m) / limit
 
 
 MEASURES = {
     "difference": _difference,
     "decades": _decades,
     "middle": _middle,
+    "mean": _mean,
     "rows": _rows,
-    "classes": _classes,
-    "distribution": _distribution,
-    "size": _size,
+    "balance": _balance,
 }

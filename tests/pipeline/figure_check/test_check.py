@@ -4,6 +4,7 @@ import json
 import re
 import zlib
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
@@ -245,6 +246,56 @@ def test_a_second_table_is_compared_too(tree):
     table = tables.read(path)
     tables.write(table.assign(**{"amplitude variation": 1.001 * table["amplitude variation"]}), path)
     assert tree.verdict("fig10_11")["reasons"][0].startswith("fig10_11.statistics.csv: amplitude variation is off by")
+
+
+# Points of the printed book
+
+
+def print_points(tree, above=0.0, **columns):
+    """Three points between the rows of figure 10.4: two of the manifold, (10.16), one on or above B_min, (10.25)."""
+    rho = 2 * (1 - 0.65) / (np.pi * (1 + 0.65))
+    C, series = np.array([0.5512, 1.1313, 1.5151]), ["SIM unstable", "SIM stable", "B_min"]
+    B = np.append(np.sqrt(1 - 2 * C + (1 + rho**2) * C**2)[:2], rho / np.sqrt(1 + rho**2) + above)
+    (tree.reference / "published").mkdir(exist_ok=True)
+    table = tables.curve("SIM", series, C=C, B=B, tolerance=0.01).assign(**columns)
+    tables.write(table, tree.reference / "published/fig10_04.csv")
+
+
+def test_points_of_the_printed_book_lie_on_the_curve_that_is_built(tree):
+    print_points(tree)
+    verdict = tree.verdict("fig10_04")
+    assert (verdict["status"], verdict["reasons"]) == ("passed", [])
+    assert verdict["tables"][-1]["table"] == "published/fig10_04.csv"
+    assert verdict["distance"] < 0.01
+    height = np.ptp(tables.read(tree.reference / "fig10_04.csv")["B"])
+    print_points(tree, above=0.024 * height)
+    verdict = tree.verdict("fig10_04")
+    assert (verdict["status"], verdict["distance"]) == ("failed", pytest.approx(2.4))
+    assert verdict["reasons"][0].startswith("published/fig10_04.csv: C, B is off by 2.4 times its tolerance: 1.5151, ")
+
+
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ({"series": ["SIM stable", "B_min", "B_max"]}, "no such curve"),
+        ({"panel": ""}, "no panel"),
+        ({"tolerance": [0.01, np.nan, 0.01]}, "no tolerance above 0"),
+        ({"tolerance": 0.0}, "no tolerance above 0"),
+        ({"D": 1.0}, "columns that the figure does not have: D"),
+    ],
+)
+def test_points_of_the_printed_book_that_cannot_be_compared_are_named(tree, columns, said):
+    print_points(tree, **columns)
+    verdict = tree.verdict("fig10_04")
+    assert verdict["status"] == "failed"
+    assert said in verdict["reasons"][0]
+
+
+def test_points_of_a_figure_that_is_not_made_fail(tree):
+    print_points(tree)
+    path = tree.reference / "published/fig10_04.csv"
+    path.rename(path.with_stem("fig10_4"))
+    assert "fig10_4" in {one["figure"] for one in check_all({}, tree.reference, tree.build)}
 
 
 # Wrong in both

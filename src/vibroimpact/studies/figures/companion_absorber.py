@@ -77,9 +77,9 @@ SPEC = {
                     "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {
                     "decay": "trajectory", "without balls": "algebra",
                     "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
-                    "frequencies won": "free", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
+                    "frequencies won": "shares", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
-                    "unit": "dimensionless", "compared": "free"},
+                    "unit": "dimensionless", "compared": "spreads"},
                 "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
                     "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "peaks"},
                 "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
@@ -89,12 +89,12 @@ SPEC = {
                 "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
                 "f10_hat, f20_hat": {"compared": "extremes"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
-                    "unit": "dimensionless", "compared": "free"},
+                    "unit": "dimensionless", "compared": "places"},
                 "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "
                     "the peak is lowest; and how far about it, on the grid of the sweep, it is at most 1.25 times as "
                     "high", "unit": "dimensionless", "compared": "extremes"},
                 "regime": {"meaning": "the `regime` that most starts end in there", "unit": "text",
-                    "compared": "few outcomes"},
+                    "compared": "places"},
             },
         },
     },

@@ -63,8 +63,8 @@ SPEC = {
         "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
             "compared": {"all starts": "extremes", "others": "roots"}},
-        "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "free"},
-        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share", "compared": "free"},
+        "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "spreads"},
+        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share", "compared": "shares"},
     },
     "tables": {
         "summary": {

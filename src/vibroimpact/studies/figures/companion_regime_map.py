@@ -36,8 +36,12 @@ SPEC = {
             "compared": "cells of a map"},
         "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
             "compared": "cells of a map"},
-        "symmetric, asymmetric, other periodic, strongly modulated, chaotic, hopping, quasi-periodic, one ball idle, "
-        "no impacts, unsettled": {"compared": "cells of a map"},
+        "symmetric": {"compared": "counts of a map"},
+        "asymmetric, other periodic, strongly modulated, chaotic": {"compared": "cells of a map"},
+        "hopping": {"compared": "counts of a map"},
+        "quasi-periodic": {"compared": "rare cells of a map"},
+        "one ball idle, no impacts": {"compared": "counts of a map"},
+        "unsettled": {"compared": "cells of a map"},
         "fixed_points, stable_points": {"compared": "counts of a map"},
     },
     "tables": {
