@@ -51,38 +51,41 @@ rule hazards:
         "../scripts/hazards.py"
 
 
-# For each figure the cheapest model that its lines cannot tell from the exact result.
-MODELLED = {figure: scene for figure, scene in config["figures"].items() if "model" in scene}
+# The figures that have a choice of models, and what each is computed from.
+MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
 
 
-rule scene_models:
-    input:
-        [path for figure in MODELLED for path in getattr(rules, figure).input if "results/" in path],
-        expand("results/fixed_points/{case}.csv", case=all_systems()),
-        expand(
-            "results/orbits/{case}.csv",
-            case={scene["case"] for scene in MODELLED.values() if scene["model"] == "simulation"},
-        ),
-        [f"results/figures/{figure}.csv" for figure in MODELLED],
+def modelled(figure, entry):
+    """A figure with its settings or, of a simulation, those of the run."""
+    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
+    if entry["notebook"] == "simulation":
+        settings = config["cases"][entry["case"]]["simulation"]
+    known = {name: entry[name] for name in ("notebook", "model")}
+    return known | {"module": spec(figure)["module"], "system": system_of(entry["case"]), "settings": settings}
+
+
+rule models:
     output:
-        **in_report({"csv": "results/accuracy/scene_models.csv"}, "Accuracy and speed"),
+        **in_report(figure_files("results/accuracy/models", SPECS["models"]["tables"]), "Accuracy and speed"),
     params:
-        figures={
-            figure: [scene, {name: getattr(rules, figure).params.get(name) for name in ("settings", "system")}]
-            for figure, scene in MODELLED.items()
+        figure="models",
+        settings={
+            "scenes": {figure: modelled(figure, entry) for figure, entry in MODELLED.items()},
+            "seconds": ACCURACY["short_seconds"],
         },
-        simulations={case: values["simulation"] for case, values in config["cases"].items()},
-        seconds=ACCURACY["short_seconds"],
-        code=code("scene_models", *(spec(figure)["module"] for figure in MODELLED)),
+        config={f"figures.{figure}": entry for figure, entry in MODELLED.items()}
+        | {f"cases.{entry['case']}": config["cases"][entry["case"]] for entry in MODELLED.values()}
+        | {"system": config["system"]},
+        code=code("figure", module_of("models"), *(spec(figure)["module"] for figure in MODELLED)),
     threads: ALL_CORES
     log:
-        "results/logs/accuracy/scene_models.log",
+        "results/logs/accuracy/models.log",
     benchmark:
-        "results/benchmarks/accuracy/scene_models.tsv"
+        "results/benchmarks/accuracy/models.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:
-        "../scripts/scene_models.py"
+        "../scripts/figure.py"
 
 
 rule method_comparison:
@@ -107,5 +110,5 @@ rule accuracy:
     input:
         rules.work_precision.output,
         rules.hazards.output,
-        rules.scene_models.output,
+        rules.models.output,
         rules.method_comparison.output,

@@ -148,9 +148,7 @@ def entries(paths):
     found = {}
     for path in paths:
         section, _, name = path.rpartition(".")
-        names = (
-            [key for key in at(config, section) if key not in ("notebook", "model", "case")] if name == "*" else [name]
-        )
+        names = [key for key in at(config, section) if key not in ("notebook", "case")] if name == "*" else [name]
         found |= {f"{section}.{key}": at(config, f"{section}.{key}") for key in names}
     return found
 
@@ -169,8 +167,8 @@ def figure_params(figure, paths, case=None, systems=False):
 
 def of_case(figure, paths):
     """Results for the case that a figure of the config shows."""
-    case = SCENES.get(figure, {}).get("case")
-    return {name: path.format(case=case) for name, path in paths.items()} if case else {}
+    shown = SCENES.get(figure, {})
+    return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
 
 # The notebooks by name.

@@ -12,9 +12,9 @@ POINTS = {
 }
 MOTION = {
     "points": "results/fixed_points/{case}.csv",
-    "samples": "results/simulations/{case}/samples.csv",
-    "events": "results/simulations/{case}/events.csv",
-    "summary": "results/simulations/{case}/summary.json",
+    "samples": "results/simulations/{case}/{model}/samples.csv",
+    "events": "results/simulations/{case}/{model}/events.csv",
+    "summary": "results/simulations/{case}/{model}/summary.json",
 }
 RUN = ("cases.{case}.simulation.*",)
 

@@ -1,21 +1,21 @@
-# Direct integration of (10.1): one directory per case that a figure shows.
+# Direct integration of (10.1): one directory per case and arithmetic, float64 or reference, that a figure shows.
 
 
 rule simulation:
     output:
-        samples="results/simulations/{case}/samples.csv",
-        events="results/simulations/{case}/events.csv",
-        summary="results/simulations/{case}/summary.json",
-        strobe="results/simulations/{case}/strobe.csv",
+        samples="results/simulations/{case}/{model}/samples.csv",
+        events="results/simulations/{case}/{model}/events.csv",
+        summary="results/simulations/{case}/{model}/summary.json",
+        strobe="results/simulations/{case}/{model}/strobe.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
         settings=lambda wildcards: config["cases"][wildcards.case]["simulation"],
         code=code("simulate"),
     priority: 10
     log:
-        "results/logs/simulations/{case}.log",
+        "results/logs/simulations/{case}.{model}.log",
     benchmark:
-        "results/benchmarks/simulations/{case}.tsv"
+        "results/benchmarks/simulations/{case}.{model}.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

@@ -33,7 +33,8 @@ def summarise(simulated: Window, settings: dict) -> dict:
 
 
 with running(snakemake) as out:
-    case, parameters, settings = snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings
+    case, parameters = snakemake.wildcards.case, snakemake.params.system
+    settings = snakemake.params.settings | {"model": snakemake.wildcards.model}
     simulated = window(System(**parameters), settings)
     for name in ("samples", "events", "strobe"):
         tables.write(getattr(simulated, name), getattr(out, name))

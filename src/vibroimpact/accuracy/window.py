@@ -1,4 +1,4 @@
-"""Direct integration of a case: the window of its motion after a transient, in float64 or with proved digits."""
+"""Direct integration of a case: the window of its motion after a transient, in float64 or the reference arithmetic."""
 
 from dataclasses import dataclass
 
@@ -13,6 +13,8 @@ need("figures", "pandas")
 
 import pandas as pd  # noqa: E402 (after the word on what is missing)
 
+ARITHMETICS = "float64", "reference"
+DIGITS = 40
 SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
 
 
@@ -35,8 +37,12 @@ def window(system: System, settings: dict) -> Window:
     """Simulate a case and keep its window.
 
     Args:
-        settings: initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle. With
-            `digits` the run is carried with that many decimal digits and proved by doubling them.
+        settings: initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle; model,
+            "float64" or "reference": there the run is carried with `digits` decimal digits, by default DIGITS, which
+            are doubled until two runs agree.
+
+    Raises:
+        ValueError: another model.
     """
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     starts = np.arange(settings["transient_cycles"]) * system.period
@@ -60,14 +66,21 @@ def window_times(period: float, transient_cycles: int, window_cycles: int, sampl
 
 def _integrate(system, settings, cycles, times):
     """The run, and what vouches for it."""
-    if "digits" not in settings:
+    if settings["model"] not in ARITHMETICS:
+        raise ValueError(f"model: {settings['model']!r} is not {' or '.join(ARITHMETICS)}")
+    if settings["model"] == "float64":
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
     from vibroimpact.accuracy.reference.run import proven_run  # needs an extra that float64 does without
 
     proof = proven_run(
-        system, settings["initial_state"], cycles, digits=settings["digits"], sample_times=times, exact_floats=False
+        system,
+        settings["initial_state"],
+        cycles,
+        digits=settings.get("digits", DIGITS),
+        sample_times=times,
+        exact_floats=False,
     )
     digits = [proof.coarse.digits, proof.run.digits]
     return proof.run, {"method": "arbitrary precision", "digits": digits, "agreement": proof.agreement}

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.accuracy.models import motions
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import curve, join, select
@@ -56,11 +57,13 @@ MARKERS = {
 """In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
 
 
-def compute(system, points: pd.DataFrame, C_max) -> pd.DataFrame:
+def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd.DataFrame:
     """Manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
 
     Args:
         points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        model: slow_flow; or exact_orbit, by which P_i is that of the exact orbit next to the fixed point, and S_i
+            belongs to this; a fixed point without an orbit has no row.
         C_max: the manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed
             point lies beyond.
 
@@ -68,9 +71,10 @@ def compute(system, points: pd.DataFrame, C_max) -> pd.DataFrame:
     "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
 
     Raises:
-        ValueError: C_max does not reach beyond the fold of the manifold.
+        ValueError: C_max does not reach beyond the fold of the manifold; another model.
     """
-    return join(planes(system, labelled_points(points), C_max))
+    found = motions(system, labelled_points(points), model)
+    return join(planes(system, [motion.point for motion in found], C_max))
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:

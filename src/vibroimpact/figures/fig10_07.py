@@ -4,10 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.accuracy.models import motion
 from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
-from vibroimpact.theory.fixed_points.table import labelled_point
-from vibroimpact.theory.response import impact_times, leading_order
 
 SPEC = {
     "title": "Theoretical response of fixed point (c)",
@@ -46,28 +45,29 @@ COORDINATES = {
 """U_i and X_i grey, W_i and Y_i black, as in the chapter; within a colour the line style tells them apart."""
 
 
-def compute(system, points: pd.DataFrame, fixed_point: str, periods: float) -> pd.DataFrame:
-    """U_i, X_i, W_i and Y_i of both modules by (10.9), (10.10) over some forcing periods.
+def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
+    """U_i, X_i, W_i and Y_i of both modules over some forcing periods, by (10.9), (10.10) or another model.
 
     Args:
         points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
         fixed_point: label of the fixed point shown.
+        model: slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.models`.
 
     Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The impacts, where W_i and Y_i
     have their corners, are among the points.
 
     Raises:
-        ValueError: there is no fixed point of that label, or periods is not above 0.
+        ValueError: there is no fixed point of that label, or no motion of it by the model; or periods is not above 0.
     """
     if not periods > 0:
         raise ValueError(f"periods: {periods} is not above 0")
-    point = labelled_point(points, fixed_point)
+    shown = motion(system, points, fixed_point, model)
     end = periods * system.period
     return join(
         curve(f"module {module}", f"{name}_{module}", tau=tau, value=getattr(response, name)[:, module - 1])
-        for module, first in zip(MODULES, impact_times(system, point), strict=True)
+        for module, first in zip(MODULES, shown.impacts, strict=True)
         for tau in [_times(first, system.period, end)]
-        for response in [leading_order(system, point, tau)]
+        for response in [shown.response(tau)]
         for name in COORDINATES
     )
 

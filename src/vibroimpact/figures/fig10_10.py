@@ -3,10 +3,10 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.accuracy.models import motion
 from vibroimpact.figures import fig10_06, fig10_07
 from vibroimpact.figures.plotting.style import SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import join
-from vibroimpact.theory.fixed_points.table import labelled_point
 
 SPEC = {
     "title": "The only fixed point for weak forces, and its response",
@@ -26,7 +26,9 @@ SPEC = {
 }  # fmt: skip
 
 
-def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_max) -> pd.DataFrame:
+def compute(
+    system, points: pd.DataFrame, fixed_point: str, periods: float, C_max, model: str = "slow_flow"
+) -> pd.DataFrame:
     """The planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
     Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
@@ -34,11 +36,11 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, C_ma
     Raises:
         ValueError: as those two.
     """
-    point = labelled_point(points, fixed_point)
+    point = motion(system, points, fixed_point, model).point
     return join(
         [
             *fig10_06.planes(system, [point], C_max),
-            fig10_07.compute(system, points, fixed_point, periods),
+            fig10_07.compute(system, points, fixed_point, periods, model),
         ]
     )
 

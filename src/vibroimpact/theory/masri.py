@@ -16,8 +16,6 @@ from vibroimpact.theory.manifold import C_min, rho
 ROUNDING = 16 * np.finfo(float).eps
 # Above this C symmetric motions lose stability to asymmetric ones, whatever kappa (docs/stability.md).
 SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
-# By how much it moves per epsilon, for every kappa, damping and detuning (docs/derivation.md).
-SYMMETRY_BREAKING_SLOPE = np.pi**2 * (np.pi**2 - 12) / (np.pi**2 - 4) ** 2
 
 
 def impact_multipliers(C, kappa) -> np.ndarray:

@@ -4,8 +4,6 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo
 
-from vibroimpact_pipeline.config.section import Section
-
 NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
 TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 HIGHEST = 1.69
@@ -85,11 +83,3 @@ State = items(Force, 8, 8, START, WITHIN_WALLS)
 Starts = count("Starts, spread evenly; the first is rest", 1, 10_000)
 Seed = count("Scrambles the starts", 0, 2**32 - 1)
 Points = count("Cells or starts along each axis of a plane", 2, 200)
-
-
-class ForceGrid(Section):
-    """Cells of a plane of forces."""
-
-    f10_range: Forces
-    f20_range: Forces
-    points: Points

@@ -13,7 +13,9 @@ from vibroimpact_pipeline.config.section import Section
 MOST = 100
 """Figures of a build, a job each."""
 NOTEBOOK = Field(description="Its notebook explains and draws it")
-MODEL = Field(description="What it is computed with, and nothing dearer")
+MODEL = "What it is computed with: "
+"""A figure has a choice of models where there is more than one, see results/accuracy/models.csv."""
+THEORY = f"{MODEL}slow_flow, leading order; exact_orbit, the exact orbits next to its fixed points"
 
 
 class Drawing(Section):
@@ -26,7 +28,6 @@ class ClosedForm(Section):
     """A figure that is algebra."""
 
     notebook: Literal["closed_form"] = NOTEBOOK
-    model: Literal["closed_form"] = MODEL
 
 
 class Sawtooth(ClosedForm):
@@ -53,7 +54,7 @@ class FixedPoints(Section):
     """Fixed points and singular points of a case on the slow invariant manifold, as in figures 10.6 and 10.9."""
 
     notebook: Literal["fixed_points"] = NOTEBOOK
-    model: Literal["slow_flow"] = MODEL
+    model: Literal["slow_flow", "exact_orbit"] = Field(description=THEORY)
     case: fields.CaseName
     C_max: fields.Planes
 
@@ -62,7 +63,9 @@ class Response(Section):
     """The theoretical response at a fixed point, as in figure 10.7 and, with planes, figure 10.10."""
 
     notebook: Literal["theoretical_response"] = NOTEBOOK
-    model: Literal["slow_flow"] = MODEL
+    model: Literal["slow_flow", "exact_orbit", "second_term"] = Field(
+        description=f"{THEORY}; second_term, the slow flow with the second term of (10.7)"
+    )
     case: fields.CaseName
     fixed_point: fields.Label
     periods: fields.real("Length of the response [forcing periods]", 0.5, 100)
@@ -73,7 +76,9 @@ class SimulatedMotion(Section):
     """The second module's motion by direct integration of a case, as in figures 10.8 and 10.11."""
 
     notebook: Literal["simulation"] = NOTEBOOK
-    model: Literal["simulation"] = MODEL
+    model: Literal["float64", "reference"] = Field(
+        description=f"{MODEL}float64, double precision; reference, arithmetic of many digits, for chaos"
+    )
     case: fields.CaseName
 
 

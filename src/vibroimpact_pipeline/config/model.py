@@ -18,7 +18,7 @@ PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 RULES = {
     *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check", "figures"),
     *("figure_check_strict", "fixed_points", "force_sweep", "gather", "hazards", "index", "method_comparison"),
-    *("modulation", "nudge", "orbits", "proofs", "report", "scene_models", "simulation", "stability", "studies"),
+    *("models", "modulation", "nudge", "orbits", "proofs", "report", "simulation", "stability", "studies"),
     *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts", "verdicts_by_epsilon"),
     "work_precision",
 }
@@ -76,7 +76,7 @@ class Simulation(Section):
     transient_cycles: fields.count("Cycles before the window [forcing periods]", 0)
     window_cycles: fields.count("Cycles that are kept [forcing periods]", 1, 1000)
     samples_per_cycle: int = Field(ge=8, le=1000, multiple_of=2, description="Samples in a cycle, an even number")
-    digits: fields.count("Decimal digits of the motion; absent: doubles", 20, 2000) | None = None
+    digits: fields.count("Decimal digits that model: reference begins with; absent: 40", 20, 2000) | None = None
 
 
 OWN = {name: (Annotated[field.annotation, field] | None, None) for name, field in SystemSection.model_fields.items()}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits.impulse_response import HarmonicResponse, ImpulseResponse, forced_amplitude
+from vibroimpact.exact.orbits.impulse_response import ImpulseResponse, forced_amplitude
 from vibroimpact.system.matrices import dynamic_stiffness
 
 
@@ -79,9 +79,6 @@ def test_a_resonance_of_two_equal_boxes_is_one(chapter, sign, harmonic, fails, f
         return
     with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with a\w* .*harmonic"):
         ImpulseResponse(system, sign)
-    if harmonic % 2:
-        with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with an odd harmonic"):
-            HarmonicResponse(system, 5)
 
 
 def test_responses_at_a_resonance_that_the_forces_do_not_load_are_refused(chapter):

@@ -11,12 +11,12 @@ EVIDENCE = {
     "epsilon_orders": "results/regimes/epsilon_orders.csv",
     "absorber": "results/absorber.csv",
     "clearance": "results/sweeps/clearance.csv",
-    "equal_samples": "results/simulations/equal/samples.csv",
-    "equal_events": "results/simulations/equal/events.csv",
-    "equal_summary": "results/simulations/equal/summary.json",
-    "weak_samples": "results/simulations/weak/samples.csv",
-    "weak_events": "results/simulations/weak/events.csv",
-    "weak_summary": "results/simulations/weak/summary.json",
+    "equal_samples": "results/simulations/equal/float64/samples.csv",
+    "equal_events": "results/simulations/equal/float64/events.csv",
+    "equal_summary": "results/simulations/equal/float64/summary.json",
+    "weak_samples": "results/simulations/weak/reference/samples.csv",
+    "weak_events": "results/simulations/weak/reference/events.csv",
+    "weak_summary": "results/simulations/weak/reference/summary.json",
 }
 
 # What a config does not make.

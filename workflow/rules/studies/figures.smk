@@ -11,8 +11,8 @@ COMPANIONS = {
         "case": "figures.fig10_08.case",
         "inputs": {
             "points": "results/fixed_points/{case}.csv",
-            "samples": "results/simulations/{case}/samples.csv",
-            "events": "results/simulations/{case}/events.csv",
+            "samples": "results/simulations/{case}/float64/samples.csv",
+            "events": "results/simulations/{case}/float64/events.csv",
         },
     },
     "companion_absorber": {
@@ -47,10 +47,9 @@ COMPANIONS = {
     "companion_horizon": {
         "case": "figures.fig10_11.case",
         "settings": ["cases.{case}.simulation.initial_state", "cases.{case}.simulation.transient_cycles"],
-        "inputs": {"strobe": "results/simulations/{case}/strobe.csv"},
+        "inputs": {"strobe": "results/simulations/{case}/reference/strobe.csv"},
         "needs": ["cases.{case}.simulation.digits"],
     },
-    "companion_ladder": {"systems": True, "settings": ["regimes.ladder.*"]},
     "companion_regime_map": {
         "case": "sweeps.regime_map.case",
         "systems": True,

@@ -4,14 +4,18 @@ MOVING = config["report"]
 PICTURES = "png", "pdf", "svg"
 
 
+def arithmetic(scene):
+    """The model of a case's simulation that is shown: the reference where the case gives its digits."""
+    return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"
+
+
 for name, scene in MOVING["animations"].items():
 
     rule:
         name:
             name
         input:
-            samples=f"results/simulations/{scene['case']}/samples.csv",
-            events=f"results/simulations/{scene['case']}/events.csv",
+            **{table: f"results/simulations/{scene['case']}/{arithmetic(scene)}/{table}.csv" for table in ("samples", "events")},
         output:
             **{kind: f"results/animations/{name}.{kind}" for kind in (*PICTURES, "json")},
         params:

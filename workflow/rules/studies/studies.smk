@@ -9,7 +9,7 @@ include: "field.smk"
 
 
 READ_BY_FIGURES = {path for figure in ALL_FIGURES for path in getattr(rules, figure).input if "results/" in path}
-SIMULATED = {Path(path).parent.name for path in READ_BY_FIGURES if "results/simulations/" in path}
+SIMULATED = {Path(path).parent.as_posix() for path in READ_BY_FIGURES if "results/simulations/" in path}
 
 
 # What the columns of all tables mean, for programs that read them elsewhere.
@@ -20,7 +20,7 @@ rule datapackage:
         rules.stability.input,
         rules.sweeps.input,
         sorted(READ_BY_FIGURES),
-        expand("results/simulations/{case}/{table}.csv", case=sorted(SIMULATED), table=["samples", "events", "strobe"]),
+        expand("{run}/{table}.csv", run=sorted(SIMULATED), table=["samples", "events", "strobe"]),
         citation=own("CITATION.cff"),
         data=own("report/data.yaml"),
     output:

@@ -194,10 +194,19 @@ def _order(orbit):
 
 def symmetric_orbit(system, root) -> Orbit:
     """The orbit of a root (4,) of the symmetric equations: impact times of both modules at one wall, then C_1, C_2."""
+    return _orbit(system, *_symmetric_impacts(system, root), np.full(2, 0.5), sign=-1)
+
+
+def symmetric_boxes(system, root, tau) -> np.ndarray:
+    """X_1 and X_2 of a root of the symmetric equations at times tau (n,), shape (n, 2)."""
+    return _boxes(system, *_symmetric_impacts(system, root), -1, tau)[:, :2]
+
+
+def _symmetric_impacts(system, root):
+    """Impact times (2, 2) of a root of the symmetric equations, and the changes (2,) of the balls' velocities there."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
-    changes = 4 * path_of(system.epsilon, C) / system.period
-    return _orbit(system, np.stack([times, later], axis=1), changes, np.full(2, 0.5), sign=-1)
+    return np.stack([times, later], axis=1), 4 * path_of(system.epsilon, C) / system.period
 
 
 def asymmetric_orbit(system, root) -> Orbit:
@@ -236,22 +245,26 @@ def _orbit(system, times, changes, fractions, sign):
     )
 
 
-def _state(system, times, changes, speeds, sign):
-    """State (8,) at tau = 0 by superposition of the forced response and the trains of kicks."""
+def _boxes(system, times, changes, sign, tau):
+    """Motion [X_1, X_2, X_1', X_2'] at times tau (n,) by superposition of the forced response and the trains of kicks.
+
+    times (2, 2), changes (2,), sign: of the impacts, as for `_orbit`.
+    """
     response, amplitude = impulse_response(system, sign), forced_amplitude(system)
     trains = 1 if sign == -1 else 2
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
+    forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
+    kicked = response.of_trains(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
+    return np.hstack([forced.imag, system.Omega * forced.real]) + np.einsum("niks,ik->ns", kicked, kicks)
 
-    def boxes(tau):
-        forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
-        kicked = response.of_trains(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
-        return np.hstack([forced.imag, system.Omega * forced.real]) + np.einsum("niks,ik->ns", kicked, kicks)
 
+def _state(system, times, changes, speeds, sign):
+    """State (8,) at tau = 0."""
     since = wrapped(-times, system.period)
     modules, last = np.arange(2), since.argmin(axis=1)
     walls = np.array([1, -1])[last]
     velocities = walls * speeds[modules, last]
-    now, *then = boxes(np.array([0.0, *times[modules, last]]))
+    now, *then = _boxes(system, times, changes, sign, np.array([0.0, *times[modules, last]]))
     state = np.empty(8)
     state[BOXES] = now
     state[BALLS[:2]] = np.diagonal(then) - walls + velocities * since[modules, last]

@@ -40,17 +40,16 @@ class SymmetricConditions:
 
     Args:
         forced: the boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
-        response: of the boxes to the kicks; the exact one, or another with its `between` (see `HarmonicResponse`).
 
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
 
-    def __init__(self, system, response=None, forced=None):
+    def __init__(self, system, forced=None):
         self.omega = system.Omega
         self._idle = ~np.isin(MODULES, system.modules)
         self.amplitudes = forced_amplitude(system)[None] if forced is None else forced
-        self._response = response or impulse_response(system, sign=-1)
+        self._response = impulse_response(system, sign=-1)
         self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
         speed = path_of(system.epsilon, 1.0) / (system.period / 2)
         self._kick = 2 * system.epsilon * speed
@@ -95,18 +94,15 @@ class SymmetricConditions:
         return np.concatenate([columns.real, columns.imag], axis=-2), np.array([0.0, 0.0, -1.0, -1.0])
 
 
-def symmetric_solutions(system, response=None) -> np.ndarray:
+def symmetric_solutions(system) -> np.ndarray:
     """Every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
 
     A module that takes no part has tau_i = C_i = 0.
 
-    Args:
-        response: as SymmetricConditions.
-
     Raises:
         ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
-    return _solutions(system, [system], response)[0]
+    return _solutions(system, [system])[0]
 
 
 def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
@@ -115,16 +111,16 @@ def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
     Raises:
         ValueError: as `symmetric_solutions`; or there is no system under one of the forces.
     """
-    return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces], None)
+    return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces])
 
 
-def _solutions(system, systems, response):
+def _solutions(system, systems):
     """The roots of each of some systems that differ from one in their forces alone."""
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
         forced = np.array([forced_amplitude(systems[k]) for k in alike])
-        conditions = SymmetricConditions(systems[alike[0]], response, forced)
+        conditions = SymmetricConditions(systems[alike[0]], forced)
         uncoupled = system.alpha12 == 0 and system.gamma12 == 0
         starts = _uncoupled_starts(conditions, modules) if uncoupled else _coupled_starts(system, conditions)
         roots = newton(conditions, starts)

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.accuracy.second_term import first_order
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, STABLE, heading, new_figure, styled
@@ -26,7 +27,6 @@ from vibroimpact.studies.regimes.coupling import (
     stable_ranges,
 )
 from vibroimpact.studies.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
-from vibroimpact.studies.regimes.two_terms import amplitudes
 from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
@@ -158,7 +158,11 @@ def _two_terms(system):
         here = coupled(system, value)
         points, roots = fixed_points(here), symmetric_solutions(here)
         pairs = zip(points, exact_orbits(here, [point.C for point in points], roots), strict=True)
-        found = [(point.C, amplitudes(here, point), orbit.C) for point, orbit in pairs if orbit is not None]
+        found = [
+            (point.C, point.C + here.epsilon * first_order(here, point)[0], orbit.C)
+            for point, orbit in pairs
+            if orbit is not None
+        ]
         if found:
             leading, C, exact = np.array(found).swapaxes(0, 1)
             error = np.abs(C - exact).max(axis=1) / exact.max(axis=1)

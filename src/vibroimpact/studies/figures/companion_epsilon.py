@@ -7,8 +7,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from vibroimpact.accuracy.second_term import NoOrbit, first_order
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
-from vibroimpact.studies.regimes.epsilon_limit import NoOrbit, compare, first_order, order
+from vibroimpact.studies.regimes.epsilon_limit import compare, order
 from vibroimpact.tables import curve, join
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
@@ -59,7 +60,6 @@ LOOKS = {
 """Names and looks of the errors that are drawn."""
 SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
 """Triangles: slope, and how many times the error of a curve they stand above it."""
-_STEP = 2e-4
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
@@ -126,7 +126,7 @@ def _two_terms(system, point, found):
     """Distances with the term of first order added; nan where there is no orbit to take it from."""
     added = np.nan
     with suppress(NoOrbit):
-        added = first_order(system, point, _STEP)
+        added = first_order(system, point)[:, np.isfinite(point.C)].ravel()
     return np.array([np.linalg.norm(c.offset - c.epsilon * added) for c in found])
 
 

@@ -5,16 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from vibroimpact.exact.orbits.impulse_response import impulse_response
-from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.accuracy.second_term import NoOrbit, offsets
 from vibroimpact.exact.orbits.search import symmetric_orbit
-from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.masri import impact_multipliers
-from vibroimpact.theory.response import impact_times
-
-
-class NoOrbit(ValueError):
-    """There is no symmetric orbit to compare a fixed point with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,33 +65,6 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
     )
 
 
-def first_order(system, point, step: float, response=impulse_response) -> np.ndarray:
-    """Return the second term of (10.7) at a fixed point, per epsilon: C and impact phases [rad], as `offset`.
-
-    The derivative of the exact orbit by epsilon at 0: the conditions of the orbit are solved from the fixed point.
-
-    Args:
-        response: gives the boxes' response, as `impulse_response`.
-
-    Raises:
-        NoOrbit: no orbit is reached.
-    """
-
-    def slope(epsilon):
-        return _reached(system.with_(epsilon=epsilon), point, response) / epsilon
-
-    return at_zero(slope, step)
-
-
-def at_zero(slope, step: float):
-    """The limit of slope(epsilon), analytic, at epsilon = 0, from its values at step, twice and four times that.
-
-    By Richardson's extrapolation; the error is of order step^3.
-    """
-    near, middle, far = (slope(n * step) for n in (1, 2, 4))
-    return (8 * near - 6 * middle + far) / 3
-
-
 def order(epsilon, errors) -> tuple[float, float]:
     """Exponent p of errors ~ epsilon^p by least squares on the logarithms, and its standard error (nan for 2 points).
 
@@ -118,22 +85,7 @@ def _nearest(system, point):
     roots = symmetric_solutions(system)
     if not len(roots):
         raise NoOrbit("system: it has no symmetric 1:1 orbit")
-    offsets = _offsets(system, point, roots)
-    nearest = np.linalg.norm(offsets, axis=1).argmin()
-    return roots[nearest], offsets[nearest]
-
-
-def _reached(system, point, response):
-    """Offset of the orbit that Newton's method reaches from a fixed point."""
-    start = np.nan_to_num(np.concatenate([impact_times(system, point), point.C]))
-    roots = newton(SymmetricConditions(system, response(system, -1)), start[None])
-    if not len(roots):
-        raise NoOrbit("system: no symmetric 1:1 orbit is reached from the fixed point")
-    return _offsets(system, point, roots)[0]
-
-
-def _offsets(system, point, roots):
-    """Roots minus fixed point: C and impact phases [rad] of the modules that take part, (n, 4) or (n, 2)."""
-    phases = np.angle(np.exp(1j * system.Omega * (roots[:, :2] - impact_times(system, point))))
     part = np.isfinite(point.C)
-    return np.concatenate([(roots[:, 2:] - point.C)[:, part], phases[:, part]], axis=1)
+    apart = offsets(system, point, roots)[..., part].reshape(len(roots), -1)
+    nearest = np.linalg.norm(apart, axis=1).argmin()
+    return roots[nearest], apart[nearest]

@@ -18,9 +18,12 @@ class Companion1005(Section):
     C_range: fields.around(0.6, fields.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
 
 
-class VerdictGrid(fields.ForceGrid):
+class VerdictGrid(Section):
     """The theory's verdicts against exact orbits, at the centres of points x points cells of forces."""
 
+    f10_range: fields.Forces
+    f20_range: fields.Forces
+    points: fields.Points
     epsilon: fields.items(fields.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
 
 

@@ -12,9 +12,7 @@ from vibroimpact_pipeline.config.section import Section
 NEAR = "How near to repeating before Newton's method takes over; half a cavity is 1"
 NAMES = tuple(field.name for field in dataclasses.fields(System))
 Along = fields.items(Literal[NAMES], 1, len(NAMES), "The parameters that move together")
-ODD = fields.needs(lambda numbers: numbers == sorted({n for n in numbers if n % 2}), "should be odd and ascending")
 APART = fields.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
-Harmonic = Annotated[int, Field(ge=1, le=999)]
 Window = Annotated[int, Field(ge=1, le=100_000)]
 
 
@@ -113,13 +111,6 @@ class EpsilonLimit(EpsilonRange):
     mixed: Mixed | None = None
 
 
-class Ladder(fields.ForceGrid):
-    """The model hierarchy between leading order and the exact orbit."""
-
-    harmonics: fields.items(Harmonic, 3, 20, "Highest harmonics of levels: odd, ascending", ODD)
-    fold_range: fields.Forces = Field(description="Range of f20_hat, the rest as in the first case, with one fold")
-
-
 class Regimes(Section):
     """Regimes of the exact system other than 1:1 responses."""
 
@@ -129,4 +120,3 @@ class Regimes(Section):
     basins: Basins
     epsilon: EpsilonLimit
     asymmetric: Asymmetric
-    ladder: Ladder

@@ -1,0 +1,139 @@
+"""The models that a figure of the chapter can be computed with, and the periodic motion of a fixed point by each."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from vibroimpact.accuracy import second_term
+from vibroimpact.accuracy.verdict_table import partners
+from vibroimpact.accuracy.window import ARITHMETICS
+from vibroimpact.exact.measures.slow_variables import amplitude_and_lag
+from vibroimpact.exact.orbits.search import symmetric_boxes
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.system.extras import need
+from vibroimpact.theory.fixed_points.table import LabelledPoint, labelled_point, labelled_points
+from vibroimpact.theory.manifold import sawtooth
+from vibroimpact.theory.response import Response, impact_times, leading_order
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the dependency check)
+
+MODELS = {
+    "slow_flow": "the slow flow: leading order, (10.9) and (10.10), at a fixed point",
+    "exact_orbit": "the exact symmetric orbit next to the fixed point",
+    "second_term": "the slow flow with the second term of (10.7), taken from exact orbits of small epsilon",
+    "float64": "simulation in double precision",
+    "reference": "simulation in the reference arithmetic, confirmed with twice the digits",
+}
+"""Every model by its name in the config, in words.
+
+By rising cost: the slow flow solves (10.23), the exact orbit the symmetric conditions as well, the second term these at
+three values of epsilon; a reference run repeats a run of float64 twice, with more digits.
+"""
+CHOICES = {
+    "fixed_points": ("slow_flow", "exact_orbit"),
+    "theoretical_response": ("slow_flow", "exact_orbit", "second_term"),
+    "simulation": ARITHMETICS,
+}
+"""The models of a figure by its notebook, by rising cost."""
+SAMPLES = 400
+"""Of a period, for the first harmonic of U, whose higher harmonics fall like 1/n^3."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The symmetric motion of a fixed point by one model.
+
+    point: its label, C, B and psi. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,); half a period
+    later it is at -1; NaN of a module that takes no part. response: gives U, X, W, Y at times tau (n,).
+    """
+
+    point: LabelledPoint
+    impacts: np.ndarray
+    response: Callable[[np.ndarray], Response]
+
+
+def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
+    """Return the motion of each fixed point of a system by a model; by the exact orbits those that have one.
+
+    Args:
+        points: all fixed points of the system, as an orbit belongs to the nearest one.
+        model: slow_flow, exact_orbit or second_term.
+
+    Raises:
+        ValueError: another model; or no orbit continues a fixed point to small epsilon.
+    """
+    if model == "slow_flow":
+        return [
+            Motion(point, impact_times(system, point), lambda tau, point=point: leading_order(system, point, tau))
+            for point in points
+        ]
+    if model == "second_term":
+        return [_second_term(system, point) for point in points]
+    if model == "exact_orbit":
+        roots = symmetric_solutions(system)
+        found = zip(points, partners([point.C for point in points], roots[:, 2:]), strict=True)
+        return [_exact(system, point, roots[k]) for point, k in found if k is not None]
+    raise ValueError(f"model: {model!r} is not slow_flow, exact_orbit or second_term")
+
+
+def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
+    """Return the motion of the fixed point of that label in a table of all of them; see `motions`.
+
+    Raises:
+        ValueError: as `motions`; or the table has no such point, or there is no exact orbit next to it.
+    """
+    labelled_point(points, label)
+    found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
+    if label not in found:
+        raise ValueError(f"model: there is no {model} next to fixed point {label!r}, it has slow_flow")
+    return found[label]
+
+
+def _exact(system, point, root) -> Motion:
+    """The motion of a root of the exact symmetric conditions."""
+    impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
+    return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
+
+
+def _second_term(system, point) -> Motion:
+    """The motion to the next order: of C and of the phase of the impacts, and of U at each phase of the forcing."""
+    C, shift = second_term.first_order(system, point)
+    impacts = np.remainder(impact_times(system, point) + system.epsilon * shift / system.Omega, system.period)
+    near = cache(lambda epsilon: second_term.near(system, point, epsilon))
+
+    def U(tau):
+        def slope(epsilon):
+            here, root = near(epsilon)
+            at = tau * (system.Omega / here.Omega)
+            return (_exact_U(here, root, at) - leading_order(here, point, at).U) / epsilon
+
+        return leading_order(system, point, tau).U + system.epsilon * second_term.at_zero(slope)
+
+    return _motion(system, point, point.C + system.epsilon * C, impacts, U)
+
+
+def _motion(system, point, C, impacts, U) -> Motion:
+    """The motion of a saw-tooth and of U, a function of tau; B and psi are those of the first harmonic of U."""
+
+    def response(tau):
+        boxes, Z = U(tau), _sawtooth(system, C, impacts, tau)
+        X = boxes + Z * system.epsilon / (1 + system.epsilon)
+        return Response(U=boxes, X=X, W=boxes + Z, Y=-Z / (1 + system.epsilon))
+
+    tau = np.arange(SAMPLES) * (system.period / SAMPLES)
+    B, psi = np.where(np.isfinite(C), amplitude_and_lag(tau, U(tau), system.Omega), np.nan)
+    return Motion(LabelledPoint(point.label, C, B, psi, point.multiple), impacts, response)
+
+
+def _exact_U(system, root, tau):
+    Z = _sawtooth(system, root[2:], root[:2], tau)
+    return symmetric_boxes(system, root, tau) - Z * system.epsilon / (1 + system.epsilon)
+
+
+def _sawtooth(system, C, impacts, tau):
+    """Z_i, shape (n, 2), 0 of a module that takes no part."""
+    return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

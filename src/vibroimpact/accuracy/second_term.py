@@ -1,0 +1,63 @@
+"""The second term of (10.7): the derivative by epsilon at 0 of the solution of the exact conditions of an orbit.
+
+An asymptotic series is unique: that is the term which multiple scales give.
+"""
+
+import numpy as np
+
+from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.symmetric import SymmetricConditions
+from vibroimpact.system import System
+from vibroimpact.theory.response import impact_times
+
+STEP = 2e-4
+"""Smallest epsilon of the derivatives: two terms are then known to 1e-8."""
+
+
+class NoOrbit(ValueError):
+    """There is no symmetric orbit to compare a fixed point with."""
+
+
+def first_order(system, point) -> np.ndarray:
+    """Return the second term of (10.7) at a fixed point, per epsilon: of C and of the impact phases [rad], (2, 2).
+
+    NaN of a module that takes no part.
+
+    Raises:
+        NoOrbit: no orbit is reached.
+    """
+
+    def slope(epsilon):
+        here, root = near(system, point, epsilon)
+        return offsets(here, point, root) / epsilon
+
+    return at_zero(slope)
+
+
+def at_zero(slope):
+    """The limit of slope(epsilon), analytic, at epsilon = 0, by Richardson's extrapolation from three values.
+
+    Its error is of order STEP^3.
+    """
+    low, middle, high = (slope(n * STEP) for n in (1, 2, 4))
+    return (8 * low - 6 * middle + high) / 3
+
+
+def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
+    """Return the system at another epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
+
+    Raises:
+        NoOrbit: Newton's method reaches none from the fixed point.
+    """
+    here = system.with_(epsilon=epsilon)
+    start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
+    roots = newton(SymmetricConditions(here), start[None])
+    if not len(roots):
+        raise NoOrbit("system: no symmetric 1:1 orbit is reached from the fixed point")
+    return here, roots[0]
+
+
+def offsets(system, point, roots) -> np.ndarray:
+    """Roots (..., 4) minus fixed point: C and impact phases [rad], (..., 2, 2); NaN of a module that takes no part."""
+    phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
+    return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

@@ -1,0 +1,203 @@
+"""Error against cost of every model in every scene of the chapter's theory and simulations, a panel for each scene."""
+
+from importlib import import_module
+from string import ascii_lowercase
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.accuracy.models import CHOICES
+from vibroimpact.accuracy.timing import interleaved
+from vibroimpact.accuracy.window import Window, window
+from vibroimpact.exact.measures import modulation
+from vibroimpact.exact.measures.periodicity import samples_per_cycle
+from vibroimpact.figures.plotting import simulated
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    LEVEL,
+    LIGHT_GREY,
+    heading,
+    new_figure,
+    side_by_side,
+    styled,
+)
+from vibroimpact.system import System
+from vibroimpact.system.state import NAMES
+from vibroimpact.theory.fixed_points.table import fixed_point_table
+
+SPEC = {
+    "title": "Error against cost of each model in each scene",
+    "caption": "Every model that a figure can be computed with: its largest error, in percent of the axis, against the "
+        "time that it takes. The error is the distance from the exact orbits, for simulations from the reference "
+        "arithmetic, for chaos in the statistics of bursts. Filled: the model in use, the cheapest below the "
+        "tolerance (dotted). In the grey lane: the reference itself, and errors below 0.001 %.",
+    "alt": "A panel per figure from 10.6 to 10.11, error over time on logarithmic axes, with a named mark for each "
+        "model. The slow flow errs by 3 to 5 %, the second term by some tenths of a per cent. In double precision the "
+        "steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the tolerance.",
+    "method": "each figure computed by each of its models, and compared in the quantities that it plots",
+    "file": "results/accuracy/models.csv",
+    "columns": {
+        "figure": {"meaning": "the figure", "unit": "text"},
+        "model": {"meaning": "one of its models, by rising cost", "unit": "text", "values": ["slow_flow",
+            "exact_orbit", "second_term", "float64", "reference"]},
+        "compared_with": {"meaning": "what its error is the distance from", "unit": "text", "values": ["exact_orbit",
+            "reference", "statistics of bursts"]},
+        "error": {"meaning": "largest error of what the figure plots, over the range of its axis; infinite where the "
+            "model shows other motions", "unit": "per cent", "infinite": True},
+        "tolerance": {"meaning": "largest error that the figure may have", "unit": "per cent"},
+        "seconds": {"meaning": "run time of the whole figure, without drawing; that of a simulation as its run time "
+            "per forcing period", "unit": "seconds"},
+        "in_use": {"meaning": "the model that the figure is drawn with", "unit": "true or false"},
+    },
+}  # fmt: skip
+
+TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
+"""Largest error of a figure [percent of the axis], by its notebook: of the theory epsilon = 0.1, of which order it errs;
+of a simulation some width of a line."""
+COMPARED = 120
+"""Most forcing periods of a simulation that are compared."""
+LEAST, MOST = 1e-3, 100.0
+"""Errors between which the axis runs [percent]."""
+LOWEST, LANE = 1e-4, 3e-4
+"""Lower end of the axis, and place of smaller errors, the reference among them."""
+
+
+def compute(scenes: dict, seconds: float) -> pd.DataFrame:
+    """Errors and run times of all models of each figure.
+
+    Args:
+        scenes: by figure its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`: of the
+            figure, or of its simulation (see `vibroimpact.accuracy.window.window`).
+        seconds: how long each run is repeated for its time, if it is shorter.
+
+    Returns columns figure, model, compared_with, error, tolerance, seconds, in_use; see SPEC.
+    """
+    rows = []
+    for figure, scene in scenes.items():
+        system, settings, models = System(**scene["system"]), scene["settings"], CHOICES[scene["notebook"]]
+        measured = _simulations if scene["notebook"] == "simulation" else _motions
+        for model, compared_with, error, cost in measured(
+            import_module(scene["module"]), system, settings, models, seconds
+        ):
+            known = {"figure": figure, "model": model, "compared_with": compared_with, "error": error}
+            known |= {"tolerance": TOLERANCE[scene["notebook"]], "seconds": cost, "in_use": model == scene["model"]}
+            rows.append(known)
+    return pd.DataFrame(rows)
+
+
+def _motions(module, system, settings, models, seconds):
+    """Model, reference, error and cost of figures of fixed points: the whole computation from the parameters."""
+
+    def made(model):
+        try:
+            return module.compute(system, fixed_point_table("", system), **settings, model=model)
+        except ValueError:  # it has no such motion
+            return None
+
+    tables = {model: made(model) for model in models}
+    timed = interleaved([lambda model=model: made(model) for model in models], seconds)
+    for (model, table), (_, cost) in zip(tables.items(), timed, strict=True):
+        yield model, "exact_orbit", largest_error(table, tables["exact_orbit"]), cost
+
+
+def _simulations(module, system, settings, models, seconds):
+    """The same of a simulated motion, in both arithmetics from where the transient in float64 ends.
+
+    The transient would keep the reference busy for a minute; its time is that of the window with few samples, in
+    proportion to the periods.
+    """
+    whole = window(system, settings | {"model": "float64"})
+    part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
+    part["window_cycles"] = min(part["window_cycles"], COMPARED)
+    run = window(system, part | {"model": "float64"})
+    ((_, fast),) = interleaved([lambda: window(system, settings | {"model": "float64"})], seconds)
+    ((reference, slow),) = interleaved([lambda: window(system, part | {"model": "reference"})], seconds)
+    if transient := settings["transient_cycles"]:
+        few = part | {"model": "reference", "samples_per_cycle": 8}
+        slow += interleaved([lambda: window(system, few)], seconds)[0][1] * transient / part["window_cycles"]
+    chaotic = "horizon" in run.trust["certificate"]
+    if chaotic:
+        of_run, of_reference = (burst_statistics(system, one, reference) for one in (run, reference))
+        error = float(np.abs(of_run - of_reference).max())
+    else:
+        error = largest_error(*(simulated.compute(system, one.samples, one.events) for one in (run, reference)))
+    compared_with = "statistics of bursts" if chaotic else "reference"
+    return zip(models, [compared_with] * 2, (error, 0.0), (fast, slow), strict=True)
+
+
+def largest_error(table, reference) -> float:
+    """Return the largest difference of two tables of a figure [percent of the range of its axis].
+
+    Compared are the points P_i of planes, and curves at the times that both have; inf if one table is None or shows
+    other points.
+    """
+    if table is None or reference is None:
+        return np.inf
+    errors = [0.0]
+    for column in {"C", "B", "value"} & {*table}:
+        one, other = _plotted(table, column), _plotted(reference, column)
+        if column != "value" and not one.index.equals(other.index):
+            return np.inf
+        spans = reference.groupby("panel")[column].agg(np.ptp)
+        apart = (one - other).abs().groupby("panel").max() / spans
+        errors.append(100 * apart.max())
+    return float(np.nanmax(errors))
+
+
+def _plotted(table, column):
+    """Values of one column that are compared, by panel, series and, of curves, time."""
+    rows = table[table["series"].str.startswith("P_")] if column != "value" else table.dropna(subset="value")
+    return rows.set_index(["panel", "series", *(["tau"] if column == "value" else [])])[column]
+
+
+def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
+    """Return what is plotted of bursts [percent]: time that ball 2 spends in them, and amplitudes of X_2 by periods.
+
+    The smallest, mean and largest amplitude are in percent of the range of X_2 in the reference.
+    """
+    impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
+    bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)
+    per_cycle = samples_per_cycle(run.samples["tau"].to_numpy(), system.period)
+    amplitudes = modulation.cycle_amplitudes(run.samples["X2"], per_cycle)
+    share = np.diff(bursts, axis=1).sum() / np.ptp(run.samples["tau"])
+    extremes = np.array([amplitudes.min(), amplitudes.mean(), amplitudes.max()])
+    return 100 * np.array([share, *extremes / np.ptp(reference.samples["X2"])])
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: a panel per figure, filled marks for the models in use, the tolerance dotted."""
+    scenes = list(dict.fromkeys(table["figure"]))
+    columns, rows = side_by_side(len(scenes))
+    figure = new_figure(DOUBLE_COLUMN, 44.0 * rows + 8.0)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    ends = table["seconds"].min() / 3, table["seconds"].max() * 3
+    for axes, scene, letter in zip(grid, scenes, ascii_lowercase * len(scenes), strict=False):
+        here = table[table["figure"] == scene]
+        axes.axhspan(LOWEST, LEAST, color=LIGHT_GREY, linewidth=0, zorder=0)
+        axes.axhline(here["tolerance"].iloc[0], **LEVEL)
+        for row in here.itertuples():
+            place = row.seconds, LANE if row.error < LEAST else min(row.error, MOST)
+            axes.plot(*place, color=BLACK, marker="o", markersize=5, markerfacecolor=BLACK if row.in_use else "white")
+            left = row.seconds > np.sqrt(ends[0] * ends[1])
+            aside = {"xytext": (-5, -2), "ha": "right"} if left else {"xytext": (5, -2)}
+            axes.annotate(row.model.replace("_", " "), place, textcoords="offset points", va="center", **aside)
+        axes.set(xscale="log", yscale="log", xlim=ends, ylim=(LOWEST, 1.5 * MOST))
+        axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
+        axes.minorticks_off()
+        heading(axes, letter, _name(scene))
+    for axes in grid[len(scenes) :]:
+        axes.set_axis_off()
+    for axes in grid[max(0, len(scenes) - columns) : len(scenes)]:
+        axes.set_xlabel("run time [s]")
+        axes.tick_params(labelbottom=True)
+    for axes in grid[::columns]:
+        axes.set_ylabel("error [% of the axis]")
+    return figure
+
+
+def _name(figure):
+    """Return the number of a figure of the chapter; the name of another."""
+    return f"Fig. {figure[3:].replace('_', '.').replace('.0', '.')}" if figure.startswith("fig10_") else figure
