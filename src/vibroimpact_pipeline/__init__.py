@@ -1,6 +1,10 @@
 """The pipeline around the library: config, records of results, provenance, figure check, report, archive."""
 
+import gc
+
 from vibroimpact_pipeline.code import INSTALLED, ROOT
 from vibroimpact_pipeline.environment import set_environment
 
 set_environment(None if INSTALLED else ROOT)
+# Of the time that imports take, a fifth would go into searching the objects of libraries for garbage.
+gc.set_threshold(100_000, 50, 50)

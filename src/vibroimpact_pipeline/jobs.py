@@ -62,6 +62,9 @@ def running(job) -> Iterator[SimpleNamespace]:
             if line := with_key(error, job.params.get("config") or {}):
                 sys.exit(line)
             raise
+    if type(job).__module__.startswith("snakemake."):  # nothing follows; to take the interpreter apart costs 0.3 s
+        sys.stdout.flush()
+        os._exit(0)
 
 
 def with_key(error, decided: dict) -> str | None:

@@ -4,13 +4,14 @@ import argparse
 from pathlib import Path
 from string import ascii_lowercase
 
-import pandas as pd
-
-from vibroimpact.system import System
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import case_parameters
+
+import pandas as pd
+
+from vibroimpact.system import System
 
 SECONDS = 0.5
 

@@ -2,12 +2,13 @@
 
 from importlib import import_module
 
-from vibroimpact import tables
-from vibroimpact.figures.plotting.style import write_and_draw
-from vibroimpact.system import System
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.specs import module_of
+
+from vibroimpact import tables
+from vibroimpact.figures.plotting.style import write_and_draw
+from vibroimpact.system import System
 
 
 def arguments(params, inputs) -> dict:

@@ -1,9 +1,10 @@
 """Tables of all cases -> one table of fixed points, one of orbits."""
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     for paths, path in ((snakemake.input.fixed_points, out.csv), (snakemake.input.orbits, out.orbits)):

@@ -3,36 +3,50 @@
 The executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
 """
 
-import os
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from uuid import uuid4
-
-import papermill
-from jupyter_client.kernelspec import KernelSpecManager
-from jupyter_client.manager import AsyncKernelManager
-from traitlets import default
-from traitlets.config import Config
 
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.html.offline import page
 from vibroimpact_pipeline.jobs import running
 
+import papermill
+from ipykernel.inprocess import InProcessKernelManager
+from nbformat.v4 import output_from_msg
+from papermill.engines import Engine, papermill_engines
 
-class OwnKernel(AsyncKernelManager):
-    """A kernel of the interpreter that runs this job, whatever the kernels are that Jupyter finds by that name."""
+SHOWN = "stream", "display_data", "execute_result", "error"
+"""Kinds of a kernel's messages that are outputs of a cell."""
 
-    @default("kernel_spec_manager")
-    def of_this_interpreter(self):
-        return KernelSpecManager(kernel_dirs=[])
+
+class InProcess(Engine):
+    """Execute the cells in this process: a kernel in a process of its own would import everything once more."""
+
+    @classmethod
+    def execute_managed_notebook(cls, manager, kernel_name, **settings):
+        kernel = InProcessKernelManager()
+        kernel.start_kernel()
+        client = kernel.client()
+        client.start_channels()
+        for index, cell in enumerate(manager.nb.cells):
+            if cell.cell_type != "code":
+                continue
+            manager.cell_start(cell, index)
+            client.execute(cell.source)
+            cell.execution_count = kernel.kernel.execution_count - 1
+            messages = client.iopub_channel.get_msgs()
+            cell.outputs = [output_from_msg(message) for message in messages if message["msg_type"] in SHOWN]
+            if client.get_shell_msg()["content"]["status"] == "error":
+                manager.cell_exception(cell, index)
+                return
+            manager.cell_complete(cell, index)
+
+
+papermill_engines.register("in_process", InProcess)
 
 
 def execute(notebook, executed, parameters: dict):
     """Return the executed notebook; it must have the parameters that are given.
-
-    Its kernel is spoken to through sockets that Linux knows by a name, which the @ says: one in a folder may have a
-    path of 107 characters at most.
 
     Raises:
         ValueError: it has not, of which papermill itself would only warn; or a cell has found one of them wrong.
@@ -40,21 +54,17 @@ def execute(notebook, executed, parameters: dict):
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
         raise ValueError(f"notebook: {notebook} has no parameters {', '.join(unknown)}")
-    with TemporaryDirectory() as folder:
-        os.environ["JUPYTER_RUNTIME_DIR"] = folder
-        sockets = {"transport": "ipc", "ip": f"@vibroimpact-{uuid4()}", "connection_file": f"{folder}/kernel.json"}
-        try:
-            return papermill.execute_notebook(
-                str(notebook),
-                str(executed),
-                parameters,
-                kernel_name="python3",
-                kernel_manager_class=OwnKernel,
-                progress_bar=False,
-                config=Config({"KernelManager": sockets}),
-            )
-        except papermill.PapermillExecutionError as error:
-            raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
+    try:
+        return papermill.execute_notebook(
+            str(notebook),
+            str(executed),
+            parameters,
+            engine_name="in_process",
+            kernel_name="python3",
+            progress_bar=False,
+        )
+    except papermill.PapermillExecutionError as error:
+        raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
 
 
 def the_same_in_each_build(notebook, paths: dict):

@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
@@ -10,7 +12,6 @@ from vibroimpact.accuracy.verdict_table import orbit_rows
 from vibroimpact.exact.orbits.proof.table import proof_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     found = search(System(**snakemake.params.system))

@@ -5,11 +5,12 @@ holds the state at the start of every forcing cycle of the whole run.
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 from vibroimpact import tables
 from vibroimpact.accuracy.window import Window, window
 from vibroimpact.system import System
 from vibroimpact.system.state import KINDS, NAMES
-from vibroimpact_pipeline.jobs import running
 
 
 def summarise(simulated: Window, settings: dict) -> dict:

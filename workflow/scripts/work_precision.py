@@ -1,5 +1,8 @@
 """Work-precision measurements on all test problems -> work_precision.csv, and the chart."""
 
+from vibroimpact_pipeline import provenance
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
@@ -9,8 +12,6 @@ from vibroimpact.figures import work_precision as figure
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.integrators import TIMED
 from vibroimpact.system import System
-from vibroimpact_pipeline import provenance
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     rows = []

@@ -3,11 +3,12 @@
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 from vibroimpact import tables
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.studies.figures.animation import PLACES, compute, draw
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 DECIMALS = {"t": 4, "X1": 3, "Y1": 3, "X2": 3, "Y2": 3}
 """A thousandth of L is less than a pixel."""

@@ -6,12 +6,13 @@ In a build with other parameters than the chapter's, or other settings, those th
 import json
 from pathlib import Path
 
-import yaml
-
-from vibroimpact.studies.claims.judge import judge, to_markdown
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.studies.claims_config import unlike
 from vibroimpact_pipeline.studies.claims_evidence import evidence
+
+import yaml
+
+from vibroimpact.studies.claims.judge import judge, to_markdown
 
 with running(snakemake) as out:
     config, inputs = snakemake.params.config, dict(snakemake.input.items())

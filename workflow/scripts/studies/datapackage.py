@@ -4,13 +4,13 @@ import csv
 import json
 from pathlib import Path
 
-import yaml
-
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.datapackage import data_package
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.specs import spec_of
+
+import yaml
 
 
 def header(path):

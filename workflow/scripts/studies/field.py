@@ -7,11 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.studies.field import responses
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     folder = os.environ.get("CC_PROGRAM", "")

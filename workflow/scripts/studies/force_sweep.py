@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 import numpy as np
 
 from vibroimpact import tables
@@ -12,7 +14,6 @@ from vibroimpact.frames import with_former_names
 from vibroimpact.studies.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.system import System
 from vibroimpact.theory.criteria import THEORY
-from vibroimpact_pipeline.jobs import running
 
 
 def for_page(found: dict, values: list) -> dict:

@@ -1,9 +1,10 @@
 """Measures of the regimes of all cases and their Lyapunov spectra -> three CSV files."""
 
+from vibroimpact_pipeline.jobs import running
+
 from vibroimpact import tables
 from vibroimpact.studies.claims.modulation_tables import modulation_tables
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     systems = {case: System(**parameters) for case, parameters in snakemake.params.systems.items()}

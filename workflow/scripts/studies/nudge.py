@@ -3,11 +3,12 @@
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 from vibroimpact.figures.plotting.style import save
 from vibroimpact.studies.figures.animation import PLACES
 from vibroimpact.studies.figures.nudge import compute, draw
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     found = compute(System(**snakemake.params.system))

@@ -9,12 +9,13 @@ import dataclasses
 import json
 from pathlib import Path
 
+from vibroimpact_pipeline.jobs import running
+
 from vibroimpact import tables
 from vibroimpact.exact.orbits.proof.table import counts
 from vibroimpact.studies.completeness.orbits import certify as certify_orbits
 from vibroimpact.studies.completeness.points import certify, certify_asymmetric
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 CERTIFIED = {
     "fixed_points": certify,

@@ -4,7 +4,6 @@ import json
 import shutil
 from pathlib import Path
 
-from vibroimpact.studies.claims.judge import NOT_JUDGED
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.git import GitRefused, git
@@ -13,6 +12,8 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.studies.report.pages import Pages, anchor
 from vibroimpact_pipeline.studies.report.results import Results
 from vibroimpact_pipeline.studies.report.site import write
+
+from vibroimpact.studies.claims.judge import NOT_JUDGED
 
 
 def collect(results, figures, tables, folder: Path) -> None:

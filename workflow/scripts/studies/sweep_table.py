@@ -2,12 +2,13 @@
 
 import sys
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.frames import to_dataset
 from vibroimpact.studies.sweeps.spec import POINT
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     table = pd.concat(map(tables.read, snakemake.input), ignore_index=True).sort_values(POINT, ignore_index=True)

@@ -1,12 +1,13 @@
 """One tile of a sweep -> CSV, a row per point."""
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.exact.engine.all_cores import at_most
 from vibroimpact.studies.sweeps.request import parsed
 from vibroimpact.studies.sweeps.rows import columns, rows
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out, at_most(snakemake.threads):
     grid, spec = parsed(snakemake.params.request)

@@ -1,11 +1,12 @@
 """All cases -> CSV: the verdicts on their fixed points at several epsilon."""
 
+from vibroimpact_pipeline.jobs import running
+
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.studies.claims.verdict_grid import by_epsilon
 from vibroimpact.system import System
-from vibroimpact_pipeline.jobs import running
 
 with running(snakemake) as out:
     judged = {
