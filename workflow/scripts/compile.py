@@ -5,12 +5,8 @@ from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
 
 import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba reads when it is imported)
-<<<<<<< ours
-from vibroimpact.compile import beforehand, certificates, event_loop
-=======
 
-from vibroimpact.compile import ensembles, event_loop, results_of_runs
->>>>>>> theirs
+from vibroimpact.compile import beforehand, certificates, event_loop
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
 """Modules that jobs import by name, without an import statement."""

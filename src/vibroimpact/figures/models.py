@@ -54,7 +54,7 @@ SPEC = {
 }  # fmt: skip
 
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
-"""Largest error of a figure [percent of the axis], by its notebook: of the theory epsilon = 0.1, the order of its error;
+"""Largest error of a figure [percent of the axis], by its notebook: of the theory epsilon = 0.1, the order of error;
 of a simulation some width of a line."""
 COMPARED = 120
 """Most forcing periods of a simulation that are compared."""
