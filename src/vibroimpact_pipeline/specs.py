@@ -80,6 +80,12 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
     return known[module] | own | {"tables": tables, "module": module_of(module)}
 
 
+def with_model(caption: str, scene: dict) -> str:
+    """Return the caption of a figure, and behind it the name of the model of its scene if that is not the chapter's."""
+    other = scene.get("model") in ("exact_orbit", "second_term")
+    return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
+
+
 def at(config: dict, path: str):
     """Return the entry of a config at "section.key".
 

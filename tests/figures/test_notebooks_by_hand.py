@@ -47,7 +47,7 @@ def sums(folder):
 def shown(tmp_path_factory):
     """What each of RUNS shows, opened beside files that bear the names of results and hold nothing of use."""
     folder = tmp_path_factory.mktemp("opened")
-    for name in ("fixed_points/equal.csv", "simulations/equal/summary.json", "figures/fig10_06.png"):
+    for name in ("fixed_points/equal.csv", "simulations/equal/float64/summary.json", "figures/fig10_06.png"):
         for results in (folder / "results", folder / "notebooks/results"):
             (results / name).parent.mkdir(parents=True, exist_ok=True)
             (results / name).write_text("of a build")

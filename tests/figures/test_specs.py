@@ -156,7 +156,7 @@ def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
 def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_chapter):
     params = of_the_chapter["companion_horizon"].params
     run = CONFIG["cases"]["weak"]["simulation"]
-    assert of_the_chapter["companion_horizon"].input.strobe == "results/simulations/weak/strobe.csv"
+    assert of_the_chapter["companion_horizon"].input.strobe == "results/simulations/weak/reference/strobe.csv"
     assert params.settings == {name: run[name] for name in ("initial_state", "transient_cycles")}
     assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
     assert params.config["cases.weak"] == params.system

@@ -1,5 +1,6 @@
 """Verdicts of the theory's criteria on fixed points and orbits."""
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,7 +8,6 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.accuracy.scene_models import true_fixed_point
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
@@ -19,6 +19,31 @@ PRINTED, FOLD, BREAKING = 3.3 / 3.65, 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi*
 
 def case(name):
     return vi.System(**PARAMETERS, f10_hat=CASES[name][0], f20_hat=CASES[name][1])
+
+
+def true_fixed_point(system, point):
+    """C and psi, each (2,), of a fixed point with 30 digits: (10.23) as two complex equations, written out."""
+    with mp.workdps(30):
+        s = {name: mp.mpf(str(value)) for name, value in vars(system).items()}
+        r = 2 * (1 - s["kappa"]) / (mp.pi * (1 + s["kappa"]))
+        coupling = s["alpha12_hat"] + 1j * s["gamma12_hat"]
+        tuning = 2 * s["sigma_e_hat"] - s["alpha12_hat"], 2 * s["sigma_e_hat"] - s["alpha12_hat"] - s["sigma20_hat"]
+        damping = s["gamma1_hat"] + s["gamma12_hat"], s["gamma2_hat"] + s["gamma12_hat"]
+        force = s["f10_hat"], s["f20_hat"]
+
+        def residual(C1, psi1, C2, psi2):
+            C = C1, C2
+            B = [mp.sqrt(1 - 2 * c + (1 + r**2) * c**2) for c in C]
+            b = [B[0] * mp.exp(-1j * psi1), B[1] * mp.exp(-1j * psi2)]
+            found = []
+            for i in range(2):
+                impacts = 8 / mp.pi**2 * C[i] * ((1 - C[i]) + 1j * r * C[i]) / B[i] ** 2
+                value = (tuning[i] - 1j * damping[i] - impacts) * b[i] + coupling * b[1 - i] + force[i]
+                found += [value.real, value.imag]
+            return found
+
+        C1, psi1, C2, psi2 = mp.findroot(residual, np.column_stack([point.C, point.psi]).ravel().tolist())
+        return (C1, C2), (psi1, psi2)
 
 
 @pytest.mark.parametrize(
@@ -82,10 +107,10 @@ def test_error_of_a_fixed_point_covers_the_rounding_that_its_residual_does_not_s
     for f10, f20 in random.uniform(0.3, 1.5, (12, 2)):
         system = vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20)
         for point in vi.fixed_points(system):
-            truth = true_fixed_point(system, point)
-            turns = 2 * np.pi * np.round((np.array(truth.psi, float) - point.psi) / (2 * np.pi))
-            away = [abs(float(c - x)) for c, x in zip(truth.C, point.C, strict=True)]
-            away += [abs(float(p - t - x)) for p, t, x in zip(truth.psi, turns, point.psi, strict=True)]
+            C, psi = true_fixed_point(system, point)
+            turns = 2 * np.pi * np.round((np.array(psi, float) - point.psi) / (2 * np.pi))
+            away = [abs(float(c - x)) for c, x in zip(C, point.C, strict=True)]
+            away += [abs(float(p - t - x)) for p, t, x in zip(psi, turns, point.psi, strict=True)]
             assert max(away) <= verdicts.fixed_point_error(system, point)
             residual, J = verdicts.equations(system, point.psi, point.C)
             beyond_the_step += max(away) > np.abs(np.linalg.inv(J) @ residual).max()

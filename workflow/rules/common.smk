@@ -38,7 +38,7 @@ if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.git import committed
-from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs
+from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs, with_model
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
@@ -208,7 +208,8 @@ def caption(figure):
     """The caption of a figure, with the numbers that it asks for."""
     params = getattr(rules, figure).params
     known = SCENES.get(figure, {}) | (params.get("system") or config["system"]) | params.get("scene", {})
-    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), spec(figure)["caption"])
+    text = with_model(spec(figure)["caption"], known)
+    return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), text)
 
 
 def left_over():

@@ -54,8 +54,8 @@ SPEC = {
 }  # fmt: skip
 
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
-"""Largest error of a figure [percent of the axis], by its notebook: of the theory epsilon = 0.1, the order of error;
-of a simulation some width of a line."""
+"""Largest error of a figure [percent of the axis], by its notebook: of the theory its order, epsilon = 0.1; of a
+simulation about the width of a line."""
 COMPARED = 120
 """Most forcing periods of a simulation that are compared."""
 LEAST, MOST = 1e-3, 100.0
@@ -76,15 +76,11 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     """
     rows = []
     for figure, scene in scenes.items():
-        system, settings, models = System(**scene["system"]), scene["settings"], CHOICES[scene["notebook"]]
-        measured = _simulations if scene["notebook"] == "simulation" else _motions
-        for model, compared_with, error, cost in measured(
-            import_module(scene["module"]), system, settings, models, seconds
-        ):
-            known = {"figure": figure, "model": model, "compared_with": compared_with, "error": error}
-            known |= {"tolerance": TOLERANCE[scene["notebook"]], "seconds": cost, "in_use": model == scene["model"]}
-            rows.append(known)
-    return pd.DataFrame(rows)
+        notebook, module = scene["notebook"], import_module(scene["module"])
+        measured = _simulations if notebook == "simulation" else _motions
+        found = measured(module, System(**scene["system"]), scene["settings"], CHOICES[notebook], seconds)
+        rows += [[figure, *row[:3], TOLERANCE[notebook], row[3], row[0] == scene["model"]] for row in found]
+    return pd.DataFrame(rows, columns=[*SPEC["columns"]])
 
 
 def _motions(module, system, settings, models, seconds):

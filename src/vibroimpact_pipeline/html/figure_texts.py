@@ -7,7 +7,7 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
-from vibroimpact_pipeline.specs import case_parameters, spec_of, specs
+from vibroimpact_pipeline.specs import case_parameters, spec_of, specs, with_model
 
 SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
 """Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""
@@ -42,6 +42,7 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
         heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "
         if figure in CASE_OF and parameters != PARAMETERS | CASES[CASE_OF[figure]]:
             spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
+    spec = spec | {"caption": with_model(spec["caption"], scene)}
     said = {name: _filled(spec[name], scene | parameters, as_is) for name, as_is in SAID.items()}
     return spec | said | {"title": heading + said["title"]}
 

@@ -41,7 +41,10 @@ def inputs(studied):
     inputs |= {name: results / f"sweeps/{name}.csv" for name in SWEEPS}
     inputs["proofs"] = results / "proofs.json"
     for case in ("equal", "weak"):
-        files = (results / "simulations" / case / name for name in ("samples.csv", "events.csv", "summary.json"))
+        model = {"equal": "float64", "weak": "reference"}[case]
+        files = (
+            results / "simulations" / case / model / name for name in ("samples.csv", "events.csv", "summary.json")
+        )
         inputs |= {f"{case}_{file.stem}": file for file in files}
     return inputs
 

@@ -12,7 +12,7 @@ from verdict_tables import verdicts_of
 from vibroimpact.figures.plotting import style
 from vibroimpact.studies.absorbers.references import fixed_balls, without_balls
 from vibroimpact.studies.absorbers.tuning import compared
-from vibroimpact.studies.figures import companion_absorber, companion_asymmetric, companion_ladder, companion_response
+from vibroimpact.studies.figures import companion_absorber, companion_asymmetric, companion_response
 from vibroimpact.studies.figures import companion_basins as basins
 from vibroimpact.studies.figures import companion_branches as branches
 from vibroimpact.studies.figures import companion_epsilon as epsilon_limit
@@ -33,7 +33,6 @@ MODULES = {
     "basins": basins,
     "epsilon": epsilon_limit,
     "asymmetric": companion_asymmetric,
-    "ladder": companion_ladder,
     "absorber": companion_absorber,
     "response": companion_response,
 }
@@ -73,7 +72,6 @@ def tables(balls):
         "asymmetric": companion_asymmetric.compute(
             EQUAL, verdicts_of(EQUAL)[1], kappa=0.65, epsilon=[0.1, 1e-3], values=9, fit_below=0.05, C_max=2.5
         ),
-        "ladder": companion_ladder.compute(EQUAL, [1, 3, 5], [0.0, 1.6], [0.0, 1.6], 2, [0.6, 0.89]),
         "epsilon": epsilon_limit.compute(
             SYSTEMS, epsilon=[0.1, 1e-4], values=5, fit_below=0.05, mixed={"case": "unequal", "label": "b"}
         ),

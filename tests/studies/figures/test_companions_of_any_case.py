@@ -14,7 +14,6 @@ from vibroimpact.studies.figures import (
     companion_branches,
     companion_coupling,
     companion_epsilon,
-    companion_ladder,
     companion_response,
     force_sweep,
 )
@@ -81,13 +80,6 @@ def test_theory_and_orbit_without_either_are_not_compared():
     companion_epsilon.draw(tables)
 
 
-def test_a_case_without_motions_has_no_errors():
-    tables = companion_ladder.compute({"still": STILL}, [1, 3, 5], [0.0, 0.02], [0.0, 0.02], 2, [0.001, 0.01])
-    assert not tables["csv"]["error"].any()
-    assert tables["verdicts"].empty
-    companion_ladder.draw(tables)
-
-
 def test_without_asymmetric_orbits_the_manifold_is_shown():
     orbits = pd.DataFrame(columns=["case", "label", "symmetric", "C1", "C2"])
     tables = companion_asymmetric.compute({"still": STILL}, orbits, STILL.kappa, [0.1, 0.01], 3, 0.05, 2.5)
@@ -138,9 +130,6 @@ def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
     tables = companion_epsilon.compute({"single": system}, [0.1, 0.001], 5, 0.02)
     assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)
     companion_epsilon.draw(tables)
-    ladder = companion_ladder.compute({"single": system}, [1, 3, 5], [0.0, 0.02], [0.0, 0.02], 2, [0.001, 0.01])
-    assert ladder["csv"]["error"].notna().any()
-    companion_ladder.draw(ladder)
     both = system.with_(f20_hat=1.4)
     alone, together = (compare(one, vi.fixed_points(one)[0]) for one in (system, both))
     np.testing.assert_allclose(alone.offset, together.offset[[0, 2]], atol=1e-9)

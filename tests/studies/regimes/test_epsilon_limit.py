@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.studies.regimes.epsilon_limit import compare, first_order, order
+from vibroimpact.accuracy.second_term import first_order
+from vibroimpact.studies.regimes.epsilon_limit import compare, order
 
 
 def test_the_order_of_a_power_law():
@@ -43,7 +44,7 @@ def test_the_second_term_of_a_single_module_in_closed_form(chapter):
         low, high = (upper_amplitude(mpmath.mpf(10) ** -12 * n, *given) for n in (1, 2))
         slope, limit = float((high - low) * mpmath.mpf(10) ** 12), float(2 * low - high)
     np.testing.assert_allclose(point.C, limit, rtol=1e-12)
-    np.testing.assert_allclose(first_order(system, point, 2e-4)[:2], slope, rtol=1e-6)
+    np.testing.assert_allclose(first_order(system, point)[0], slope, rtol=1e-6)
 
 
 @pytest.mark.parametrize(("f10", "f20"), [(1.0, 1.0), (0.5, 0.5)])
@@ -56,3 +57,12 @@ def test_errors_shrink_tenfold_with_epsilon(chapter, f10, f20):
         fast = [abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found]
         for errors in (distances, slow, fast):
             assert errors[0] / errors[1] == pytest.approx(10, rel=0.1)
+
+
+def test_two_terms_are_right_to_second_order(chapter):
+    point = vi.fixed_points(chapter(1.0, 1.0))[-1]
+    added = first_order(chapter(1.0, 1.0), point).ravel()
+    epsilon = np.geomspace(1e-2, 1e-3, 3)
+    found = [compare(chapter(1.0, 1.0, epsilon=e), point) for e in epsilon]
+    errors = [np.linalg.norm(c.offset - c.epsilon * added) for c in found]
+    assert order(epsilon, errors)[0] == pytest.approx(2, abs=0.03)

@@ -1,7 +1,7 @@
 """The ways in which both balls may lean, from weak to strong coupling, and the power that impacts take.
 
 A ball leans if its two flights take unequal time; v is the difference of the flight times over the period. Both balls
-may lean the same way or opposite ways, each with a mirror image (docs/derivation.md, section 15).
+may lean the same way or opposite ways, each with a mirror image (docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator

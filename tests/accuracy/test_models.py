@@ -1,0 +1,115 @@
+"""The motion of a fixed point by each model, against simulations by the engine and the orders of their errors."""
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from vibroimpact.accuracy.models import CHOICES, MODELS, motion, motions
+from vibroimpact.accuracy.window import window
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
+from vibroimpact_pipeline.config import figures
+
+SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
+
+
+def by(model, system):
+    return motions(system, labelled_points(fixed_point_table("", system)), model)
+
+
+def test_the_config_offers_the_models_that_there_are():
+    for section in (figures.FixedPoints, figures.Response, figures.SimulatedMotion):
+        notebook, model = (section.model_fields[name] for name in ("notebook", "model"))
+        assert get_args(model.annotation) == CHOICES[get_args(notebook.annotation)[0]]
+        assert all(name in model.description for name in get_args(model.annotation))
+    assert {model for models in CHOICES.values() for model in models} == set(MODELS)
+
+
+@pytest.mark.parametrize("case", SYSTEMS)
+def test_an_exact_orbit_is_a_motion_of_the_engine(case):
+    """Simulated from its state for a period: all coordinates, and the times of the impacts at W = +1."""
+    system = SYSTEMS[case]
+    tau = np.linspace(0.0, system.period, 50)
+    orbits = [orbit for orbit in vi.orbits(system) if orbit.symmetric]
+    for found in by("exact_orbit", system):
+        orbit = min(orbits, key=lambda orbit: np.abs(orbit.C - found.point.C).max())
+        run, shown = vi.simulate(system, orbit.state, 1, sample_times=tau), found.response(tau)
+        X, Y = run.samples[:, [0, 2]], run.samples[:, [1, 3]]
+        for value, simulated in ((shown.X, X), (shown.Y, Y), (shown.W, X - Y), (shown.U, X + system.epsilon * Y)):
+            np.testing.assert_allclose(value, simulated, atol=1e-9)
+        for module in (1, 2):
+            (at,) = run.events["tau"][(run.events["module"] == module) & (run.events["wall"] == 1)]
+            assert found.impacts[module - 1] == pytest.approx(at, abs=1e-9)
+        turning = 2 * np.mean(shown.U[:-1] * np.exp(1j * system.Omega * tau[:-1, None]), axis=0)
+        np.testing.assert_allclose(found.point.B, np.abs(turning), atol=1e-5)
+
+
+@pytest.mark.parametrize("case", SYSTEMS)
+def test_errors_of_the_slow_flow_fall_like_epsilon_and_with_the_second_term_like_its_square(case):
+    errors = {}
+    for epsilon in (4e-3, 2e-3):
+        system = SYSTEMS[case].with_(epsilon=epsilon)
+        tau = np.linspace(0.0, system.period, 100)
+        exact = [one.response(tau) for one in by("exact_orbit", system)]
+        for model in ("slow_flow", "second_term"):
+            for found, truth in zip(by(model, system), exact, strict=True):
+                shown = found.response(tau)
+                error = max(np.abs(getattr(shown, name) - getattr(truth, name)).max() for name in "UXWY")
+                errors.setdefault((model, found.point.label), []).append(error)
+    for (model, label), (more, less) in errors.items():
+        assert np.log2(more / less) == pytest.approx({"slow_flow": 1, "second_term": 2}[model], abs=0.1), label
+
+
+@pytest.mark.parametrize("model", CHOICES["theoretical_response"])
+def test_of_a_single_machine_its_module_moves_as_in_company(model):
+    uncoupled = SYSTEMS["equal"].with_(alpha12_hat=0.0, gamma12_hat=0.0, f10_hat=1.5, f20_hat=1.4)
+    tau = np.linspace(0.0, uncoupled.period, 20)
+    (alone,) = by(model, uncoupled.with_(f20_hat=0.0))
+    together = min(by(model, uncoupled), key=lambda one: abs(one.point.C[0] - alone.point.C[0]))
+    for name in "UXWY":
+        shown = getattr(alone.response(tau), name)
+        np.testing.assert_allclose(shown[:, 0], getattr(together.response(tau), name)[:, 0], atol=1e-8)
+        assert not shown[:, 1].any()
+    assert np.isnan([*(getattr(alone.point, name)[1] for name in ("C", "B", "psi")), alone.impacts[1]]).all()
+
+
+def test_a_point_without_an_exact_orbit_has_no_such_motion():
+    """Further from every orbit than any is from its point."""
+    system = SYSTEMS["weak"]
+    table = fixed_point_table("weak", system).assign(C1=9.0)
+    with pytest.raises(ValueError, match=r"\Amodel: there is no exact_orbit next to fixed point 'a'"):
+        motion(system, table, "a", "exact_orbit")
+    assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
+
+
+def test_other_models_are_refused_in_one_line():
+    system, settings = SYSTEMS["weak"], {"transient_cycles": 0, "window_cycles": 1, "samples_per_cycle": 8}
+    with pytest.raises(ValueError, match=r"\Amodel: 'float64' is not slow_flow, exact_orbit or second_term\Z"):
+        motion(system, fixed_point_table("weak", system), "a", "float64")
+    with pytest.raises(ValueError, match=r"\Amodel: 'slow_flow' is not float64 or reference\Z"):
+        window(system, settings | {"initial_state": [0.0] * 8, "model": "slow_flow"})
+    with pytest.raises(ValueError, match=r"\Afixed_point: "):
+        motion(system, fixed_point_table("weak", system), "z", "exact_orbit")
+
+
+def test_the_arithmetic_is_that_of_the_model_whatever_digits_the_case_has():
+    system = SYSTEMS["equal"]
+    settings = {"initial_state": [0.0] * 8, "transient_cycles": 0, "window_cycles": 2, "samples_per_cycle": 8}
+    trusts = {
+        (model, digits): window(system, settings | digits_of(digits) | {"model": model}).trust
+        for model in CHOICES["simulation"]
+        for digits in (None, 50)
+    }
+    assert {key: trust["method"] for key, trust in trusts.items()} == {
+        ("float64", None): "float64",
+        ("float64", 50): "float64",
+        ("reference", None): "arbitrary precision",
+        ("reference", 50): "arbitrary precision",
+    }
+    assert [trusts["reference", digits]["digits"] for digits in (None, 50)] == [[40, 80], [50, 100]]
+
+
+def digits_of(digits):
+    return {} if digits is None else {"digits": digits}

@@ -1,0 +1,92 @@
+"""The chart of models: its errors, the choice of the config, and what is drawn."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+import vibroimpact as vi
+from pipeline_trees import ROOT
+from vibroimpact.accuracy.models import CHOICES
+from vibroimpact.figures import models
+from vibroimpact.tables import curve, join
+
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+
+
+def scene(figure):
+    """An entry of the chart as its rule gives it."""
+    entry = CONFIG["figures"][figure]
+    case = CONFIG["cases"][entry["case"]]
+    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
+    return {
+        "module": f"vibroimpact.figures.{figure}",
+        "notebook": entry["notebook"],
+        "model": entry["model"],
+        "system": CONFIG["system"] | {name: value for name, value in case.items() if name != "simulation"},
+        "settings": case["simulation"] if entry["notebook"] == "simulation" else settings,
+    }
+
+
+@pytest.fixture(scope="module")
+def table():
+    """Of all figures with a choice: some 4 s, most of it the reference arithmetic of figure 10.11."""
+    scenes = {figure: scene(figure) for figure, entry in CONFIG["figures"].items() if "model" in entry}
+    return models.compute(scenes, seconds=1e-3)
+
+
+def test_each_figure_has_the_cheapest_model_within_its_tolerance(table):
+    """By the order of the models; their measured times are no part of it."""
+    assert table["figure"].unique().tolist() == [f"fig10_{n:02d}" for n in range(6, 12)]
+    for figure, rows in table.groupby("figure"):
+        assert rows["model"].tolist() == [*CHOICES[CONFIG["figures"][figure]["notebook"]]]
+        enough = rows.loc[rows["error"] <= rows["tolerance"], "model"]
+        assert enough.iloc[0] == CONFIG["figures"][figure]["model"] == rows.loc[rows["in_use"], "model"].item()
+
+
+def test_errors_are_distances_from_the_reference_in_percent_of_the_axis(table):
+    error = table.set_index(["figure", "model"])["error"]
+    for figure, end in (("fig10_06", 3.5), ("fig10_09", 3.5)):
+        system = vi.System(**scene(figure)["system"])
+        exact = [orbit.C for orbit in vi.orbits(system) if orbit.symmetric]
+        points = [point.C for point in vi.fixed_points(system)]
+        apart = max(np.abs(C - min(exact, key=lambda one: np.abs(one - C).max())).max() for C in points)
+        assert error[figure, "slow_flow"] > 100 * apart / end  # B, on the shorter axis, is farther off
+        assert error[figure, "slow_flow"] == pytest.approx(100 * apart / end, rel=1.0)
+    for figure in ("fig10_07", "fig10_10"):
+        assert 0.1 < error[figure, "second_term"] < error[figure, "slow_flow"] / 10
+    assert error["fig10_08", "float64"] < 1e-9
+    assert error["fig10_11", "float64"] > 0.5
+    assert not table.loc[table["model"].isin(["exact_orbit", "reference"]), "error"].any()
+
+
+def test_the_largest_error_of_hand_made_tables():
+    tau = np.linspace(0, 1, 5)
+    truth = join([curve("a", "X_2", tau=tau, value=2 * tau), curve("b", "W_2", tau=tau, value=tau)])
+    other = join([curve("a", "X_2", tau=tau, value=2 * tau + 0.1), curve("b", "W_2", tau=tau, value=tau + 0.2)])
+    between = join([curve("a", "X_2", tau=[0.3], value=[99.0])])
+    assert models.largest_error(pd.concat([other, between]), truth) == pytest.approx(20.0)
+    manifold = curve("a1", "SIM", C=[0, 2], B=[0, 1])
+    planes = {label: join([curve("a1", label, C=[0.5], B=[0.2]), manifold]) for label in ("P_1", "P_2")}
+    moved = planes["P_1"].assign(B=planes["P_1"]["B"] + 0.05)
+    assert models.largest_error(moved, planes["P_1"]) == pytest.approx(5.0)
+    for one, reference in ((planes["P_1"], planes["P_2"]), (None, truth), (truth, None)):
+        assert np.isinf(models.largest_error(one, reference))
+
+
+def test_all_models_are_drawn_and_named_those_in_use_filled():
+    known = {"figure": "fig10_07", "tolerance": 10.0, "compared_with": "exact_orbit"}
+    rows = [
+        known | {"model": "slow_flow", "error": 4.0, "seconds": 0.01, "in_use": True},
+        known | {"model": "exact_orbit", "error": 0.0, "seconds": 0.02, "in_use": False},
+        known | {"model": "second_term", "error": np.inf, "seconds": 0.03, "in_use": False},
+        known | {"figure": "mine", "model": "float64", "error": 1e-9, "seconds": 5.0, "in_use": True},
+    ]
+    figure = models.draw(pd.DataFrame(rows))
+    first, second = figure.axes[:2]
+    marks = [line for line in first.lines if line.get_marker() == "o"]
+    places = [line.get_xydata()[0].tolist() for line in marks]
+    assert places == [[0.01, 4.0], [0.02, models.LANE], [0.03, models.MOST]]
+    assert [line.get_markerfacecolor() for line in marks] == ["black", "white", "white"]
+    assert [text.get_text() for text in first.texts] == ["slow flow", "exact orbit", "second term"]
+    assert [axes.get_title(loc="left").split()[-1] for axes in (first, second)] == ["10.7", "mine"]
