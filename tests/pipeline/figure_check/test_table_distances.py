@@ -6,26 +6,14 @@ from scipy.stats import ks_2samp
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from pipeline_trees import ROOT
+from published_tables import COLUMNS, kinds_used, published, tables_in, unnoticed
 from vibroimpact.figures import fig10_08
-from vibroimpact.tables import curve, join, read
-from vibroimpact_pipeline.figure_check import table_distances
-from vibroimpact_pipeline.figure_check.check import compared_files
+from vibroimpact.tables import curve, join
 from vibroimpact_pipeline.figure_check.table_distances import FAR, KINDS, MEASURES, compare
-from vibroimpact_pipeline.specs import each, specs
 
-SPECS = specs()
 RANDOM = np.random.default_rng(5)
 VALUE = {"value": {"compared": "kind"}}
 BOTH = {"absolute": 0.5, "relative": 0.1}
-TABLES = {
-    file.removesuffix(".csv"): each(spec["tables"][name]["columns"])
-    for figure, spec in SPECS.items()
-    for name, (file, _) in compared_files(figure, spec).items()
-    if (ROOT / "figures" / file).is_file()
-}
-"""Columns by name of each published table."""
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "sample", "extremes", "peaks", "free"}
 
 
 @pytest.fixture
@@ -39,17 +27,6 @@ def apart(monkeypatch):
         return {one["measure"]: one["distance"] for one in compare(old, new, VALUE)[1]}[measure]
 
     return apart
-
-
-def published(name):
-    return read(ROOT / f"figures/{name}.csv"), TABLES[name]
-
-
-def differs(name, change):
-    """True if the check tells a published table from what `change` makes of it, and not from itself."""
-    old, columns = published(name)
-    assert compare(old, old.copy(), columns)[0] == []
-    return compare(old, change(old.copy()), columns)[0] != []
 
 
 @pytest.mark.parametrize("measure", MEASURES)
@@ -175,122 +152,9 @@ def test_what_is_wrong_in_both_fails():
         assert said in compare(spoilt, spoilt, columns)[0]
 
 
-# The published tables
-
-
-def numbers(name):
-    """(column, rows) of the numbers of a published table that rounding does not decide."""
-    table, columns = published(name)
-    for column, entry in columns.items():
-        kinds = entry.get("compared", ())
-        for series, kind in (kinds if isinstance(kinds, dict) else {None: kinds} if kinds else {}).items():
-            words = table.iloc[:, :2].itertuples(index=False, name=None)
-            named = kinds if isinstance(kinds, dict) else ()
-            first = [next((word for word in row if word in named), "others") for row in words]
-            rows = table.index if series is None else table.index[[word == series for word in first]]
-            rows = rows[table.loc[rows, column].notna()]
-            if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"] and len(rows):
-                yield column, rows
-
-
-STANDARD_ERRORS = ("companion_epsilon.orders", "uncertainty")
-"""Of fits to errors: their digits are those of rounding."""
-
-
-@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize("name", tables_in("figures"))
 def test_one_number_off_by_a_per_cent_fails(name):
-    """The largest of a column, and the one in the middle."""
-    old, columns = published(name)
-    assert compare(old, old.copy(), columns)[0] == []
-    for column, rows in numbers(name):
-        sizes = old.loc[rows, column].abs().replace([0, np.inf], np.nan).dropna().sort_values()
-        if sizes.empty or (name, column) == STANDARD_ERRORS:
-            continue
-        for row in {sizes.index[-1], sizes.index[len(sizes) // 2]}:
-            new = old.astype({column: float})
-            new.loc[row, column] *= 1.01
-            assert compare(old, new, columns)[0] != [], (column, row)
-
-
-@pytest.mark.parametrize(
-    "regimes",
-    [[one] for one in ("symmetric", "hopping", "quasi-periodic", "unsettled", "no impacts")]
-    + [["symmetric", "hopping", "quasi-periodic", "unsettled", "no impacts"]],
-)
-def test_a_regime_that_vanishes_from_the_map_fails(regimes):
-    assert differs("companion_regime_map", lambda table: table.assign(**dict.fromkeys(regimes, 0.0)))
-    if regimes[0] != "no impacts":
-        words = dict.fromkeys(regimes, "chaotic")
-        assert differs("companion_regime_map", lambda table: table.assign(regime=table["regime"].replace(words)))
-
-
-@pytest.mark.parametrize("factor", [1.19, 1 / 1.19])
-@pytest.mark.parametrize("name", ["companion_absorber", "companion_absorber.summary", "companion_response"])
-def test_balls_that_are_a_fifth_worse_or_better_fail(name, factor):
-    column = "value" if name.endswith("summary") else "ratio"
-
-    def changed(table):
-        balls = table.iloc[:, :2].isin(["balls", "lowest peak"]).any(axis=1) | (column == "ratio")
-        table.loc[balls, column] *= factor
-        return table
-
-    assert differs(name, changed)
-
-
-@pytest.mark.parametrize(("by", "caught"), [(1e-16, False), (3.8e-16, False), (1e-6, True)])
-def test_a_value_next_to_zero_is_held_to_an_absolute_floor(by, caught):
-    def changed(table):
-        row = table["C1"].abs().idxmin()
-        assert abs(table.loc[row, "C1"]) < 1e-15
-        table.loc[row, "C1"] += by
-        return table
-
-    assert differs("companion_branches.special_points", changed) == caught
-
-
-@pytest.mark.parametrize(("decades", "caught"), [(0.00094, False), (0.05, True)])
-def test_an_error_of_a_few_billionths_moves_by_what_roots_are_rounded_to(decades, caught):
-    def changed(table):
-        row = (table["error"] - 4.6e-9).abs().idxmin()
-        assert table.loc[row, "error"] == pytest.approx(4.6e-9, rel=0.01)
-        table.loc[row, "error"] *= 10**decades
-        return table
-
-    assert differs("companion_epsilon", changed) == caught
-
-
-def worse_arithmetic(table):
-    return table.assign(error=table["error"].where(table["series"] != "measured", 30 * table["error"]))
-
-
-def moved_attractors(table):
-    return table.assign(C2=0.8 * table["C2"])
-
-
-def nearly_same_attractors(table):
-    return table.assign(C2=1.0005 * table["C2"])
-
-
-def other_ends(cells):
-    def change(table):
-        chosen = table.index[:cells]
-        return table.assign(label=table["label"].where(~table.index.isin(chosen), "symmetric"))
-
-    return change
-
-
-@pytest.mark.parametrize(
-    ("name", "change", "caught"),
-    [
-        ("companion_horizon", worse_arithmetic, True),
-        ("companion_branches.attractors", moved_attractors, True),
-        ("companion_branches.attractors", nearly_same_attractors, False),  # not told from another rounding
-        ("companion_basins", other_ends(1), False),
-        ("companion_basins", other_ends(60), True),
-    ],
-)
-def test_chaotic_numbers_are_held_to_what_rounding_may_move(name, change, caught):
-    assert differs(name, change) == caught
+    assert unnoticed(name) == []
 
 
 @pytest.mark.parametrize(("gamma1_hat", "caught"), [(0.2, False), (0.2 * 1.003, True)])
@@ -303,14 +167,8 @@ def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(
         events = curve("", "", **{name: run.events[name] for name in ("tau", "module", "wall")})
         return fig10_08.compute(system, samples, events.assign(X2=run.events["state"][:, 2]))
 
-    assert bool(compare(settled(0.2), settled(gamma1_hat), TABLES["fig10_08"])[0]) == caught
+    assert bool(compare(settled(0.2), settled(gamma1_hat), COLUMNS["fig10_08"])[0]) == caught
 
 
-def test_every_kind_is_used_and_every_column_of_numbers_has_one_that_there_is():
-    used = set()
-    for spec in SPECS.values():
-        for table in spec["tables"].values():
-            for column in each(table["columns"]).values():
-                kinds = column.get("compared", ())
-                used |= set(kinds.values()) if isinstance(kinds, dict) else {kinds} if kinds else set()
-    assert used == set(table_distances.KINDS)
+def test_every_column_of_numbers_has_a_kind_that_there_is():
+    assert kinds_used() <= set(KINDS)
