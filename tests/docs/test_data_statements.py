@@ -7,7 +7,6 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.tables import read
 
 EPSILON, KAPPA = PARAMETERS["epsilon"], PARAMETERS["kappa"]
@@ -77,7 +76,7 @@ def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say
     C, B = columns(points, "C"), columns(points, "B")
     np.testing.assert_allclose(B**2, 1 - 2 * C + (1 + RHO**2) * C**2, rtol=1e-9)
     assert (np.abs(columns(points, "psi")) <= np.pi).all()
-    for name in ("fixed_points.csv", "orbits.csv", "verdict_grid.csv"):
+    for name in ("fixed_points.csv", "orbits.csv"):
         rows = table(name)
         C = columns(rows, "C")
         printed = (4 / (4 + np.pi * RHO) < C).all(axis=1)
@@ -133,35 +132,6 @@ def test_statistics_of_the_modulated_response_are_those_of_its_samples(table):
         assert row["modulation periods"] * row["mean length in cycles"] <= len(amplitudes)
 
 
-def test_shares_of_regimes_add_up_and_the_map_is_that_of_its_sweep(table):
-    shares = table("figures/studies/companion_regime_map.csv")
-    both, names = table("sweeps/regime_map.csv"), [*REGIMES]
-    np.testing.assert_allclose(shares[names].sum(axis=1), 1.0, atol=1e-12)
-    assert (shares["stable_points"] <= shares["fixed_points"]).all()
-    assert (both["from_rest"].to_numpy() == shares["label"].to_numpy()).all()
-    assert (both[names].to_numpy() == shares[names].to_numpy()).all()
-    assert all(both[name][both["from_rest"] == name].gt(0).all() for name in names)
-
-
-def test_shares_of_basins_are_those_of_the_figure(table):
-    starts = table("figures/studies/companion_basins.csv")
-    for row in table("regimes/basin_shares.csv").itertuples():
-        share = (starts["label"] == row.regime).mean()
-        assert row.share == pytest.approx(share, rel=1e-12)
-        assert row.uncertainty == pytest.approx(np.sqrt(share * (1 - share) / len(starts)), rel=1e-12)
-    assert columns(starts, "W").min() > -1
-    assert columns(starts, "W").max() < 1
-
-
-def test_orders_are_slopes_of_the_curves(table):
-    curves = table("figures/studies/companion_epsilon.csv")
-    for row in table("regimes/epsilon_orders.csv").itertuples():
-        line = curves[(curves["panel"] == row.panel) & (curves["series"] == f"{row.case}, {row.label}")]
-        small = line[line["epsilon"] < 0.005]
-        slope = np.cov(np.log(small["epsilon"]), np.log(small["error"]))
-        assert row.order == pytest.approx(slope[0, 1] / slope[0, 0], rel=1e-9)
-
-
 def test_the_model_in_use_meets_its_tolerance_and_the_reference_has_no_error(table):
     models = table("accuracy/models.csv")
     assert (models.groupby("figure")["in_use"].sum() == 1).all()
@@ -182,13 +152,3 @@ def test_errors_of_the_chart_belong_to_runs_with_a_final_state(table):
     chart = table("accuracy/work_precision.csv")
     known = np.isfinite(chart["error_state"])
     assert (known == (chart["outcome"] == "finished")).all()
-
-
-def test_limits_in_the_companions_are_those_named(table):
-    regions = table("figures/studies/companion_10_05.csv").groupby("series")
-    kappa, C = (regions.get_group("symmetry breaking")[name] for name in ("kappa", "C"))
-    assert C.to_numpy() == pytest.approx(np.pi**2 / (np.pi**2 - 4))
-    fold = regions.get_group("fold")
-    rho = 2 * (1 - fold["kappa"]) / (np.pi * (1 + fold["kappa"]))
-    np.testing.assert_allclose(fold["C"], 1 / (1 + rho**2), rtol=1e-12)
-    assert len(kappa) == len(fold)

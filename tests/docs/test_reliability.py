@@ -1,6 +1,6 @@
 """What docs/engine.md promises: its numbers are those of the tests, or measured anew.
 
-What it says of proofs is tested with the results of a build, in tests/workflow/test_claims_of_a_build.py.
+What it says of proofs is tested with the results of a build, in the tests of the studies.
 """
 
 import re

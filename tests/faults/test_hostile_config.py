@@ -17,9 +17,8 @@ OVERRIDES = {
     "system={kappa: 1.2}": "system.kappa: '1.2' should be less than 1",
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",
     "system={kappa: yes}": "system.kappa: 'yes' should be a valid number",
-    "report={animations: {7: {case: weak, cycles: 1}}}": "report.animations.7: '7' should match pattern",
+    "figures={7: {notebook: simulation, case: weak}}": "figures.7: '7' should match pattern",
     "sistem=3": "sistem: unknown key, did you mean 'system'?",
-    "sweeps={self: {case: equal, axes: [{along: [kappa], listed: [0.5, 0.8]}], observe: [orbits]}}": "sweeps.self: ",
 }
 
 

@@ -8,12 +8,15 @@ import pytest
 
 from pipeline_trees import ROOT
 
-OF_FIGURES = ["closed_form", "drawings", "fixed_points", "physical_units", "simulation", "theoretical_response"]
-NOTEBOOKS = sorted([*OF_FIGURES, "play"])
+OF_THE_CHAPTER = ["closed_form", "drawings", "fixed_points", "simulation", "theoretical_response"]
+FOLDER = ROOT / "notebooks"
+NOTEBOOKS = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.rglob("*.ipynb"))
+"""Those of the chapter, and whatever else there is."""
+OF_FIGURES = [name for name in NOTEBOOKS if name != "play"]
 
 
 def opened(name):
-    return nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=nbformat.NO_CONVERT)
+    return nbformat.read(FOLDER / f"{name}.ipynb", as_version=nbformat.NO_CONVERT)
 
 
 def code(notebook, tag=None):
@@ -24,7 +27,7 @@ def code(notebook, tag=None):
 
 
 def test_there_is_one_notebook_per_kind_of_figure_and_one_to_play_with():
-    assert sorted(path.stem for path in (ROOT / "notebooks").glob("*.ipynb")) == NOTEBOOKS
+    assert {path.stem for path in FOLDER.glob("*.ipynb")} == {*OF_THE_CHAPTER, "play"}
 
 
 @pytest.fixture(params=NOTEBOOKS)

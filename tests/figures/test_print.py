@@ -22,13 +22,15 @@ from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
-FIGURES = {path.stem: spec_of(path.stem, {}, specs()) for path in sorted((ROOT / "figures").glob("*.png"))}
+PUBLISHED = {path.stem: path.parent for path in sorted((ROOT / "figures").rglob("*.png"))}
+"""Folders of the reference sets by figure."""
+FIGURES = {figure: spec_of(figure, {}, specs()) for figure in PUBLISHED}
 
 
 @pytest.fixture(scope="module", params=FIGURES)
 def figure(request):
     name, spec = request.param, FIGURES[request.param]
-    read = {key: tables.read(ROOT / "figures" / file) for key, (file, _) in compared_files(name, spec).items()}
+    read = {key: tables.read(PUBLISHED[name] / file) for key, (file, _) in compared_files(name, spec).items()}
     drawn = style.draw_tables(import_module(spec["module"]), read)
     drawn.draw_without_rendering()
     return drawn

@@ -1,6 +1,8 @@
 """What Numba has compiled of the checkout, for a copy of the library with the same content elsewhere."""
 
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 from numba.core.caching import _CacheLocator
@@ -25,3 +27,43 @@ def share(library: Path, cache: Path | None = None) -> None:
 def _subfolder(source):
     """Where Numba keeps what it compiles of the package of a source, good for every copy with the same content."""
     return _CacheLocator.get_suitable_cache_subpath(str(source))
+
+
+COMPILED = """
+import pkgutil
+from importlib import import_module
+
+import numpy as np
+from numba.core.dispatcher import Dispatcher
+
+import vibroimpact as vi
+import vibroimpact.compile
+from chapter import PARAMETERS
+from vibroimpact.exact import engine
+
+modules = [import_module(found.name) for found in pkgutil.iter_modules(engine.__path__, f"{engine.__name__}.")]
+
+def signatures():
+    functions = {value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)}
+    return {(str(one.py_func), str(types)) for one in functions for types in one.signatures}
+
+def undamped(system):
+    return system.with_(gamma1_hat=0, gamma2_hat=0, gamma12_hat=0)
+
+vibroimpact.compile.main()
+before = signatures()
+system, start = vi.System(**PARAMETERS, f10_hat=3.0, f20_hat=3.0).with_(kappa=0.05), [0.0, 0, 0, 0, 0, 0.5, 0, -0.5]
+CALLS
+print(*sorted(name for name, _ in signatures() - before), sep="\\n")
+"""
+
+
+def compiled_late(calls: str) -> list[str]:
+    """Functions of the engine that calls of the library compile after all is compiled that is beforehand.
+
+    calls: Python that has vi, np, a `system`, a `start` and `undamped(system)`.
+    """
+    code, environment = COMPILED.replace("CALLS", calls), {"PYTHONPATH": ":".join(sys.path)}
+    run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    return run.stdout.split()

@@ -1,25 +1,39 @@
-"""The tables of the reference sets, and the columns that SPECs declare for them."""
+"""The published tables, and the figure check on changes of them."""
+
+import numpy as np
 
 from pipeline_trees import ROOT
 from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check.check import compared_files
-from vibroimpact_pipeline.figure_check.table_distances import OTHERS
+from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHERS, compare
 from vibroimpact_pipeline.specs import each, specs
 
-SPECS = specs()
-TABLES = {
-    path.stem: (path, each(spec["tables"][name]["columns"]))
-    for figure, spec in SPECS.items()
+FOLDERS = {path.name.removesuffix(".csv"): path.parent for path in sorted((ROOT / "figures").rglob("*.csv"))}
+"""Folders of the reference sets by table."""
+COLUMNS = {
+    file.removesuffix(".csv"): each(spec["tables"][name]["columns"])
+    for figure, spec in specs().items()
     for name, (file, _) in compared_files(figure, spec).items()
-    for folder in ("figures", "figures/studies")
-    if (path := ROOT / folder / file).is_file()
+    if file.removesuffix(".csv") in FOLDERS
 }
-"""Path and columns of each, by name."""
+"""Columns by name of each published table."""
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "spreads"}
+
+
+def tables_in(folder: str) -> list[str]:
+    """The tables of a reference set."""
+    return [name for name in COLUMNS if FOLDERS[name] == ROOT / folder]
 
 
 def published(name):
-    path, columns = TABLES[name]
-    return read(path), columns
+    return read(FOLDERS[name] / f"{name}.csv"), COLUMNS[name]
+
+
+def differs(name, change):
+    """True if the check tells a published table from what `change` makes of it, and not from itself."""
+    old, columns = published(name)
+    assert compare(old, old.copy(), columns)[0] == []
+    return compare(old, change(old.copy()), columns)[0] != []
 
 
 def by_kind(name):
@@ -35,3 +49,36 @@ def by_kind(name):
             rows = rows[table.loc[rows, column].notna() & (table.loc[rows, column] != "")]
             if len(rows):
                 yield column, kind, rows
+
+
+def numbers(name):
+    """(column, rows) of the numbers of a published table that rounding does not decide."""
+    for column, kind, rows in by_kind(name):
+        if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"]:
+            yield column, rows
+
+
+def unnoticed(name, without=()):
+    """The numbers of a published table, of the largest and the middle one of each column, that may be 1 % off."""
+    old, columns = published(name)
+    assert compare(old, old.copy(), columns)[0] == []
+    found = []
+    for column, rows in numbers(name):
+        sizes = old.loc[rows, column].abs().replace([0, np.inf], np.nan).dropna().sort_values()
+        for row in {sizes.index[-1], sizes.index[len(sizes) // 2]} if len(sizes) and column not in without else ():
+            new = old.astype({column: float})
+            new.loc[row, column] *= 1.01
+            if compare(old, new, columns)[0] == []:
+                found.append((column, row))
+    return found
+
+
+def kinds_used() -> set[str]:
+    """The kinds of comparison that SPECs name."""
+    used = set()
+    for spec in specs().values():
+        for table in spec["tables"].values():
+            for column in each(table["columns"]).values():
+                kinds = column.get("compared", ())
+                used |= set(kinds.values()) if isinstance(kinds, dict) else {kinds} if kinds else set()
+    return used

@@ -10,8 +10,6 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.orbits.search import search
-from vibroimpact.studies.absorbers.decay import decay_time
-from vibroimpact.studies.regimes.lyapunov import largest_exponent
 
 CHAPTER = dict(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 SYSTEM = vi.System(**CHAPTER)
@@ -45,9 +43,7 @@ CALLS = {
     "fixed_points": (vi.fixed_points, {}),
     "orbits": (vi.orbits, {}),
     "search": (search, dict(system=SYSTEM)),
-    "decay_time": (decay_time, dict(system=SYSTEM, impulse=1.0)),
     "reference_run": (reference_run, dict(system_parameters=CHAPTER, state=REST, cycles=1, digits=30)),
-    "largest_exponent": (largest_exponent, dict(system=SYSTEM, state=REST, blocks=2, cycles=10)),
     "errors": (vi.simulate(SYSTEM, REST, 1).errors, {}),
 }
 BAD = {
@@ -59,12 +55,10 @@ BAD = {
     "fixed_points": dict(system=NO_SYSTEMS),
     "orbits": dict(system=NO_SYSTEMS),
     "search": dict(starts=[0, -1, 2.5, "many"]),
-    "decay_time": dict(impulse=[0.0, np.nan], module=[0], fraction=[0.0], cycles=[0]),
     "reference_run": dict(
         state=[BEYOND[0], [0.0] * 7, [np.nan, *REST[1:]], [0, 0, 0, "1.0000000000000000001", 0, 0, 0, 0]], digits=[10],
         cycles=[-1], sample_times=[[3, 2], [7]], system_parameters=[{"kappa": "0.5"}],
     ),
-    "largest_exponent": dict(blocks=[1]),
     "errors": dict(times=[[2 * SYSTEM.period]]),
 }  # fmt: skip
 

@@ -2,24 +2,15 @@
 
 import subprocess
 import sys
-from collections import namedtuple
 
 import numpy as np
 import pandas as pd
 import pytest
 
 import vibroimpact as vi
-from chapter import PARAMETERS
+from labelled_states import LABELLED, ROW, SHUFFLED, START, STATE, SYSTEM, UNKNOWN, VALUES
 from vibroimpact.system.state import NAMES, states_array
 
-SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
-START = [0.1, -0.2, 0.3, 0.05, 0.4, -0.6, 0.7, 0.8]
-STATE = dict(zip(NAMES, START, strict=True))
-SHUFFLED = ["X1", "X2", "Y1", "Y2", "dX1", "dX2", "dY1", "dY2"]
-"""An order in which a state read by position is another admissible one."""
-PRIMED = [name if len(name) == 2 else f"{name[1:]}'" for name in SHUFFLED]
-VALUES = [STATE[name] for name in SHUFFLED]
-ROW = pd.Series(VALUES, SHUFFLED)
 TABLE = pd.DataFrame([VALUES, VALUES], columns=SHUFFLED)
 OWN = vi.simulate(SYSTEM, START, 3).to_frame()
 CALLS = {
@@ -27,36 +18,7 @@ CALLS = {
     "simulate_many": lambda state: [run.final for run in vi.simulate_many(SYSTEM, [state, state], 2)],
     "ensemble": lambda state: vi.ensemble(SYSTEM, state, 2)["final"],
     "ensemble of lists": lambda state: vi.ensemble([[SYSTEM], [SYSTEM]], [[state], [state]], 2)["final"],
-    "sections": lambda state: vi.sections(SYSTEM, state, 2, progress=False),
-    "largest_lyapunov": lambda state: vi.largest_lyapunov(SYSTEM, state, cycles=4, settle=2, blocks=2).mean,
-    "lyapunov_spectrum": lambda state: vi.lyapunov_spectrum(SYSTEM, state, cycles=4, settle=2).exponents,
-    "attractors": lambda state: vi.attractors(SYSTEM, [state], progress=False),
-    "basins": lambda state: vi.basins(SYSTEM, {"X1": [START[0]]}, state, progress=False),
 }
-LABELLED = {
-    "a row": ROW,
-    "a row with primes": pd.Series(VALUES, PRIMED),
-    "a row of mixed columns": pd.Series([*VALUES, "impact"], [*SHUFFLED, "kind"], dtype=object),
-    "a mapping": dict(zip(SHUFFLED, VALUES, strict=True)),
-    "a named tuple": namedtuple("State", SHUFFLED)(*VALUES),
-    "a row of a structured array": np.array([tuple(VALUES)], [(name, float) for name in SHUFFLED])[0],
-}
-UNKNOWN = {
-    "other names": (pd.Series(START, [*"abcdefgh"]), "a, b, c"),
-    "a name missing": (ROW.drop("dX1"), "dY1, dY2"),
-    "a name twice": (pd.Series([*VALUES, 0.0], [*SHUFFLED, "X1"]), "dY2, X1"),
-    "a name in both spellings": (pd.Series([*VALUES, 0.0], [*SHUFFLED, "X1'"]), "dY2, X1'"),
-    "a misspelt name": ({"x1": 0.0, **dict.fromkeys(NAMES[1:], 0.0)}, "x1, Y1"),
-    "numbers in another order": (pd.Series(START, [1, 0, *range(2, 8)]), "1, 0, 2"),
-    "an event": (vi.simulate(SYSTEM, START, 3).events[0], "tau, module, wall, kind, state"),
-    "states in columns": (pd.DataFrame([START] * 8, columns=NAMES).T, "0, 1, 2"),
-}
-
-
-@pytest.fixture(autouse=True)
-def settled(monkeypatch):
-    """In place of attractors, the starts from which they would be looked for."""
-    monkeypatch.setattr("vibroimpact.studies.public.attractors._basins", lambda system, states, *others: states)
 
 
 @pytest.mark.parametrize("kind", LABELLED)
@@ -66,7 +28,7 @@ def test_labelled_components_are_read_by_their_labels(call, kind):
 
 
 @pytest.mark.parametrize("kind", UNKNOWN)
-@pytest.mark.parametrize("call", ["simulate", "simulate_many", "ensemble", "basins"])
+@pytest.mark.parametrize("call", ["simulate", "simulate_many", "ensemble"])
 def test_other_labels_are_refused_with_their_names(call, kind):
     state, labels = UNKNOWN[kind]
     with pytest.raises(

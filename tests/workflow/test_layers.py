@@ -1,16 +1,51 @@
 """The chapter does without the studies: every folder and file of that name can be deleted."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 
 import pytest
 
+import vibroimpact as vi
 from pipeline_trees import ROOT, Tree, whole_copy
 
-QUICK = "tests/system", "tests/theory", "tests/pipeline", "tests/figures/test_specs.py", "tests/test_command_line.py"
-"""Tests that need no build."""
+QUICK = "pipeline/test_config_schema", "pipeline/test_chapter", "figures/test_specs", "docs/test_map"
+"""Tests of what the layer adds to, in the first place."""
+AWARE = {
+    "src/vibroimpact/__init__.py",
+    "src/vibroimpact/__init__.pyi",
+    "src/vibroimpact_pipeline/config/reading.py",
+    "src/vibroimpact_pipeline/config/schema.py",
+    "src/vibroimpact_pipeline/specs.py",
+    "workflow/Snakefile",
+    "workflow/rules/archive.smk",
+    "workflow/rules/checks.smk",
+    "workflow/rules/common.smk",
+}
+"""Files that name what is in the layer, and look first if it is there."""
+LAYER = re.compile(r"\bstudies[/.](?!smk\b|yaml\b)\w|\b(?:from|import) studies\b|\bstudies\.(?:smk|yaml)\b")
+LAZY = {name for name, module in vi._PUBLIC.items() if module.startswith("vibroimpact.studies")}
+"""Public names that need the layer."""
+
+
+def sources():
+    """Texts of the chapter's layer by path."""
+    for top in ("src", "workflow", "tests", "notebooks"):
+        for path in sorted((ROOT / top).rglob("*")):
+            name = path.relative_to(ROOT)
+            own = not any(part.partition(".")[0] in ("studies", "__pycache__", "") for part in name.parts)
+            if own and path.suffix in (".py", ".pyi", ".ipynb", ".smk", ".sh", ".yaml", ".txt", "") and path.is_file():
+                yield name.as_posix(), path.read_text(encoding="utf-8")
+
+
+def test_nothing_of_the_chapter_names_what_is_in_the_layer():
+    texts = dict(sources())
+    assert len(texts) > 250
+    assert {name for name, text in texts.items() if LAYER.search(text)} == AWARE
+    lazy = re.compile(rf"\bvi\.(?:{'|'.join(LAZY)})\b")
+    assert {name for name, text in texts.items() if lazy.search(text)} <= {"tests/workflow/test_layers.py"}
 
 
 @pytest.fixture
@@ -21,27 +56,40 @@ def chapter_alone(alone, tmp_path) -> Tree:
     return tree
 
 
+def run(tree, *arguments):
+    """Run Python in the tree with its own library."""
+    environment = os.environ | {"PYTHONPATH": str(tree / "src"), "PYTHONDONTWRITEBYTECODE": "1", "THOROUGH": ""}
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=tree.path, env=environment, capture_output=True, text=True, check=False)
+
+
 def tests_in(tree, *arguments):
-    """Run tests of the tree with its own library."""
-    environment = os.environ | {"PYTHONPATH": str(tree / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
-    ended = subprocess.run(command, cwd=tree.path, env=environment, capture_output=True, text=True)
+    ended = run(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments)
     assert ended.returncode == 0, ended.stdout[-3000:] + ended.stderr[-1000:]
 
 
-def test_without_the_studies_the_chapter_is_built_checked_and_tested(chapter_alone):
-    assert chapter_alone.planned() <= {"index"}  # results of the same code are up to date
-    chapter_alone.snakemake("--forcerun", "orbits", "verdicts", "gather", "simulation", "fig10_01", "fig10_04", "index")
+SAID = """
+import vibroimpact as vi
+try:
+    vi.branches
+except ImportError as error:
+    print(error)
+vi.System, vi.orbits, vi.ensemble
+"""
+
+
+def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_found(chapter_alone):
+    assert chapter_alone.planned() == set()  # results of the same code are up to date
+    chapter_alone.snakemake("--forcerun", "fixed_points", "fig10_04", "index", "--", "fig10_04", "index")
     assert "11 figures: 11 passed" in chapter_alone.snakemake("figure_check")
     tests_in(chapter_alone, "--collect-only")
-    tests_in(chapter_alone, *QUICK)
-
-
-def test_names_of_the_studies_say_what_is_missing(chapter_alone):
-    code = "import vibroimpact as vi\ntry:\n    vi.branches\nexcept ImportError as error:\n    print(error)"
-    environment = os.environ | {"PYTHONPATH": str(chapter_alone / "src")}
-    said = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert "vibroimpact.branches belongs to the studies" in said.stdout
+    tests_in(chapter_alone, *(f"tests/{name}.py" for name in QUICK))
+    assert "vibroimpact.branches belongs to the studies" in run(chapter_alone, "-c", SAID).stdout
+    machine = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9"
+    ended = run(chapter_alone, "-m", "vibroimpact", *machine.split())
+    assert ended.returncode == 2
+    assert "vibroimpact.design belongs to the studies" in ended.stderr
+    assert ended.stderr.count("\n") == 1
 
 
 @pytest.mark.thorough
@@ -50,4 +98,4 @@ def test_all_of_the_chapter_is_built_and_tested_without_the_studies(chapter_alon
     shutil.rmtree(chapter_alone / ".snakemake")
     chapter_alone.snakemake()
     assert "11 figures: 11 passed" in chapter_alone.snakemake("figure_check")
-    tests_in(chapter_alone)
+    tests_in(chapter_alone, "--ignore", "tests/workflow/test_layers.py")

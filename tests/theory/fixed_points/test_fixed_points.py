@@ -1,8 +1,5 @@
 """All fixed points and the proof of it, against exact root counts, blind multistart, closed forms and symmetries."""
 
-import dataclasses
-import itertools
-
 import numpy as np
 import pytest
 import sympy as sp
@@ -11,19 +8,22 @@ from hypothesis import strategies as st
 from scipy.optimize import root
 
 import vibroimpact as vi
-from chapter import PARAMETERS
-from vibroimpact.studies.completeness import points as module
-from vibroimpact.studies.completeness.points import certify
+from systems_of_points import (
+    CHAPTER,
+    IDENTICAL,
+    NEARLY_ELASTIC,
+    RESONANT,
+    UNCOUPLED,
+    UNDAMPED,
+    build,
+    everything,
+    single_module,
+)
 from vibroimpact.theory import manifold
-from vibroimpact.theory.fixed_points.symmetric_points import FixedPointSearch, labels, search, search_radius
+from vibroimpact.theory.fixed_points.symmetric_points import labels, search, search_radius
 from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import rates
 
-CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
-IDENTICAL = {"sigma20_hat": 0.0}
-UNCOUPLED = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
-UNDAMPED = {"gamma1_hat": 0.0, "gamma2_hat": 0.0, "gamma12_hat": 0.0}
-RESONANT = UNDAMPED | IDENTICAL
 # Found by scanning random parameters; the counts are confirmed below by exact arithmetic.
 FIVE = {"sigma20_hat": 0.01, "f10_hat": 1.25, "f20_hat": 1.25}
 SIX = {"kappa": 0.793, "alpha12_hat": 2.622, "gamma1_hat": 0.0127, "gamma2_hat": 0.0765, "gamma12_hat": 0.872}
@@ -50,15 +50,6 @@ CASES = {
     # a resonance of the slow flow that the forces do not leave unloaded: the system's own is off by order epsilon
     "loaded resonance": (RESONANT | {"sigma_e_hat": 1.0, "f20_hat": -1.0}, 1),
 }
-
-
-def build(changes=None):
-    return vi.System(**(CHAPTER | (changes or {})))
-
-
-def everything(system):
-    found = search(system)
-    return found.points + found.outside
 
 
 def residual(system, point):
@@ -120,19 +111,6 @@ def test_total_count_is_exact(name):
     assert len(everything(system)) == exact_count(system)
 
 
-NEARLY_ELASTIC = {
-    "weak dampers": dict(
-        kappa=1 - 3.3e-7, gamma1_hat=1.5e-9, gamma2_hat=8.7e-12, alpha12_hat=1.269, sigma20_hat=-1.186,
-        sigma_e_hat=-0.475, f10_hat=1.502, f20_hat=-1.318,
-    ),
-    "weaker": dict(
-        kappa=1 - 2.1e-12, gamma1_hat=3e-12, gamma2_hat=3.6e-12, alpha12_hat=0.888, sigma20_hat=0.305,
-        sigma_e_hat=0.611, f10_hat=-1.397, f20_hat=-1.301,
-    ),
-    "no dampers": UNDAMPED | dict(kappa=1 - 1e-9),
-}  # fmt: skip
-
-
 @pytest.mark.parametrize("name", NEARLY_ELASTIC)
 def test_nearly_elastic_systems_list_no_point_where_no_phases_balance_the_forces(name):
     """Where Delta, n_1 and n_2 all but vanish rounding leaves zeros of the squares open that phases decide."""
@@ -140,10 +118,6 @@ def test_nearly_elastic_systems_list_no_point_where_no_phases_balance_the_forces
     found = everything(system)
     assert not any(point.multiple for point in found)
     assert len(found) == exact_count(system)
-    proof = certify(system)
-    # The squares leave the place open, and there twins of one C, too.
-    assert proof.complete == (len(proof.isolated) == len(found) and not proof.undecided)
-    assert proof.undecided or name == "weak dampers"
 
 
 ranges = dict(
@@ -206,13 +180,6 @@ def test_blind_multistart_finds_nothing_else(name):
             assert distance.min() < 1e-6
             hits.add(int(distance.argmin()))
     assert hits == set(range(len(known)))
-
-
-def single_module(e, force, kappa):
-    """Real C of one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic in C."""
-    rate = 8 / np.pi**2 - e * (1 + 2j * (1 - kappa) / (np.pi * (1 + kappa)))
-    roots = np.roots([abs(rate) ** 2, 2 * (e * np.conj(rate)).real, abs(e) ** 2 - force**2])
-    return np.sort(roots.real) if np.isreal(roots).all() else np.empty(0)
 
 
 @pytest.mark.parametrize("changes", [{}, IDENTICAL, {"gamma1_hat": 0.0, "f20_hat": 3.0}, {"f10_hat": 0.0}])
@@ -287,87 +254,3 @@ def test_labels_are_those_of_the_sentences_about_figs_10_6_10_7_and_10_9():
     assert equal["c"].slow_eigenvalues.real.max() < 0 < equal["b"].slow_eigenvalues.real.max()
     assert (unequal["c"].C < equal["c"].C).all()
     assert (unequal["c"].B < equal["c"].B).all()
-
-
-# The proof that none is missing
-
-EMPTY = -0.4 + 0.2j, 0.1 + 0.2j  # impedances of the boxes without balls
-FOLD = 0.6977803686883265  # f20_hat at which two fixed points of the chapter's system merge
-
-
-def middle(box):
-    return np.mean(box, axis=1)
-
-
-@pytest.mark.parametrize(("f10", "f20", "points"), [(1, 1, 4), (1, 0.89, 4), (0.5, 0.5, 2)])
-def test_the_chapter_s_cases_are_complete(f10, f20, points):
-    proof = certify(build(dict(f10_hat=f10, f20_hat=f20)))
-    assert proof.complete
-    assert proof.undecided == []
-    assert len(proof.isolated) == points
-
-
-@pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
-def test_proved_boxes_of_uncoupled_modules_hold_the_roots_of_two_quadratics(kappa):
-    proof = certify(build(UNCOUPLED | dict(kappa=kappa)))
-    expected = list(itertools.product(*(single_module(e, 1.0, kappa) for e in EMPTY)))
-    assert proof.complete
-    assert len(expected) == len(proof.isolated) > 0
-    for box, C in zip(proof.isolated, expected, strict=True):
-        assert all(low <= c <= high for (low, high), c in zip(box, C, strict=True))
-        assert np.diff(box).max() < 1e-5 * (1 + np.square(C).max())
-
-
-def test_a_point_on_the_edge_of_charts_is_counted_once():
-    """C_1 = C_2 = 1, where small C and large C meet, for forces in closed form; with others it is proved as well."""
-    edge = {f"f{i}0_hat": abs(8 / np.pi**2 - 1j * e * manifold.rho(0.65)) for i, e in enumerate(EMPTY, 1)}
-    proof = certify(build(UNCOUPLED | edge))
-    assert proof.complete
-    holds = [all(low <= 1 <= high for low, high in box) for box in proof.isolated]
-    assert sum(holds) == 1
-    assert len(holds) == 4
-
-
-def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
-    listed = search(build())
-    elsewhere = dataclasses.replace(listed.points[0], C=listed.points[0].C + 1)
-    for points in (listed.points[1:], [*listed.points, listed.points[0]], [*listed.points, elsewhere]):
-        spoilt = FixedPointSearch(points, listed.outside)
-        monkeypatch.setattr(module, "search", lambda system, spoilt=spoilt: spoilt)
-        assert not certify(build()).complete
-
-
-def test_a_fold_stays_open_and_its_neighbours_do_not():
-    proof = certify(build(dict(f20_hat=FOLD)))
-    assert any(point.multiple for point in vi.fixed_points(build(dict(f20_hat=FOLD))))
-    assert not proof.complete
-    assert proof.undecided
-    for box in proof.undecided:
-        np.testing.assert_allclose(middle(box), [0.62661, 1.86850], atol=1e-4)
-    before, after = (certify(build(dict(f20_hat=FOLD + shift))) for shift in (-1e-6, 1e-6))
-    assert before.complete
-    assert after.complete
-    assert len(after.isolated) - len(before.isolated) == 2
-
-
-@pytest.mark.parametrize(
-    ("f10", "f20", "changes"),
-    [(0.1, 0.1, {}), (0, 0.3, {}), (0, 0, {}), (0, 0, UNDAMPED), (0.1, 0, UNCOUPLED), (0, 0, UNCOUPLED)],
-)
-def test_no_fixed_point_is_a_result(f10, f20, changes):
-    """No zero of (10.22) is there: the balls dissipate more than the forces supply, or than can be supplied."""
-    proof = certify(build(dict(f10_hat=f10, f20_hat=f20, **changes)))
-    assert proof == module.Proof([], [], 0, complete=True)
-
-
-def test_every_damped_system_gets_a_proof_whatever_drives_it():
-    """As many proved as listed, none among them, at random parameters and weak forces."""
-    rng, without = np.random.default_rng(4), 0
-    low = dict(kappa=0.1, alpha12_hat=0, gamma1_hat=0.1, gamma2_hat=0.1, gamma12_hat=0, sigma20_hat=-0.5)
-    high = dict(kappa=0.9, alpha12_hat=1, gamma1_hat=0.5, gamma2_hat=0.5, gamma12_hat=0.5, sigma20_hat=1)
-    low, high = low | dict(sigma_e_hat=-0.5, f10_hat=0, f20_hat=0), high | dict(sigma_e_hat=1, f10_hat=0.8, f20_hat=0.8)
-    for _ in range(12):
-        proof = certify(vi.System(epsilon=0.1, **{name: rng.uniform(low[name], high[name]) for name in low}))
-        assert proof.complete
-        without += not proof.isolated
-    assert without >= 3

@@ -48,7 +48,7 @@ def slurm(tmp_path):
 def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
     here, there = (copied(ROOT, tmp_path / name) for name in ("here", "there"))
     for tree in (here, there):
-        tree.edit("config/config.yaml", "sweeps:\n", SWEEP)
+        tree.edit("config/studies.yaml", "sweeps:\n", SWEEP)
     here.snakemake("--set-scatter", "plane=1", "--", TABLE)
     build = there.start(
         *("--workflow-profile", "profiles/slurm", *QUICK, "--set-scatter", "plane=4", "--", TABLE), PATH=slurm.path
@@ -63,7 +63,7 @@ def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
 @pytest.mark.thorough
 def test_a_sweep_is_the_same_bytes_in_any_number_of_tiles(tmp_path):
     tree = copied(ROOT, tmp_path / "tree")
-    tree.edit("config/config.yaml", "sweeps:\n", SWEEP)
+    tree.edit("config/studies.yaml", "sweeps:\n", SWEEP)
     tables = []
     for tiles in (1, 3):
         tree.snakemake("--set-scatter", f"plane={tiles}", "--", TABLE)

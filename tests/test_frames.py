@@ -1,4 +1,4 @@
-"""Results as frames, pictures and sections; branches, sweeps, proofs and absorbers by their public names."""
+"""Results as frames, pictures and sections; proofs by their public names."""
 
 import pickle
 
@@ -10,7 +10,6 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact import frames
 from vibroimpact.accuracy import stress_tests, verdict_table
-from vibroimpact.studies.regimes import onset
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)
@@ -131,31 +130,12 @@ def test_an_ensemble_as_a_frame():
             vi.to_frame(other)
 
 
-def test_branches_pass_the_fixed_points_of_any_value():
-    frame = vi.to_frame(vi.branches(SYSTEM, "f20_hat", (0.85, 0.95), of="theory"))
-    for point in vi.fixed_points(SYSTEM):
-        near = np.abs(frame[["p", "C1", "C2"]] - [0.89, *point.C]).max(axis=1).min()
-        assert near < 0.05  # half a step of 0.01 in the parameter, along curves of slope up to 5
-    for arguments, name in (
-        (("f20", (0.8, 0.9)), "f20"), (("f20_hat", 0.9), "between"), (("f20_hat", (0.9, 0.8)), "between"),
-        (("kappa", (0.5, 1.5)), "between"), (("kappa", (0.5, 0.6), "all"), "of"),
-    ):  # fmt: skip
-        with pytest.raises(ValueError, match=rf"^{name}:"):
-            vi.branches(SYSTEM, *arguments)
-
-
-RANGES = (0.5, 1.0), (0.6, 0.7)
-
-
 @pytest.mark.parametrize(
     "call",
     [
         vi.fixed_points,
         vi.orbits,
-        lambda system: vi.branches(system, "kappa", RANGES[1], of="theory", seeds=1, progress=False),
-        lambda system: vi.bifurcation_curves(system, ("f10_hat", "kappa"), RANGES, seeds=1, progress=False),
     ],
-    ids=["fixed points", "orbits", "branches", "curves"],
 )
 def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
     """So much damping leaves no motion with two impacts per cycle."""
@@ -167,31 +147,10 @@ def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
         assert frame.empty
 
 
-def test_a_sweep_counts_the_fixed_points_of_every_system():
-    rows = vi.sweep(SYSTEM, {"f10_hat": [0.5, 1.0], "f20_hat": [0.5, 0.89]}, ["fixed_points"])
-    for row in rows:
-        system = SYSTEM.with_(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])
-        assert row["fixed_points"] == len(vi.fixed_points(system))
-    assert vi.to_frame(rows)["fixed_points"].tolist() == [row["fixed_points"] for row in rows]
-    for axes, observe, name in (({"mass": [1]}, ["orbits"], "mass"), ({"kappa": [0.5]}, ["points"], "observe")):
-        with pytest.raises(ValueError, match=rf"^{name}:"):
-            vi.sweep(SYSTEM, axes, observe)
-
-
-def test_absorbers_by_their_public_names():
-    band = (0.7, 1.4)
-    best, book = vi.best_tuning(SYSTEM, band), vi.textbook_tuning(SYSTEM)
-    assert vi.tuned(SYSTEM, best).peak(band) < vi.tuned(SYSTEM, book).peak(band)
-    with pytest.raises(ValueError, match=r"^band: 1.0 is not a pair of numbers$"):
-        vi.best_tuning(SYSTEM, 1.0)
-
-
 PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
 
 
-@pytest.mark.parametrize(
-    "call", [vi.fixed_points, vi.orbits, vi.textbook_tuning, lambda plant: vi.simulate(plant, [0.0] * 8, 1)]
-)
+@pytest.mark.parametrize("call", [vi.fixed_points, vi.orbits, lambda plant: vi.simulate(plant, [0.0] * 8, 1)])
 def test_a_system_in_newtons_is_told_how_to_lose_its_units(call):
     with pytest.raises(ValueError, match=r"^system: a PhysicalSystem is not a System; call \.dimensionless\(\)$"):
         call(PLANT)
@@ -211,24 +170,6 @@ def test_without_pandas_or_matplotlib_the_extra_is_named(monkeypatch, call, pack
         call()
 
 
-def test_a_sweep_as_a_dataset_over_its_grid(tmp_path):
-    """Saved as NetCDF and read again: each value stands where its parameters say."""
-    xarray = pytest.importorskip("xarray")
-    axes = {"f10_hat": [0.8, 1.0], "f20_hat": [0.5, 0.7, 0.9]}
-    rows = vi.sweep(SYSTEM, axes, ["fixed_points"])
-    vi.to_dataset(rows, list(axes)).to_netcdf(tmp_path / "sweep.nc", engine="scipy")
-    with xarray.open_dataset(tmp_path / "sweep.nc", engine="scipy") as data:
-        assert data.sizes == {"f10_hat": 2, "f20_hat": 3}
-        for row in rows:
-            there = data.sel(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])
-            assert int(there["fixed_points"]) == row["fixed_points"]
-            assert (
-                len(vi.fixed_points(SYSTEM.with_(f10_hat=row["f10_hat"], f20_hat=row["f20_hat"])))
-                == row["fixed_points"]
-            )
-        assert data["fixed_points"].units == data["f10_hat"].units == "1"
-
-
 def test_parameters_that_move_together_share_a_dimension():
     rows = [{"point": n, "f10_hat": f, "f20_hat": f / 2, "kappa": k, "peak": 10 * f + k} for n, (f, k) in enumerate(
         (f, k) for f in (1.0, 2.0) for k in (0.3, 0.5)
@@ -243,7 +184,7 @@ def test_parameters_that_move_together_share_a_dimension():
         vi.to_dataset(rows, ["kappa"])
 
 
-@pytest.mark.parametrize("former", [stress_tests.FORMER, onset.FORMER, verdict_table.FORMER])
+@pytest.mark.parametrize("former", [stress_tests.FORMER, verdict_table.FORMER])
 def test_columns_stay_under_their_former_names_last(former):
     names = list(former.values())
     table = frames.with_former_names(pd.DataFrame(np.eye(len(names)), columns=names), former)

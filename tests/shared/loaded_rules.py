@@ -1,0 +1,88 @@
+"""The rules of the workflow for a config, loaded in this process, and the SPECs of figures beside them."""
+
+import inspect
+from importlib import import_module
+from pathlib import Path
+
+import yaml
+from snakemake.api import SnakemakeApi
+from snakemake.settings.types import ConfigSettings, ResourceSettings
+
+from configs import GOOD
+from pipeline_trees import ROOT
+from vibroimpact.tables import read
+from vibroimpact_pipeline.figure_check.check import compared_files
+from vibroimpact_pipeline.specs import columns, each, module_of, specs
+
+SPECS = specs()
+DATA = yaml.safe_load((ROOT / "report/data.yaml").read_text(encoding="utf-8"))
+
+
+def rules(folder: Path, config: dict | None = None) -> dict:
+    """The rules for a config, by name."""
+    given = folder / "config.yaml"
+    given.write_text(yaml.safe_dump(config or GOOD), encoding="utf-8")
+    settings = ConfigSettings(configfiles=[given], replace_workflow_config=True)
+    with SnakemakeApi() as api:
+        workflow = api.workflow(
+            resource_settings=ResourceSettings(cores=1),
+            config_settings=settings,
+            snakefile=ROOT / "Snakefile",
+            workdir=folder,
+        )
+        return {rule.name: rule for rule in workflow._workflow.rules}
+
+
+def drawn(folder: str) -> list[str]:
+    """The figures of a reference set."""
+    return sorted(path.stem for path in (ROOT / folder).glob("*.png"))
+
+
+def published(folder: str) -> list[tuple[str, str]]:
+    """The figures of a reference set that have tables, with the file of each."""
+    return [(name, file) for name in drawn(folder) for file, _ in compared_files(name, SPECS[name]).values()]
+
+
+def made(found: dict, target: str) -> set[str]:
+    """The figures that a target asks for."""
+    return {Path(path).stem for path in found[target].input if path.endswith(".png")}
+
+
+def assert_compute_takes(figure: str, rule) -> None:
+    """`compute` of a figure has the arguments that its rule gives, and no other without a default."""
+    arguments = inspect.signature(import_module(module_of(figure)).compute).parameters
+    given = {
+        *rule.input.keys(),
+        *rule.params.settings,
+        *(name for name in ("system", "systems") if rule.params.get(name)),
+    }
+    assert {name for name, entry in arguments.items() if entry.default is entry.empty} <= given
+    if not rule.input.get("notebook"):  # which shows more than the figure does
+        assert given - {"system"} <= set(arguments)
+
+
+def assert_declared(folder: str, figure: str, file: str) -> None:
+    """Every column of a published table is declared, and every declared one is there, with values of its unit."""
+    (name,) = (name for name, (kept_as, _) in compared_files(figure, SPECS[figure]).items() if kept_as == file)
+    table, declared = read(ROOT / folder / file), columns(SPECS[figure]["tables"][name], each(DATA["shared"]))
+    assert list(table) == list(declared)
+    for column, entry in declared.items():
+        assert entry["meaning"]
+        assert entry["unit"] in DATA["units"]
+        assert not entry.get("values") or set(table[column].dropna()) <= {*entry["values"], ""}
+        numbers = column in table.select_dtypes("number")
+        assert numbers == (entry["unit"] not in ("text", "true or false")), column
+        assert not numbers or "compared" in entry
+        kinds = entry.get("compared")
+        words = set(table.select_dtypes(exclude="number").iloc[:, :2].to_numpy().ravel())  # that name a series
+        assert not isinstance(kinds, dict) or set(kinds) - {"others"} <= words
+
+
+def without(*place: str) -> dict:
+    """The config without an entry."""
+    config = yaml.safe_load(yaml.safe_dump(GOOD))
+    section = config
+    for key in place[:-1]:
+        section = section[key]
+    del section[place[-1]]
+    return config

@@ -1,0 +1,60 @@
+"""Rules and SPECs of the studies' figures: arguments of `compute`, columns of published tables."""
+
+import papermill
+import pytest
+
+from configs import GOOD
+from loaded_rules import SPECS, assert_compute_takes, assert_declared, drawn, made, published, rules, without
+from pipeline_trees import ROOT
+
+REFERENCE = "figures/studies"
+DRAWN = drawn(REFERENCE)
+
+
+@pytest.fixture(scope="module")
+def of_the_studies(tmp_path_factory):
+    return rules(tmp_path_factory.mktemp("studies"))
+
+
+@pytest.mark.parametrize("figure", [name for name in DRAWN if SPECS[name]["tables"]])
+def test_compute_takes_what_its_rule_gives(figure, of_the_studies):
+    assert_compute_takes(figure, of_the_studies[figure])
+
+
+def test_the_parameters_of_the_notebook_are_those_that_its_rule_gives(of_the_studies):
+    known = papermill.inspect_notebook(str(ROOT / "notebooks/studies/physical_units.ipynb"))
+    settings = dict(of_the_studies["machines"].params.settings)
+    assert known.keys() == {"figure", "alt", "inputs", "outputs", *settings.pop("plant"), *settings}
+
+
+@pytest.mark.parametrize(("figure", "file"), published(REFERENCE))
+def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is_there(figure, file):
+    assert_declared(REFERENCE, figure, file)
+
+
+def test_the_config_makes_the_reference_set(of_the_studies):
+    assert sorted(made(of_the_studies, "companions")) == DRAWN
+    assert all(of_the_studies[figure].output.png == f"results/figures/{figure}.png" for figure in DRAWN)
+
+
+@pytest.mark.parametrize(
+    ("lacking", "gone"),
+    [
+        (("sweeps", "design"), {"companion_absorber"}),
+        (("sweeps", "regime_map"), {"companion_regime_map"}),
+        (("figures", "fig10_08"), {"companion_10_08"}),
+        (("cases", "weak"), {"companion_horizon"}),
+        (("cases", "weak", "simulation", "digits"), {"companion_horizon"}),
+    ],
+)
+def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp_path):
+    assert set(DRAWN) - made(rules(tmp_path, without(*lacking)), "companions") == gone
+
+
+def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_studies):
+    params = of_the_studies["companion_horizon"].params
+    run = GOOD["cases"]["weak"]["simulation"]
+    assert of_the_studies["companion_horizon"].input.strobe == "results/simulations/weak/strobe.csv"
+    assert params.settings == {name: run[name] for name in ("initial_state", "transient_cycles")}
+    assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
+    assert params.config["cases.weak"] == params.system

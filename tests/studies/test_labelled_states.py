@@ -1,0 +1,34 @@
+"""States with labelled components are read by their labels by the functions of the studies, too."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from labelled_states import LABELLED, START, SYSTEM, UNKNOWN
+
+CALLS = {
+    "sections": lambda state: vi.sections(SYSTEM, state, 2, progress=False),
+    "largest_lyapunov": lambda state: vi.largest_lyapunov(SYSTEM, state, cycles=4, settle=2, blocks=2).mean,
+    "lyapunov_spectrum": lambda state: vi.lyapunov_spectrum(SYSTEM, state, cycles=4, settle=2).exponents,
+    "attractors": lambda state: vi.attractors(SYSTEM, [state], progress=False),
+    "basins": lambda state: vi.basins(SYSTEM, {"X1": [START[0]]}, state, progress=False),
+}
+
+
+@pytest.fixture(autouse=True)
+def settled(monkeypatch):
+    """In place of attractors, the starts from which they would be looked for."""
+    monkeypatch.setattr("vibroimpact.studies.public.attractors._basins", lambda system, states, *others: states)
+
+
+@pytest.mark.parametrize("kind", LABELLED)
+@pytest.mark.parametrize("call", CALLS)
+def test_labelled_components_are_read_by_their_labels(call, kind):
+    np.testing.assert_array_equal(CALLS[call](LABELLED[kind]), CALLS[call](START))
+
+
+@pytest.mark.parametrize("kind", UNKNOWN)
+def test_other_labels_are_refused_with_their_names(kind):
+    state, labels = UNKNOWN[kind]
+    with pytest.raises(ValueError, match=rf"\Astates?(\[\d\])*: the columns .*{labels}.* are not those of a state"):
+        vi.basins(SYSTEM, {"X1": [START[0]]}, state, progress=False)

@@ -1,0 +1,51 @@
+"""A config with cases of one's own, in the studies and in the report."""
+
+import json
+
+import pytest
+
+from own_cases import OWN_FIGURES, edit, own, renamed, single
+
+CONFIG, STUDIES = "config/config.yaml", "config/studies.yaml"
+
+
+def hurried(config):
+    """A config that asks the exact system little, as it is not about that here."""
+    regimes = config["regimes"]
+    regimes["branches"] |= {"paths": [{"along": ["f20_hat"], "range": [0.9, 1.0]}], "seeds": 1}
+    regimes["branches"]["attractors"] |= {"values": 3, "starts": 2}
+    regimes["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
+    regimes["basins"]["points"] = 5
+    regimes["epsilon"]["values"] = 5  # three of them are small: the order has an uncertainty
+    del config["report"]["animations"]["modulated"]
+    config["report"]["animations"]["strong_in_motion"] = {"case": "strong", "cycles": 2}
+    return renamed(config, "unequal", "uneven")
+
+
+@pytest.mark.thorough
+def test_own_cases_and_figures_go_through_claims_and_report(restudied):
+    edit(restudied, CONFIG, own)
+    edit(restudied, STUDIES, hurried)
+    restudied.snakemake("report")
+    results = restudied / "results"
+    for figure in OWN_FIGURES:
+        assert figure in (results / "report/figures.html").read_text(encoding="utf-8")
+    assert "Simulated motion of case A b" in (results / "report/figures.html").read_text(encoding="utf-8")
+
+    reasons = ["there is no case unequal", "there is no case weak"]
+    claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
+    verdicts = {claim["id"]: claim["verdict"] for claim in claims}
+    assert verdicts["two-branches"] == "holds in part"  # which no case decides on
+    assert {claim["verdict"] for claim in claims if "weak" in str(claim.get("arguments"))} == {"not judged"}
+    pages = [path for path in (results / "report").glob("*.html") if path.name != "search.html"]  # the generator's own
+    pages.append(results / "claims.md")
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        assert all(reason in text for reason in reasons), page
+
+
+def test_a_single_case_of_another_name_is_planned_to_the_end(restudied):
+    edit(restudied, CONFIG, single)
+    rules = restudied.planned("all", "studies", "report", "study_check")
+    assert {"fig10_06", "companion_branches", "claims", "report"} <= rules
+    assert not {"fig10_09", "companion_horizon"} & rules
