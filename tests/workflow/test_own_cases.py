@@ -20,7 +20,7 @@ def test_own_cases_and_figures_go_through_figures_and_check(rebuilt):
     assert all(f"Ball {module} has no impact in the window" in still for module in (1, 2))
     assert "no swells</td>" in still
     assert "None</td>" not in still
-    levels = (results / "accuracy/scene_models.csv").read_text(encoding="utf-8")
+    levels = (results / "accuracy/models.csv").read_text(encoding="utf-8")
     assert all(f"\n{figure}," in levels for figure in OWN_FIGURES)
 
     output = rebuilt.snakemake("figure_check", check=False)

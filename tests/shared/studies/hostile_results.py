@@ -15,7 +15,7 @@ SHOWN = {
     "own": ["mine"],
     "companions": ["companion_basins"],
     "accuracy": ["work_precision", "hazards"],
-    "models": ["scene_models"],
+    "models": ["models"],
     "animations": ["waves"],
     "force_sweep": ["force_sweep"],
     "nudge": ["nudge"],
@@ -59,7 +59,7 @@ def results(folder: Path) -> Path:
     record = dict.fromkeys(("commit", "tree"), HOSTILE) | {"config": {HOSTILE: HOSTILE}, "code": {"lock": HOSTILE}}
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
-    places |= dict.fromkeys(("work_precision", "hazards", "scene_models"), "accuracy")
+    places |= dict.fromkeys(("work_precision", "hazards", "models"), "accuracy")
     places |= {"waves": "animations", "force_sweep": "force_sweep", "nudge": "nudge"}
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
@@ -106,9 +106,9 @@ def results(folder: Path) -> Path:
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],
-        "accuracy/scene_models.csv": [
-            {"figure": "mine", "level": HOSTILE, "error": 1e-9, "tolerance": 1e-3, "note": HOSTILE}
-            | {"meets": True, "cost_s": 0.1, "in_use": True}
+        "accuracy/models.csv": [
+            {"figure": "mine", "model": HOSTILE, "compared_with": HOSTILE, "error": 1e-9, "tolerance": 1e-3}
+            | {"seconds": 0.1, "in_use": True}
         ],
     }
     for name, text in texts.items():

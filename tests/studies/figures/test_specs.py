@@ -54,7 +54,7 @@ def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp
 def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_studies):
     params = of_the_studies["companion_horizon"].params
     run = GOOD["cases"]["weak"]["simulation"]
-    assert of_the_studies["companion_horizon"].input.strobe == "results/simulations/weak/strobe.csv"
+    assert of_the_studies["companion_horizon"].input.strobe == "results/simulations/weak/reference/strobe.csv"
     assert params.settings == {name: run[name] for name in ("initial_state", "transient_cycles")}
     assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
     assert params.config["cases.weak"] == params.system

@@ -3,7 +3,7 @@
 STUDY_SCENES = {name: SCENES.get(name, {}) for name in STUDY_DRAWINGS}
 
 
-use rule figure_check as study_check with:
+rule study_check:
     input:
         rules.companions.input,
     params:
@@ -12,13 +12,16 @@ use rule figure_check as study_check with:
         page="results/study_check",
         strict=False,
         code=code("figure_check"),
+    threads: ALL_CORES
     log:
         "results/logs/study_check.log",
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/figure_check.py"
 
 
-use rule figure_check_strict as study_check_strict with:
-    input:
-        rules.companions.input,
+use rule study_check as study_check_strict with:
     params:
         figures=STUDY_SCENES,
         reference="figures/studies",
