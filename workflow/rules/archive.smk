@@ -27,7 +27,9 @@ def results_of_a_commit(wildcards):
         refuse(f"archive: {error}")
     of_commit = checked(merged([(file, read(ROOT / file)) for file in COMMITTED_CONFIG]))
     for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
-        refuse(f"archive: {place} is {here}, in {' and '.join(COMMITTED_CONFIG)} {there}. Build without another config.")
+        refuse(
+            f"archive: {place} is {here}, in {' and '.join(COMMITTED_CONFIG)} {there}. Build without another config."
+        )
     targets = [*rules.all.input, *(rules.studies.input if STUDIES else ())]
     if others := list(made_otherwise(targets, made_with_now)):
         more = f" ({len(others) - 1} more)" if others[1:] else ""

@@ -13,9 +13,9 @@ rule simulation:
         code=code("simulate"),
     priority: 10
     log:
-        "results/logs/simulations/{case}.{model}.log",
+        "results/logs/simulations/{case}/{model}.log",
     benchmark:
-        "results/benchmarks/simulations/{case}.{model}.tsv"
+        "results/benchmarks/simulations/{case}/{model}.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

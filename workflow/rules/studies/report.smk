@@ -15,7 +15,10 @@ for name, scene in MOVING["animations"].items():
         name:
             name
         input:
-            **{table: f"results/simulations/{scene['case']}/{arithmetic(scene)}/{table}.csv" for table in ("samples", "events")},
+            **{
+                table: f"results/simulations/{scene['case']}/{arithmetic(scene)}/{table}.csv"
+                for table in ("samples", "events")
+            },
         output:
             **{kind: f"results/animations/{name}.{kind}" for kind in (*PICTURES, "json")},
         params:
