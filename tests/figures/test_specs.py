@@ -9,14 +9,8 @@ import pytest
 from configs import GOOD
 from loaded_rules import SPECS, assert_compute_takes, assert_declared, drawn, made, published, rules, without
 from pipeline_trees import ROOT
-<<<<<<< HEAD
-from vibroimpact_pipeline.specs import spec_of
-=======
-from vibroimpact.tables import read
-from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.html.figure_texts import words
-from vibroimpact_pipeline.specs import columns, each, spec_of, specs
->>>>>>> ca4ea37217238163c864fa8ab0934fbd3d9c3d7f
+from vibroimpact_pipeline.specs import spec_of
 
 DRAWN = drawn("figures")
 OWN = {"notebook": "theoretical_response", "case": "weak", "fixed_point": "a", "periods": 1}
@@ -88,8 +82,8 @@ def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
 
 
 def test_a_caption_names_a_model_that_is_not_the_chapter_s():
-    scene = CONFIG["figures"]["fig10_07"]
-    parameters = CONFIG["system"] | {"f10_hat": 1.0, "f20_hat": 1.0}
+    scene = GOOD["figures"]["fig10_07"]
+    parameters = GOOD["system"] | {"f10_hat": 1.0, "f20_hat": 1.0}
     plain, exact = (words("fig10_07", scene | {"model": model}, parameters) for model in ("slow_flow", "exact_orbit"))
     assert exact["caption"] == f"{plain['caption']} Drawn with the model *exact orbit*."
 
