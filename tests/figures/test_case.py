@@ -17,6 +17,7 @@ EQUAL = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 OTHERS = [EQUAL | change for change in ({"kappa": 0.650001}, {"f20_hat": 0.72}, {"f10_hat": 0.0, "f20_hat": 0.0})]
 NAMES = ("points", "orbits", "search", "verdicts", "samples", "events", "strobe", "summary")
 RUN = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "samples_per_cycle": 16}
+RUN |= {"model": "float64"}
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ rule simulation:
         strobe="results/simulations/{case}/{model}/strobe.csv",
     params:
         system=lambda wildcards: system_of(wildcards.case),
-        settings=lambda wildcards: config["cases"][wildcards.case]["simulation"],
+        settings=lambda wildcards: config["cases"][wildcards.case]["simulation"] | {"model": wildcards.model},
         code=code("simulate"),
     priority: 10
     log:

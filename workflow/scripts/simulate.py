@@ -34,8 +34,7 @@ def summarise(simulated: Window, settings: dict) -> dict:
 
 
 with running(snakemake) as out:
-    case, parameters = snakemake.wildcards.case, snakemake.params.system
-    settings = snakemake.params.settings | {"model": snakemake.wildcards.model}
+    case, parameters, settings = snakemake.wildcards.case, snakemake.params.system, snakemake.params.settings
     simulated = window(System(**parameters), settings)
     for name in ("samples", "events", "strobe"):
         tables.write(getattr(simulated, name), getattr(out, name))
