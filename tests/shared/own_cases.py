@@ -15,9 +15,9 @@ OWN_FIGURES = {
         "fixed_point": "b",
         "periods": 3,
     },
-    "strong_motion": {"notebook": "simulation", "model": "simulation", "case": "strong"},
+    "strong_motion": {"notebook": "simulation", "model": "float64", "case": "strong"},
     "still_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
-    "still_motion": {"notebook": "simulation", "model": "simulation", "case": "still"},
+    "still_motion": {"notebook": "simulation", "model": "float64", "case": "still"},
 }
 """Each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
 
