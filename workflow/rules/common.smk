@@ -86,7 +86,7 @@ def checked_config(given):
         given = {name: entry for name, entry in given.items() if name not in rest}
         validate(given, schema=str(schemas / "config.schema.json"))
         return given | rest
-    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", workflow.config_settings.config)
+    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", dict(workflow.config_settings.config))
     sources = [*SOURCES, last]
     try:
         return checked(merged(sources), sources)
