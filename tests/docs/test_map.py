@@ -24,7 +24,7 @@ def test_every_page_is_linked_from_the_readme(page):
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", *(f"docs/{page}" for page in PAGES)])
 def test_links_lead_somewhere(page):
     """Those to the studies as far as there are any."""
-    links = [ROOT / page / ".." / link for link in LINK.findall((ROOT / page).read_text(encoding="utf-8"))]
+    links = [(ROOT / page).parent / link for link in LINK.findall((ROOT / page).read_text(encoding="utf-8"))]
     assert [link for link in links if not link.exists() and not is_of_studies(link)] == []
 
 
@@ -103,7 +103,7 @@ NAMED = sorted(set(re.findall(r"test_\w+\.py", RUNNING)))
 
 @pytest.mark.parametrize("name", NAMED)
 def test_what_is_promised_has_its_test(name):
-    assert list((ROOT / "tests").rglob(name))
+    assert list((ROOT / "tests").rglob(name)) or not LAYER.exists()
 
 
 def test_every_fault_that_is_injected_is_told():

@@ -63,7 +63,7 @@ def run(tree, *arguments):
     return subprocess.run(command, cwd=tree.path, env=environment, capture_output=True, text=True, check=False)
 
 
-def tests_in(tree, *arguments):
+def assert_tests_pass(tree, *arguments):
     ended = run(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments)
     assert ended.returncode == 0, ended.stdout[-3000:] + ended.stderr[-1000:]
 
@@ -82,8 +82,8 @@ def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_
     assert chapter_alone.planned() == set()  # results of the same code are up to date
     chapter_alone.snakemake("--forcerun", "fixed_points", "fig10_04", "index", "--", "fig10_04", "index")
     assert "11 figures: 11 passed" in chapter_alone.snakemake("figure_check")
-    tests_in(chapter_alone, "--collect-only")
-    tests_in(chapter_alone, *(f"tests/{name}.py" for name in QUICK))
+    assert_tests_pass(chapter_alone, "--collect-only")
+    assert_tests_pass(chapter_alone, *(f"tests/{name}.py" for name in QUICK))
     assert "vibroimpact.branches belongs to the studies" in run(chapter_alone, "-c", SAID).stdout
     machine = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9"
     ended = run(chapter_alone, "-m", "vibroimpact", *machine.split())
@@ -98,4 +98,4 @@ def test_all_of_the_chapter_is_built_and_tested_without_the_studies(chapter_alon
     shutil.rmtree(chapter_alone / ".snakemake")
     chapter_alone.snakemake()
     assert "11 figures: 11 passed" in chapter_alone.snakemake("figure_check")
-    tests_in(chapter_alone, "--ignore", "tests/workflow/test_layers.py")
+    assert_tests_pass(chapter_alone, "--ignore", "tests/workflow/test_layers.py")

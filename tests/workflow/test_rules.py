@@ -22,7 +22,7 @@ def test_a_rule_names_the_code_of_its_script(script, named):
 
 
 def test_all_scripts_of_the_workflow_were_read():
-    """But those that no rule runs."""
+    """But those that no rule runs; the chapter may have no figure that is made by a script alone."""
     folder = ROOT / "workflow/scripts"
     scripts = {path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.py")}
-    assert {script for script, _ in rules()} == scripts - {"benchmark", "compile"}
+    assert {script for script, _ in rules()} | {"figure"} == scripts - {"benchmark", "compile"}
