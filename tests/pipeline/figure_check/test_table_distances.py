@@ -15,7 +15,7 @@ from vibroimpact_pipeline.specs import each
 RANDOM = np.random.default_rng(5)
 VALUE = {"value": {"compared": "kind"}}
 BOTH = {"absolute": 0.5, "relative": 0.1}
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "spreads"}
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "shares", "spreads"}
 
 
 @pytest.fixture
@@ -65,10 +65,10 @@ def test_a_balance_is_as_rare_as_the_same_tosses_of_a_coin(apart):
     assert 2 * norm.sf(apart("balance", np.ones(100), new)) == pytest.approx(exact, rel=0.3)
 
 
-@pytest.mark.parametrize("number", [1, 2, 3, 7])
+@pytest.mark.parametrize("number", [1, 4, 5, 7])
 def test_a_class_that_vanishes_is_never_near_unless_it_is_scarce(apart, number):
     old = np.repeat(["one", "two"], [900, number])
-    vanished = number > 2
+    vanished = number > 4
     assert (apart("balance", old, np.repeat(["one"], 900 + number), 99) == FAR) == vanished
     assert (apart("balance", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 99) == FAR) == vanished
 
@@ -176,7 +176,7 @@ def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(
         events = curve("", "", **{name: run.events[name] for name in ("tau", "module", "wall")})
         return fig10_08.compute(system, samples, events.assign(X2=run.events["state"][:, 2]))
 
-    assert bool(compare(settled(0.2), settled(gamma1_hat), TABLES["fig10_08"])[0]) == caught
+    assert bool(compare(settled(0.2), settled(gamma1_hat), TABLES["fig10_08"][1])[0]) == caught
 
 
 def test_every_kind_is_used_and_every_column_of_numbers_has_one_that_there_is():
