@@ -17,7 +17,7 @@ COLUMNS = {
     if file.removesuffix(".csv") in FOLDERS
 }
 """Columns by name of each published table."""
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "spreads"}
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "shares", "spreads"}
 
 
 def tables_in(folder: str) -> list[str]:
@@ -43,9 +43,9 @@ def by_kind(name):
         kinds = entry.get("compared", ())
         series = kinds if isinstance(kinds, dict) else {OTHERS: kinds} if kinds else {}
         words = table.iloc[:, :2].itertuples(index=False, name=None)
-        own = [next((word for word in row if word in series), OTHERS) for row in words]
-        for word, kind in series.items():
-            rows = table.index[[one == word for one in own]]
+        own = [series.get(next((word for word in row if word in series), OTHERS)) for row in words]
+        for kind in dict.fromkeys(series.values()):
+            rows = table.index[[one == kind for one in own]]
             rows = rows[table.loc[rows, column].notna() & (table.loc[rows, column] != "")]
             if len(rows):
                 yield column, kind, rows

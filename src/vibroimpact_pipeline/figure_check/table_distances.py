@@ -19,8 +19,8 @@ SMALLEST = 1e-17
 """Errors below this are as good as none; so low does a logarithmic axis go."""
 SAME = 1e-6
 """Counts and shares that differ by less are the same."""
-SCARCE = 3
-"""Rows that a class has at least, of which rounding does not move all."""
+SCARCE = 5
+"""Rows below which a class may vanish: rounding was seen to move all of three."""
 STILL = 1e-3
 """Part of a number by which it has to move to count as moved."""
 
@@ -43,17 +43,19 @@ def compare(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> t
     before, after = _by_series(old, columns), _by_series(new, columns)
     for series in before | after:
         a, b = (rows.get(series, old.iloc[:0]) for rows in (before, after))
-        kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and _given(a[name]).any()}
+        given = _given(a)
+        kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and given[name].any()}
         words = [name for name in _words(old) if name not in kinds]
         if not _same(a[words], b[words]):
             reasons.append(f"{', '.join(series)}: other rows, {len(b)} instead of {len(a)}")
             continue
+        others = (given.to_numpy() != _given(b).to_numpy()).any(axis=0)
         for name in (name for name in old if name not in words):
-            if (_given(a[name]).to_numpy() != _given(b[name]).to_numpy()).any():
+            if others[old.columns.get_loc(name)]:
                 reasons.append(f"{name}: blank in other rows ({', '.join(series)})")
             elif name in kinds:
                 parts.setdefault((name, kinds[name]), []).append((a, b))
-            elif _given(a[name]).any():
+            elif given[name].any():
                 reasons.append(f"no limit is stated for column {name}")
     for (name, kind), pairs in parts.items():
         whole = [tuple(pd.concat(rows) for rows in zip(*pairs, strict=True))]

@@ -63,10 +63,10 @@ def test_a_balance_is_as_rare_as_the_same_tosses_of_a_coin(apart):
     assert 2 * norm.sf(apart("balance", np.ones(100), new)) == pytest.approx(exact, rel=0.3)
 
 
-@pytest.mark.parametrize("number", [1, 2, 3, 7])
+@pytest.mark.parametrize("number", [1, 4, 5, 7])
 def test_a_class_that_vanishes_is_never_near_unless_it_is_scarce(apart, number):
     old = np.repeat(["one", "two"], [900, number])
-    vanished = number > 2
+    vanished = number > 4
     assert (apart("balance", old, np.repeat(["one"], 900 + number), 99) == FAR) == vanished
     assert (apart("balance", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 99) == FAR) == vanished
 

@@ -55,6 +55,6 @@ def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_stu
     params = of_the_studies["companion_horizon"].params
     run = GOOD["cases"]["weak"]["simulation"]
     assert of_the_studies["companion_horizon"].input.strobe == "results/simulations/weak/reference/strobe.csv"
-    assert params.settings == {name: run[name] for name in ("initial_state", "transient_cycles")}
-    assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
+    assert params.settings == {"initial_state": run["initial_state"]}
+    assert params.config["cases.weak.simulation.initial_state"] == run["initial_state"]
     assert params.config["cases.weak"] == params.system

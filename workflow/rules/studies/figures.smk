@@ -46,7 +46,7 @@ COMPANIONS = {
     "companion_field": {"needs": ["cases.equal"]},
     "companion_horizon": {
         "case": "figures.fig10_11.case",
-        "settings": ["cases.{case}.simulation.initial_state", "cases.{case}.simulation.transient_cycles"],
+        "settings": ["cases.{case}.simulation.initial_state"],
         "inputs": {"strobe": "results/simulations/{case}/reference/strobe.csv"},
         "needs": ["cases.{case}.simulation.digits"],
     },

@@ -86,13 +86,13 @@ SPEC = {
                     "over that without balls", "unit": "dimensionless", "compared": "peaks"},
                 "swept": {"meaning": "the peak there as the sweep has it", "unit": "dimensionless",
                     "compared": "extremes"},
-                "kappa": {"compared": {"lowest peak": "algebra", "others": "extremes"}},
-                "f10_hat, f20_hat": {"compared": "extremes"},
+                "kappa": {"compared": {"lowest peak": "algebra", "others": "places"}},
+                "f10_hat, f20_hat": {"compared": {"peak": "places", "lowest peak": "places", "others": "algebra"}},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
                     "unit": "dimensionless", "compared": "places"},
                 "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "
                     "the peak is lowest; and how far about it, on the grid of the sweep, it is at most 1.25 times as "
-                    "high", "unit": "dimensionless", "compared": "extremes"},
+                    "high", "unit": "dimensionless", "compared": "places"},
                 "regime": {"meaning": "the `regime` that most starts end in there", "unit": "text",
                     "compared": "places"},
             },

@@ -71,7 +71,8 @@ SPEC = {
                 "panel": {"meaning": "the path, as in `companion_branches`"},
                 "label": {"meaning": "the `regime`", "unit": "text", "compared": "outcomes"},
                 "p": {"compared": "algebra"},
-                "C1, C2": {"meaning": "$C_i$, (10.11), of half the mean way per cycle", "compared": "amplitudes"},
+                "C1, C2": {"meaning": "$C_i$, (10.11), of half the ball's mean way per cycle",
+                    "compared": "amplitudes"},
             },
         },
         "cases": {

@@ -64,7 +64,8 @@ SPEC = {
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
             "compared": {"all starts": "extremes", "others": "roots"}},
         "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "spreads"},
-        "leaning": {"meaning": "share of starts that end on the leaning orbit", "unit": "share", "compared": "shares"},
+        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share",
+            "compared": "shares"},
     },
     "tables": {
         "summary": {

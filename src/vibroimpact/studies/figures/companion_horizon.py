@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.figures.plotting.style import BLACK, GREY, LIGHT_GREY, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.studies.horizon import departure
 from vibroimpact.system import System
 from vibroimpact.system.state import NAMES
@@ -18,10 +18,9 @@ SPEC = {
         "logarithmic axis: it grows from rounding to the size of the motion, then stays there.",
     "method": "the same in float64, and the error that the certificate of every run expects",
     "columns": {
-        "panel": {}, "series": {"values": ["measured", "expected", "horizon", "window"]},
-        "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$, in "
-            "window both ends of figure 10.11", "unit": "forcing periods", "compared": {"measured": "algebra",
-            "others": "horizon"}},
+        "panel": {}, "series": {"values": ["measured", "expected", "horizon"]},
+        "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$",
+            "unit": "forcing periods", "compared": {"measured": "algebra", "others": "horizon"}},
         "error": {"meaning": "largest difference of a component of the state from the truth, and what the certificate "
             "of the run expects of it", "unit": "dimensionless", "compared": {"measured": "rounding",
             "others": "certificate"}},
@@ -29,12 +28,11 @@ SPEC = {
 }  # fmt: skip
 
 
-def compute(system: System, initial_state, strobe: pd.DataFrame, transient_cycles: int) -> pd.DataFrame:
+def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
     """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.
 
     strobe: the true states there (columns tau and `NAMES`). Returns columns panel ("error"), series ("measured",
-    "expected": curves; "horizon", "window": the cycle at which the expected error passes 1e-3, and those at which the
-    window of figure 10.11 starts and ends), cycle, error.
+    "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))
@@ -44,25 +42,21 @@ def compute(system: System, initial_state, strobe: pd.DataFrame, transient_cycle
             curve("error", "measured", cycle=cycles, error=difference),
             curve("error", "expected", cycle=cycles[known], error=expected[known]),
             curve("error", "horizon", cycle=[horizon], error=[1e-3]),
-            curve("error", "window", cycle=[transient_cycles, cycles[-1]], error=[np.nan, np.nan]),
         ]
     )
 
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: error against cycles, logarithmic; the window of figure 10.11 shaded."""
+    """Draw the table of `compute`: error against cycles, logarithmic."""
     figure = new_figure(SINGLE_COLUMN, 58.0)
     axes = figure.add_subplot()
-    axes.axvspan(*select(table, "error", "window")["cycle"], facecolor=LIGHT_GREY, edgecolor="none", zorder=0)
     measured, expected = select(table, "error", "measured"), select(table, "error", "expected")
     axes.semilogy(measured["cycle"], measured["error"].clip(lower=1e-17), color=BLACK, linewidth=0.8, label="measured")
     axes.semilogy(expected["cycle"], expected["error"], color=GREY, linestyle="--", linewidth=1.6, label="expected")
     ((cycle, error),) = select(table, "error", "horizon")[["cycle", "error"]].to_numpy()
     axes.plot(cycle, error, marker="o", color=BLACK, linestyle="none", markersize=4)
     axes.annotate("horizon", (cycle, error), xytext=(6, -3), textcoords="offset points")
-    start, end = select(table, "error", "window")["cycle"]
-    axes.text((start + end) / 2, 3e-14, "window of\nfigure 10.11", ha="center")
-    axes.set(xlim=(0, end), ylim=(1e-17, 30), xlabel="forcing cycle", ylabel="error of float64")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.2, 0.02))
+    axes.set(xlim=(0, measured["cycle"].max()), ylim=(1e-17, 30), xlabel="forcing cycle", ylabel="error of float64")
+    axes.legend(loc="lower right")
     return figure
