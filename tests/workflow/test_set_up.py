@@ -158,7 +158,7 @@ def test_a_second_lock_that_was_not_installed_is_tried_again(tree, recording):
 
 
 def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, recording, tmp_path):
-    """CDPATH leads `cd workflow/..` elsewhere; variables of Python, pip and uv have packages put elsewhere or not found."""
+    """CDPATH leads `cd workflow/..` elsewhere; variables of Python, pip and uv say where packages lie."""
     (tmp_path / "elsewhere/workflow").mkdir(parents=True)
     names = ("HOME", "PATH", "USERBASE", "STARTUP", "DONTWRITEBYTECODE")
     set_up(
@@ -296,7 +296,7 @@ def locked(name) -> set[str]:
 
 
 def test_the_locks_are_whole():
-    """Every package once, with version and hash, none from a place of its own, the optional integrator with a marker."""
+    """Every package once, with version and hash, none from its own place, the optional integrator with a marker."""
     locks = [locked(name) for name in LOCKS]
     assert sum(map(len, locks)) == len(set().union(*locks))
     text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in LOCKS)
