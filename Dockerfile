@@ -12,6 +12,6 @@ WORKDIR /home/vibroimpact/pipeline
 
 FROM system
 COPY --chown=vibroimpact . .
-RUN make set-up && rm -rf .cache/pip && mkdir results
+RUN make set-up && rm -rf .cache/pip .cache/uv && mkdir results
 ENV PATH=/home/vibroimpact/pipeline/.venv/bin:$PATH
 CMD ["make", "figures"]

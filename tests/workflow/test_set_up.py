@@ -1,15 +1,21 @@
 """Set-up: done once, from the lock alone, started over if it was killed, and one line where it cannot work."""
 
 import ast
+import hashlib
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
 import tomllib
+import venv
 import zipfile
+from importlib.metadata import packages_distributions
+from pathlib import Path
 
+import pip
 import pytest
 import yaml
 from packaging.requirements import Requirement
@@ -24,8 +30,8 @@ from vibroimpact.system import System
 from vibroimpact_pipeline import environment
 
 RECORDING = """#!/bin/sh
-# An interpreter that makes an environment of itself, and writes down what pip is asked to install, and with what.
-env | grep '^PYTHON[A-Z]' >>variables
+# An interpreter that makes an environment of itself, and writes down what pip and uv are to install, and with what.
+env | grep -E '^(PYTHON[A-Z]|UV_)' >>variables
 case "$*" in *"-m pip "*) env | grep '^PIP_' >>variables ;; esac
 case "$*" in
     *_base_executable*) echo "$0" ;;
@@ -39,7 +45,9 @@ case "$*" in
         while [ -e hold ]; do sleep 0.02; done ;;
     *--requirement*)
         lock=${*##*--requirement }
-        echo "$* $(cut -d ' ' -f 1 "${lock%% *}" | grep -c ==)" >>calls ;;
+        echo "${0##*/} $* $(cut -d ' ' -f 1 "${lock%% *}" | grep -c ==)" >>calls
+        [ -e .venv/bin/uv ] || cp "$0" .venv/bin/uv
+        case "$0" in */uv) ! [ -e unreachable ] ;; esac ;;
     *) echo "$*" >>calls ;;
 esac
 """
@@ -53,9 +61,9 @@ def recording(tree):
     return {"PYTHON": str(tree / "recording")}
 
 
-def start(tree, **environment):
+def start(tree, *lock, **environment):
     return subprocess.Popen(
-        ["bash", "workflow/set_up.sh"],
+        ["bash", "workflow/set_up.sh", *lock],
         cwd=tree.path,
         env=os.environ | environment,
         stdout=subprocess.PIPE,
@@ -65,9 +73,9 @@ def start(tree, **environment):
     )
 
 
-def set_up(tree, expected=0, **environment):
+def set_up(tree, *lock, expected=0, **environment):
     """Output of a set-up that ends with an exit status."""
-    run = start(tree, **environment)
+    run = start(tree, *lock, **environment)
     output = run.communicate()[0]
     assert run.returncode == expected, output
     return output
@@ -101,20 +109,56 @@ def test_a_moved_checkout_is_set_up_again(tree, recording, tmp_path):
     assert "1 of 3" in set_up(Tree(moved), PYTHON=str(moved / "recording"))
 
 
+def installs(tree) -> list[str]:
+    """What was installed from a lock: the program, its arguments and the number of packages."""
+    return [call for call in (tree / "calls").read_text().splitlines() if "--requirement" in call]
+
+
 @pytest.mark.parametrize("source", [{}, {"WHEELS": "wheels"}], ids=["network", "folder"])
-def test_everything_is_installed_from_the_lock_and_first_of_all_what_builds_packages(tree, recording, source):
+def test_everything_is_installed_from_the_lock_and_first_of_all_what_installs_and_builds(tree, recording, source):
     (tree / "wheels").mkdir()
     set_up(tree, **recording, **source)
-    installs = [call for call in (tree / "calls").read_text().splitlines() if "--requirement" in call]
-    assert [int(call.split()[-1]) > 100 for call in installs] == [False, True]
-    assert all("--require-hashes" in call and "--no-build-isolation" in call for call in installs)
-    assert all(("--no-index --find-links wheels" in call) == bool(source) for call in installs)
-    line = r"^setuptools==\S+ \\\n +--hash=sha256:"
-    assert re.search(line, (ROOT / "environment.lock").read_text(), re.MULTILINE)
+    first, rest = installs(tree)
+    assert (first.split()[-1], int(rest.split()[-1]) > 100) == ("2", True)
+    assert [call.split()[0] for call in (first, rest)] == ["python", "python" if source else "uv"]
+    assert all("--require-hashes" in call and "--no-build-isolation" in call for call in (first, rest))
+    assert all(("--no-index --find-links wheels" in call) == bool(source) for call in (first, rest))
+    for name in ("setuptools", "uv"):
+        assert re.search(rf"^{name}==\S+ \\\n +--hash=sha256:", (ROOT / "environment.lock").read_text(), re.MULTILINE)
+
+
+def test_pip_installs_what_uv_cannot_reach(tree, recording):
+    (tree / "unreachable").touch()
+    assert "Trying pip" in set_up(tree, **recording)
+    assert [call.split()[0] for call in installs(tree)] == ["python", "uv", "python"]
+
+
+def test_a_second_lock_is_added_once_to_what_is_set_up(tree, recording):
+    set_up(tree, **recording)
+    count = (tree / "development.lock").read_text().count("==")
+    added = set_up(tree, "development", **recording).splitlines()
+    assert [line for line in added if "Adding" in line] == added
+    assert re.search(r"Adding (\d+) packages of development.lock", added[0])[1] <= str(count)
+    assert "--requirement development.lock" in installs(tree)[-1]
+    assert set_up(tree, "development", **recording) == set_up(tree, **recording) == ""
+    (tree / "development.lock").write_text("other==1 --hash=sha256:0\n")
+    assert "Adding 1 packages" in set_up(tree, "development", **recording)
+    (tree / "pyproject.toml").write_text("")
+    assert "1 of 3" in (again := set_up(tree, "development", **recording))
+    assert "Adding 1 packages" in again
+
+
+def test_a_second_lock_that_was_not_installed_is_tried_again(tree, recording):
+    set_up(tree, **recording)
+    (tree / ".venv/bin/python").write_text("#!/bin/sh\nexit 1\n")
+    (tree / "unreachable").touch()
+    assert "Adding" in set_up(tree, "development", expected=1, **recording)
+    (tree / "unreachable").unlink()
+    assert "Adding" in set_up(tree, "development", **recording)
 
 
 def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, recording, tmp_path):
-    """CDPATH leads `cd workflow/..` elsewhere; a variable of Python or pip has packages put elsewhere, or not found."""
+    """CDPATH leads `cd workflow/..` elsewhere; variables of Python, pip and uv say where packages lie."""
     (tmp_path / "elsewhere/workflow").mkdir(parents=True)
     names = ("HOME", "PATH", "USERBASE", "STARTUP", "DONTWRITEBYTECODE")
     set_up(
@@ -123,6 +167,7 @@ def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, reco
         CDPATH=str(tmp_path / "elsewhere"),
         **{f"PYTHON{name}": "/nowhere" for name in names},
         **dict.fromkeys(("PIP_USER", "PIP_REQUIRE_HASHES", "PIP_DRY_RUN"), "1"),
+        **dict.fromkeys(("UV_PYTHON", "UV_DEFAULT_INDEX", "UV_CONFIG_FILE", "UV_CONSTRAINT", "UV_EXCLUDE"), "/nowhere"),
         **dict.fromkeys(("PIP_TARGET", "PIP_PREFIX", "PIP_CONSTRAINT", "PIP_REQUIREMENT", "PIP_PYTHON"), "/nowhere"),
     )
     assert not (tmp_path / "elsewhere/.venv").exists()
@@ -180,6 +225,53 @@ def test_of_the_settings_of_pip_those_count_that_say_how_to_reach_packages(tree,
     }
 
 
+def tiny_wheel(folder) -> str:
+    """Write a package into a folder of an index; return its line in a lock."""
+    folder.mkdir(parents=True)
+    with zipfile.ZipFile(folder / "tiny-1-py3-none-any.whl", "w") as wheel:
+        wheel.writestr("tiny-1.dist-info/METADATA", "Metadata-Version: 2.1\nName: tiny\nVersion: 1\n")
+        wheel.writestr("tiny-1.dist-info/WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
+        wheel.writestr("tiny-1.dist-info/RECORD", "tiny-1.dist-info/RECORD,,\n")
+    (folder / "index.html").write_text('<a href="tiny-1-py3-none-any.whl">tiny-1-py3-none-any.whl</a>')
+    digest = hashlib.sha256((folder / "tiny-1-py3-none-any.whl").read_bytes()).hexdigest()
+    return f"tiny==1 --hash=sha256:{digest}\n"
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"INDEX_URL": "file://{index}"},
+        {"INDEX_URL": "file://{empty}", "EXTRA_INDEX_URL": "file://{empty} file://{index}"},
+        {"NO_INDEX": "true", "FIND_LINKS": "{index}/tiny"},
+        {"CONFIG_FILE": "{empty}/pip.conf"},
+    ],
+    ids=["index", "second index", "folder", "file"],
+)
+def test_uv_takes_packages_from_where_pip_is_told_to_and_checks_their_hashes(tree, tmp_path, settings):
+    places = {"index": tmp_path / "index", "empty": tmp_path / "empty"}
+    line = tiny_wheel(places["index"] / "tiny")
+    places["empty"].mkdir()
+    (places["empty"] / "pip.conf").write_text(f"[install]\nindex-url = file://{places['index']}\n")
+    venv.create(tree / ".venv", symlinks=True)
+    (tree / ".venv/bin/uv").symlink_to(Path(sys.executable).with_name("uv"))
+    (tree / ".cache").mkdir(exist_ok=True)
+    packages = next((tree / ".venv/lib").iterdir()) / "site-packages"
+    (packages / "pip").symlink_to(Path(pip.__file__).parent)
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
+    environment |= {f"PIP_{name}": value.format(**places) for name, value in settings.items()}
+    for lock, expected in ((line.replace("256:", "256:0")[:-2], 1), (line, 0)):
+        (tree / "tiny.lock").write_text(lock)
+        run = subprocess.run(
+            [tree / "workflow/pip.sh", "uv", "install", "--require-hashes", "--requirement", "tiny.lock"],
+            env=environment,
+            capture_output=True,
+            text=True,
+        )
+        assert run.returncode == expected, run.stderr
+        assert expected == 0 or "Hash mismatch" in run.stderr
+    assert (packages / "tiny-1.dist-info").is_dir()
+
+
 def test_one_script_calls_pip():
     files = [ROOT / name for name in ("Makefile", "Dockerfile", ".ci/run", "workflow/set_up.sh", "workflow/pip.sh")]
     assert [path.name for path in files if "-m pip" in path.read_text()] == ["pip.sh"]
@@ -195,9 +287,19 @@ def test_packages_are_checked_by_hash(tree):
     assert not (tree / ".venv/.complete").exists()
 
 
+LOCKS = "environment", "development", "cluster"
+
+
+def locked(name) -> set[str]:
+    """The packages of a lock."""
+    return {*re.findall(r"^([a-z][^=\s]*)==", (ROOT / f"{name}.lock").read_text(), re.MULTILINE)}
+
+
 def test_the_locks_are_whole():
-    """Every package with a version and a hash, none from a place of its own, the optional integrator with a marker."""
-    text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in ("environment", "cluster"))
+    """Every package once, with version and hash, none from its own place, the optional integrator with a marker."""
+    locks = [locked(name) for name in LOCKS]
+    assert sum(map(len, locks)) == len(set().union(*locks))
+    text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in LOCKS)
     packages = [line.split() for line in text.splitlines() if not line.startswith("#")]
     assert all("==" in package[0] and package[-1].startswith("--hash=sha256:") for package in packages)
     assert sum(package[0].startswith("snakemake-executor-plugin-slurm==") for package in packages) == 1
@@ -221,6 +323,36 @@ def requirements(*extras):
     return {one for one in asked if not Requirement(one).extras} | (requirements(*others) if others else set())
 
 
+FOR_BUILDS = "pipeline", "integrators", "set-up"
+APART = "notebooks", "cluster"
+"""Extras of environment.lock; those that are not in development.lock either."""
+
+
+def test_each_lock_has_the_packages_of_its_extras():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    for_builds = {Requirement(one).name for one in requirements(*FOR_BUILDS)}
+    others = {Requirement(one).name for one in requirements(*(extras.keys() - {*FOR_BUILDS, *APART}))}
+    assert for_builds <= locked("environment")
+    assert others - for_builds <= locked("development")
+
+
+def imported(path) -> set[str]:
+    """The packages that a module imports, anywhere in it."""
+    nodes = [*ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
+    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
+    return {name.partition(".")[0] for name in names} - sys.stdlib_module_names
+
+
+def test_builds_import_packages_of_their_lock_only_and_other_jobs_say_what_they_lack():
+    installed, for_builds = packages_distributions(), locked("environment")
+    for path in (path for folder in ("src", "workflow/scripts") for path in (ROOT / folder).rglob("*.py")):
+        named = re.findall(r"^need\((.*)\)$", path.read_text(encoding="utf-8"), re.MULTILINE)
+        known = {"vibroimpact", "vibroimpact_pipeline"}.union(*(ast.literal_eval(f"({names},)") for names in named))
+        for name in (imported(path) & installed.keys()) - known:
+            assert {one.lower().replace("_", "-") for one in installed[name]} & for_builds, (path, name)
+
+
 def test_the_conda_environment_has_what_jobs_import():
     """The library is the one beside the rules; Snakemake starts the jobs from its own environment."""
     environment = yaml.safe_load((ROOT / "workflow/envs/vibroimpact.yaml").read_text(encoding="utf-8"))
@@ -233,6 +365,22 @@ def test_the_extra_pipeline_brings_what_a_build_asks_for():
     brought = {Requirement(one).name for one in requirements("pipeline")}
     distributions = {"flint": "python-flint", "yaml": "pyyaml"}
     assert {distributions.get(name, name) for name in environment.NEEDED} <= brought
+
+
+def compiled_files(tree) -> dict[str, int]:
+    """The files of compiled code, and when each was written."""
+    return {str(path): path.stat().st_mtime_ns for path in (tree / "src").rglob("*.nb[ic]")}
+
+
+@pytest.mark.thorough
+def test_the_first_build_compiles_nothing(tree):
+    shutil.rmtree(tree / "src/vibroimpact/__pycache__")
+    environment = os.environ | {"PYTHONPATH": str(tree / "src")}
+    subprocess.run([sys.executable, "workflow/scripts/compile.py"], cwd=tree.path, env=environment, check=True)
+    before = compiled_files(tree)
+    tree.snakemake()
+    assert len(before) > 100
+    assert compiled_files(tree) == before
 
 
 def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):
