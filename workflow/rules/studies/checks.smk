@@ -1,26 +1,27 @@
 # The figures of the studies against their reference set, figures/studies/.
 
-STUDY_SCENES = {name: SCENES.get(name, {}) for name in STUDY_DRAWINGS}
 
-
-use rule figure_check as study_check with:
+rule study_check:
     input:
         rules.companions.input,
     params:
-        figures=STUDY_SCENES,
+        figures={name: SCENES.get(name, {}) for name in STUDY_DRAWINGS},
         reference="figures/studies",
         page="results/study_check",
         strict=False,
         code=code("figure_check"),
+    threads: ALL_CORES
     log:
         "results/logs/study_check.log",
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/figure_check.py"
 
 
-use rule figure_check_strict as study_check_strict with:
-    input:
-        rules.companions.input,
+use rule study_check as study_check_strict with:
     params:
-        figures=STUDY_SCENES,
+        figures=rules.study_check.params.figures,
         reference="figures/studies",
         page="results/study_check",
         strict=True,
