@@ -41,8 +41,7 @@ def specs(root=None) -> dict[str, dict]:
     complete = {}
     for figure, spec in found.items():
         shared = {
-            name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name)
-            for name in SHARED
+            name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name) for name in SHARED
         }
         file = spec.get("file", f"results/figures/{figure}.csv")
         plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}

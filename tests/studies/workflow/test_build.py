@@ -3,18 +3,31 @@
 import os
 import re
 
-import pytest
-
 from archives import archive_of, checkout, commit, unpacked
 from vibroimpact_pipeline.result_records import RECORDS
 
 
-def test_a_second_build_has_nothing_to_do_and_a_changed_file_under_an_old_date_is_seen(restudied):
+EDITS = [
+    ("config/config.yaml", "f20_hat: 0.89", "f20_hat: 0.88", {"companion_branches", "modulation", "claims"}),
+    ("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]", {"companion_10_05"}),
+]
+
+
+def test_only_what_depends_on_an_edit_is_planned(restudied):
     assert restudied.planned("all", "studies") == set()
+    for name, old, new, made in EDITS:
+        restudied.edit(name, old, new)
+        planned = restudied.planned("studies")
+        assert made <= planned
+        assert not {"verdict_grid", "companion_10_08", "fig10_06"} & planned
+        restudied.edit(name, new, old)
     with open(restudied / "docs/studies/claims.yaml", "a") as file:
         file.write("\n")
-    os.utime(restudied / "docs/studies/claims.yaml", (1e9, 1e9))
+    os.utime(restudied / "docs/studies/claims.yaml", (1e9, 1e9))  # as rsync, tar and cp -p leave it
     assert restudied.planned("all", "studies") == {"claims"}
+    said = restudied.snakemake("study_check")
+    number, passed = re.search(r"(\d+) figures: (\d+) passed", said).groups()
+    assert number == passed
 
 
 def test_every_result_has_a_record_and_every_record_its_result(studied):
@@ -26,26 +39,6 @@ def test_every_result_has_a_record_and_every_record_its_result(studied):
     assert {str(path.relative_to(studied.path)) for path in files} <= records
 
 
-@pytest.mark.parametrize(
-    ("name", "old", "new", "made"),
-    [
-        ("config/config.yaml", "f20_hat: 0.89", "f20_hat: 0.88", {"companion_branches", "modulation", "claims"}),
-        ("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]", {"companion_10_05"}),
-    ],
-)
-def test_only_what_depends_on_an_edit_is_planned(restudied, name, old, new, made):
-    restudied.edit(name, old, new)
-    planned = restudied.planned("studies")
-    assert made <= planned
-    assert not {"verdict_grid", "companion_10_08", "fig10_06"} & planned
-
-
-def test_the_figures_are_those_of_the_reference_set(restudied):
-    said = restudied.snakemake("study_check", check=False)
-    assert restudied.returncode == 0, said
-    assert re.search(r"\d+ figures: \d+ passed", said)
-
-
 def test_the_archive_has_both_layers(studied, tmp_path):
     """And is refused where a result was made with another setting."""
     tree = checkout(studied, tmp_path / "tree")
@@ -55,4 +48,4 @@ def test_the_archive_has_both_layers(studied, tmp_path):
     tree.edit("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]")
     commit(tree.path)
     said = tree.dry_run("--rerun-triggers", "mtime", "--", "archive")
-    assert "C_range [0.5, 2.2], now [0.5, 2.0]. Build first: make figures studies" in said
+    assert re.search(r"C_range \[0.5, 2.2\], now \[0.5, 2.0\].*\. Build first: make figures studies", said)

@@ -1,13 +1,11 @@
 # The figures of the studies against their reference set, figures/studies/.
 
-STUDY_SCENES = {name: SCENES.get(name, {}) for name in STUDY_DRAWINGS}
-
 
 rule study_check:
     input:
         rules.companions.input,
     params:
-        figures=STUDY_SCENES,
+        figures={name: SCENES.get(name, {}) for name in STUDY_DRAWINGS},
         reference="figures/studies",
         page="results/study_check",
         strict=False,
@@ -23,7 +21,7 @@ rule study_check:
 
 use rule study_check as study_check_strict with:
     params:
-        figures=STUDY_SCENES,
+        figures=rules.study_check.params.figures,
         reference="figures/studies",
         page="results/study_check",
         strict=True,
