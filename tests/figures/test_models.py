@@ -7,7 +7,7 @@ import yaml
 
 import vibroimpact as vi
 from pipeline_trees import ROOT
-from vibroimpact.accuracy.models import CHOICES
+from vibroimpact.accuracy.model_choice import CHOICES
 from vibroimpact.figures import models
 from vibroimpact.tables import curve, join
 

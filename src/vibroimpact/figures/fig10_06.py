@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.accuracy.models import motions
+from vibroimpact.accuracy.model_choice import motions
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import curve, join, select

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.accuracy.models import motion
+from vibroimpact.accuracy.model_choice import motion
 from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
 
@@ -51,7 +51,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     Args:
         points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
         fixed_point: label of the fixed point shown.
-        model: slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.models`.
+        model: slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
 
     Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The impacts, where W_i and Y_i
     have their corners, are among the points.

@@ -3,7 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.accuracy.models import motion
+from vibroimpact.accuracy.model_choice import motion
 from vibroimpact.figures import fig10_06, fig10_07
 from vibroimpact.figures.plotting.style import SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import join

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.accuracy.models import CHOICES
+from vibroimpact.accuracy.model_choice import CHOICES
 from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.accuracy.window import Window, window
 from vibroimpact.exact.measures import modulation

@@ -54,7 +54,7 @@ class FixedPoints(Section):
     """Fixed points and singular points of a case on the slow invariant manifold, as in figures 10.6 and 10.9."""
 
     notebook: Literal["fixed_points"] = NOTEBOOK
-    model: Literal["slow_flow", "exact_orbit"] = Field(description=THEORY)
+    model: Literal["slow_flow", "exact_orbit"] = Field("slow_flow", description=THEORY)
     case: fields.CaseName
     C_max: fields.Planes
 
@@ -64,7 +64,7 @@ class Response(Section):
 
     notebook: Literal["theoretical_response"] = NOTEBOOK
     model: Literal["slow_flow", "exact_orbit", "second_term"] = Field(
-        description=f"{THEORY}; second_term, the slow flow with the second term of (10.7)"
+        "slow_flow", description=f"{THEORY}; second_term, the slow flow with the second term of (10.7)"
     )
     case: fields.CaseName
     fixed_point: fields.Label
@@ -77,7 +77,7 @@ class SimulatedMotion(Section):
 
     notebook: Literal["simulation"] = NOTEBOOK
     model: Literal["float64", "reference"] = Field(
-        description=f"{MODEL}float64, double precision; reference, arithmetic of many digits, for chaos"
+        "float64", description=f"{MODEL}float64, double precision; reference, arithmetic of many digits, for chaos"
     )
     case: fields.CaseName
 

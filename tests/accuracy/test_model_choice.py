@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.accuracy.models import CHOICES, MODELS, motion, motions
+from vibroimpact.accuracy.model_choice import CHOICES, MODELS, motion, motions
 from vibroimpact.accuracy.window import window
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 from vibroimpact_pipeline.config import figures
