@@ -78,7 +78,7 @@ def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
     rule = rules(tmp_path, GOOD | {"figures": {"mine": OWN | {"model": "slow_flow"}}})["mine"]
     assert rule.input.points == "results/fixed_points/weak.csv"
     assert rule.output.csv == "results/figures/mine.csv"
-    assert rule.params.settings == {"fixed_point": "a", "periods": 1}
+    assert rule.params.settings == {"model": "slow_flow", "fixed_point": "a", "periods": 1}
 
 
 def test_a_caption_names_a_model_that_is_not_the_chapter_s():
@@ -91,6 +91,6 @@ def test_a_caption_names_a_model_that_is_not_the_chapter_s():
 def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_chapter):
     params, run = of_the_chapter["fig10_11"].params, GOOD["cases"]["weak"]["simulation"]
     assert of_the_chapter["fig10_11"].input.samples == "results/simulations/weak/reference/samples.csv"
-    assert params.settings == run
+    assert params.settings == run | {"model": "reference"}
     assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
     assert params.config["cases.weak"] == params.system
