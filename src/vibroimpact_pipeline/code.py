@@ -77,10 +77,15 @@ def is_source(path: Path) -> bool:
 @cache
 def modules() -> dict[str, Path]:
     """Return the file of every module of this project by its name."""
-    files = [path.relative_to(SOURCES) for package in PACKAGES for path in (SOURCES / package).rglob("*.py")]
-    shipped = SHIPPED.relative_to(SOURCES)
-    files = [path for path in files if is_source(path) and not path.is_relative_to(shipped)]
-    return {".".join(path.with_suffix("").parts).removesuffix(".__init__"): SOURCES / path for path in files}
+    found = [
+        path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if not path.is_relative_to(SHIPPED)
+    ]
+    files = [path.relative_to(SOURCES) for path in found]
+    return {
+        ".".join(path.with_suffix("").parts).removesuffix(".__init__"): SOURCES / path
+        for path in files
+        if is_source(path)
+    }
 
 
 @cache
