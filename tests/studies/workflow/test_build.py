@@ -6,7 +6,6 @@ import re
 from archives import archive_of, checkout, commit, unpacked
 from vibroimpact_pipeline.result_records import RECORDS
 
-
 EDITS = [
     ("config/config.yaml", "f20_hat: 0.89", "f20_hat: 0.88", {"companion_branches", "modulation", "claims"}),
     ("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]", {"companion_10_05"}),
