@@ -17,7 +17,7 @@ OVERRIDES = {
     "system={kappa: 1.2}": "system.kappa: '1.2' should be less than 1",
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",
     "system={kappa: yes}": "system.kappa: 'yes' should be a valid number",
-    "figures={7: {notebook: simulation, case: weak}}": "figures.7: '7' should match pattern",
+    "accuracy={problems: {transient: {7: 1}}}": "accuracy.problems.transient.7: unknown key",
     "sistem=3": "sistem: unknown key, did you mean 'system'?",
 }
 

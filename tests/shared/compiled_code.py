@@ -1,5 +1,6 @@
 """What Numba has compiled of the checkout, for a copy of the library with the same content elsewhere."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -21,7 +22,16 @@ def share(library: Path, cache: Path | None = None) -> None:
             copy = library / source.relative_to(LIBRARY)
             target = cache or library / KEPT / folder.name
             if (code := folder / _subfolder(source)).is_dir() and copy.exists():
-                shutil.copytree(code, target / _subfolder(copy), dirs_exist_ok=True)
+                shutil.copytree(code, target / _subfolder(copy), copy_function=_link, dirs_exist_ok=True)
+
+
+def _link(source, target):
+    """A second name for a file, which Numba never changes but replaces; a copy on another file system."""
+    Path(target).unlink(missing_ok=True)
+    try:
+        os.link(source, target)
+    except OSError:
+        shutil.copy2(source, target)
 
 
 def _subfolder(source):

@@ -107,7 +107,7 @@ def with_results(source: Path, path: Path) -> Tree:
 
 def whole_copy(source: Tree, path: Path) -> Tree:
     """A copy of a tree with its results, and with what is compiled of it."""
-    shutil.copytree(source.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks"))
+    shutil.copytree(source.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks", "compiled-*"))
     share(path / "src/vibroimpact")
     return Tree(path)
 
@@ -140,16 +140,23 @@ def _run_module(tree, output, module, arguments):
 
 
 def made_once(tmp_path_factory, name: str, copy: Callable[[Path], object], *targets) -> Tree:
-    """A tree that is copied and built by the first test process to ask for it. Read it, do not change it."""
+    """A tree that is copied and built by the first test process to ask for it. Read it, do not change it.
+
+    A build that fails is not tried again.
+    """
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
-    tree, made = Tree(shared / name), shared / f"{name}.made"
+    tree, made, failed = Tree(shared / name), shared / f"{name}.made", shared / f"{name}.failed"
     with open(shared / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
+        assert not failed.exists(), failed.read_text()
         if not made.exists():
             shutil.rmtree(tree.path, ignore_errors=True)
             copy(tree.path)
-            tree.snakemake(*targets)
+            output = tree.snakemake(*targets, check=False)
+            if tree.returncode:
+                failed.write_text(output)
+            assert tree.returncode == 0, output
             made.touch()
     return tree

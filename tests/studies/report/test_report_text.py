@@ -103,9 +103,9 @@ def test_a_live_part_stands_in_place_of_its_still_where_its_data_are(tmp_path):
 
 
 def test_every_number_of_a_document_has_a_place_and_every_place_is_used():
-    documents = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md"))
+    documents = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md"))
     places = yaml.safe_load((ROOT / "docs/studies/numbers.yaml").read_text(encoding="utf-8"))
-    assert set(re.findall(r"\(numbers\.yaml#(.*?)\)", documents)) == set(places)
+    assert set(re.findall(r"\((?:studies/)?numbers\.yaml#(.*?)\)", documents)) == set(places)
 
 
 def test_values_are_found_by_their_places(tmp_path):
