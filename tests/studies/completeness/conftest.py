@@ -1,0 +1,19 @@
+"""The chapter's system under given forcing, and each of its cases."""
+
+import pytest
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+
+
+@pytest.fixture
+def chapter():
+    def make(f10_hat=1.0, f20_hat=1.0, **changes):
+        return vi.System(**{**PARAMETERS, **changes}, f10_hat=f10_hat, f20_hat=f20_hat)
+
+    return make
+
+
+@pytest.fixture(params=FORCES)
+def case(request, chapter):
+    return chapter(*FORCES[request.param])
