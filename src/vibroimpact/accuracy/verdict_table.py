@@ -1,14 +1,18 @@
 """Verdicts on every fixed point and orbit of a case: (10.26), fast, slow, theory, exact (`theory.criteria`)."""
 
 import numpy as np
-import pandas as pd
 
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.frames import with_former_names
+from vibroimpact.system.extras import need
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT, FAST, SLOW
 from vibroimpact.theory.manifold import stays_within_walls
+
+need("figures", "pandas")
+
+import pandas as pd  # noqa: E402 (after the word on what is missing)
 
 CRITERIA = (*criteria.CRITERIA, EXACT)
 FORMER = {"masri_derived": FAST, "slow_flow": SLOW, "floquet": EXACT}
