@@ -44,11 +44,16 @@ def behind(*roots: str) -> list[Path]:
 def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files behind a job; of folders every byte counts, comments as well."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
-    for path in behind(*roots):
-        top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
+    for name, path in sorted((_name(path), path) for path in behind(*roots)):
         content = path.read_bytes() if path in listed else _content(path)
-        digest.update(f"{path.relative_to(top).as_posix()}\n".encode() + content)  # the same in a wheel
+        digest.update(f"{name}\n".encode() + content)
     return digest.hexdigest()[:16]
+
+
+def _name(path: Path) -> str:
+    """Return the path of a file from the checkout or, of a module, from its `src`: the same in a wheel."""
+    top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
+    return path.relative_to(top).as_posix()
 
 
 def change_times(*roots: str) -> dict[Path, int]:

@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
+from figure_tables import table_of_points, tables_of_run
 from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
 from vibroimpact.tables import select
 
@@ -229,16 +230,16 @@ def test_planes_keep_the_order_of_the_labels(scenes):
     assert panels == ["a1", "a2", "b1", "b2", "c1", "c2"]
 
 
-def test_planes_without_fixed_points_show_the_manifold(system, points_of):
-    table = fig10_06.compute(system, points_of(system).iloc[:0], (2.0, 3.5))
+def test_planes_without_fixed_points_show_the_manifold(system):
+    table = fig10_06.compute(system, table_of_points(system).iloc[:0], (2.0, 3.5))
     assert set(table["series"]) == {"SIM stable", "SIM unstable"}
     assert len(fig10_06.draw(table).axes) == 2
 
 
-def test_planes_reach_every_fixed_point(system, points_of):
-    table = fig10_06.compute(system, points_of(system), 1.2)
+def test_planes_reach_every_fixed_point(system):
+    table = fig10_06.compute(system, table_of_points(system), 1.2)
     reach = table[table["series"] == "SIM stable"].groupby("panel")["C"].max()
-    assert reach["a2"] > points_of(system)["C2"].max()
+    assert reach["a2"] > table_of_points(system)["C2"].max()
 
 
 # Figures 10.7 and 10.10
@@ -246,9 +247,9 @@ def test_planes_reach_every_fixed_point(system, points_of):
 
 @pytest.mark.parametrize(("name", "row"), [("fig10_07", -1), ("fig10_10", 0)])
 @pytest.mark.parametrize("module", [1, 2])
-def test_the_response_is_10_9_and_10_10(scenes, points_of, system, name, row, module):
+def test_the_response_is_10_9_and_10_10(scenes, system, name, row, module):
     system = system if name == "fig10_07" else system.with_(f10_hat=0.5, f20_hat=0.5)
-    C, B, psi = points_of(system).iloc[row][[f"{quantity}{module}" for quantity in ("C", "B", "psi")]]
+    C, B, psi = table_of_points(system).iloc[row][[f"{quantity}{module}" for quantity in ("C", "B", "psi")]]
     # (10.17): the first ball meets the wall +1 at the phase theta with sin, cos of theta + phi as printed
     theta = psi + mpmath.atan2((1 - C) / B, RHO * C / B)
     table = scenes[name].table
@@ -277,25 +278,25 @@ def test_the_ball_of_the_response_hits_the_walls_twice_per_period_as_newton_says
         assert after == pytest.approx(-0.65 * before, rel=2e-3)
 
 
-def test_a_missing_fixed_point_is_named(system, points_of):
+def test_a_missing_fixed_point_is_named(system):
     with pytest.raises(ValueError, match=r"fixed_point: .*'d'.*a, b, c"):
-        fig10_07.compute(system, points_of(system), "d", 2)
+        fig10_07.compute(system, table_of_points(system), "d", 2)
     with pytest.raises(ValueError, match=r"fixed_point: .*'a'.*none"):
-        fig10_10.compute(system, points_of(system).iloc[:0], "a", 2, 2.0)
+        fig10_10.compute(system, table_of_points(system).iloc[:0], "a", 2, 2.0)
 
 
-def test_no_periods_are_refused(system, points_of):
+def test_no_periods_are_refused(system):
     with pytest.raises(ValueError, match="periods"):
-        fig10_07.compute(system, points_of(system), "a", 0)
+        fig10_07.compute(system, table_of_points(system), "a", 0)
 
 
 # Figures 10.8 and 10.11
 
 
-def test_simulated_lines_agree_with_a_library_integrator(system, run_of):
+def test_simulated_lines_agree_with_a_library_integrator(system):
     """(10.2) integrated by DOP853 with its event detection, restarted at every impact."""
     start = np.array([0.2, 0.1, -0.3, 0.2, 0.1, -0.6, 0.2, 0.9])
-    table = fig10_08.compute(system, *run_of(system, start, 0, 3, 50))
+    table = fig10_08.compute(system, *tables_of_run(system, start, 0, 3, 50))
     end = 3 * system.period
     stiffness, damping = np.array([[1.1, -0.1], [-0.1, 1.15]]), np.array([[0.04, -0.02], [-0.02, 0.04]])
 

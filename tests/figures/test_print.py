@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from PIL import Image
 
+from figure_tables import lightness
 from pipeline_trees import ROOT
 from scripts import Given
 from vibroimpact import tables
@@ -36,7 +37,7 @@ def figure(request):
     return drawn
 
 
-def test_fit_for_print(figure, lightness):
+def test_fit_for_print(figure):
     """Width of a column or page; nothing beyond the paper; lettering that can be read; no line told by hue alone."""
     width, height = figure.get_size_inches() * 25.4
     assert round(width, 6) in (84, 174)

@@ -179,7 +179,7 @@ def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
 
 
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGKILL], ids=lambda stop: stop.name)
-def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, stop):
+def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, built, stop):
     build = held.start(FIXED_POINTS)
     wait_for(held / "started", build)
     os.killpg(build.pid, stop)
@@ -189,7 +189,7 @@ def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, stop):
     (held / "go").touch()
     if stop == signal.SIGKILL:
         held.snakemake("--unlock")
-    before = pd.read_csv(held / FIXED_POINTS)["C2"].max()
+    before = pd.read_csv(built / FIXED_POINTS)["C2"].max()
     held.snakemake(FIXED_POINTS)
     assert abs(pd.read_csv(held / FIXED_POINTS)["C2"].max() - before) > 0.01
     record = json.loads((held / f".snakemake/sums/{FIXED_POINTS}.json").read_text())

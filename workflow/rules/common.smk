@@ -8,6 +8,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, validate
@@ -42,7 +43,7 @@ from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, 
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.result_records import PARTIAL, distrust
+from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
     name = path.relative_to(ROOT / "workflow").as_posix()
@@ -132,9 +133,8 @@ def figure_files(stem, tables):
     return kinds | {name: table["file"] for name, table in tables.items()}
 
 
-def in_report(outputs, category):
-    """Named outputs, the picture and the plotted table marked for `snakemake --report`."""
-    caption = "../../report/caption.rst"
+def in_report(outputs, category, caption="../../report/caption.rst"):
+    """Named outputs, the picture and the plotted table marked for `snakemake --report`; caption: from the rule's file."""
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
@@ -175,9 +175,10 @@ def of_case(figure, paths):
 NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
 
 
-def page_and_files(figure):
-    """Outputs of a notebook: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page."""
-    files = in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Figures of the chapter")
+def page_and_files(figure, *marks):
+    """Outputs of a notebook: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page; marks: of `in_report`."""
+    marks = marks or ("Figures of the chapter",)
+    files = in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), *marks)
     return files | {"html": f"results/notebooks/{figure}.html"}
 
 
@@ -216,6 +217,42 @@ def left_over():
     """Figures of builds before, which this config does not make."""
     found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
     return sorted(found.difference(ALL_FIGURES))
+
+
+def study_titles(wildcards):
+    """Titles of the figures of the studies that are there."""
+    others = [name for name in ALL_FIGURES if name not in config["figures"]]
+    return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
+
+
+def made_with_now(name, wildcards):
+    """Params and inputs of a rule; those of the inputs that are results."""
+    if not hasattr(rules, name):
+        raise LookupError(name)
+    made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
+    params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
+    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
+
+
+def results_of_a_commit(wildcards):
+    """Results of both builds; refused, before anything is built, where they would not be those of the commit."""
+    from vibroimpact_pipeline.archive import differences, made_otherwise
+    from vibroimpact_pipeline.config import checked, merged, read
+
+    try:
+        committed(ROOT)
+    except ValueError as error:
+        refuse(f"archive: {error}")
+    of_commit = checked(merged([(file, read(ROOT / file)) for file in COMMITTED_CONFIG]))
+    for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
+        refuse(
+            f"archive: {place} is {here}, in {' and '.join(COMMITTED_CONFIG)} {there}. Build without another config."
+        )
+    targets = [*rules.all.input, *(rules.studies.input if STUDIES else ())]
+    if others := list(made_otherwise(targets, made_with_now)):
+        more = f" ({len(others) - 1} more)" if others[1:] else ""
+        refuse(f"archive: {others[0]}{more}. Build first: make figures{' studies' if STUDIES else ''}")
+    return targets
 
 
 # Rules before these are those of another workflow, which has these as a module.

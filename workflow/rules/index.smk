@@ -1,12 +1,6 @@
 # The page to open first: what the exact system says of each figure, links to all results, studies among them if built.
 
 
-def study_titles(wildcards):
-    """Titles of the figures of the studies that are there."""
-    others = [name for name in ALL_FIGURES if name not in config["figures"]]
-    return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
-
-
 rule index:
     input:
         rules.figures.input,

@@ -5,6 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from figure_tables import table_of_points, tables_of_run
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.studies.figures import companion_10_08
 from vibroimpact.tables import select
@@ -19,14 +20,14 @@ def pair():
 
 
 @pytest.fixture(scope="module")
-def motion(pair, run_of):
+def motion(pair):
     """Samples and events of one of them over three periods."""
-    return run_of(SYSTEM, pair[0].state, 0, 3, 64)
+    return tables_of_run(SYSTEM, pair[0].state, 0, 3, 64)
 
 
 @pytest.fixture(scope="module")
-def table(points_of, motion):
-    return companion_10_08.compute(SYSTEM, points_of(SYSTEM), *motion)
+def table(motion):
+    return companion_10_08.compute(SYSTEM, table_of_points(SYSTEM), *motion)
 
 
 def test_the_flights_are_those_of_the_exact_orbit_and_of_the_fixed_point(pair, table):
@@ -46,11 +47,11 @@ def test_the_grey_line_is_the_other_one_of_the_pair(pair, table):
     assert image["phase"].between(0, 2).all()
 
 
-def test_the_figure_names_both_motions_and_the_lengths_of_their_flights(table, motion, points_of):
+def test_the_figure_names_both_motions_and_the_lengths_of_their_flights(table, motion):
     figure = companion_10_08.draw(table)
     theory, simulated = ({text.get_text() for text in axes.texts} for axes in figure.axes)
     assert theory == {"", "0.50 $T$"}
     assert simulated == {"", "0.38 $T$", "0.62 $T$"}
     assert [axes.get_title("left") for axes in figure.axes] == ["theory: fixed point (c)", "simulated"]
-    none = companion_10_08.compute(SYSTEM, points_of(SYSTEM).head(0), *motion)
+    none = companion_10_08.compute(SYSTEM, table_of_points(SYSTEM).head(0), *motion)
     assert companion_10_08.draw(none).axes[0].get_title("left") == "theory: no fixed point"

@@ -7,6 +7,7 @@ from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
+from figure_tables import lightness
 from studies.absorber_sweeps import BAND, tables_of
 from verdict_tables import verdicts_of
 from vibroimpact.figures.plotting import style
@@ -186,7 +187,7 @@ def test_hopping_is_not_painted_as_chaos(tables):
     assert "hopping" in {text.get_text() for text in figure.legends[0].get_texts()}
 
 
-def test_neighbours_in_a_map_differ_in_grey_print(lightness):
+def test_neighbours_in_a_map_differ_in_grey_print():
     """Asymmetric responses beside modulated ones, and the others that fill patches."""
     large = ["symmetric", "chaotic", "asymmetric", "strongly modulated", "other periodic"]
     shades = [lightness(COLOURS[name]) for name in large]

@@ -24,6 +24,9 @@ def test_only_what_depends_on_an_edit_is_planned(restudied):
         file.write("\n")
     os.utime(restudied / "docs/studies/claims.yaml", (1e9, 1e9))  # as rsync, tar and cp -p leave it
     assert restudied.planned("all", "studies") == {"claims"}
+
+
+def test_the_figures_are_those_of_the_reference_set(restudied):
     said = restudied.snakemake("study_check")
     number, passed = re.search(r"(\d+) figures: (\d+) passed", said).groups()
     assert number == passed

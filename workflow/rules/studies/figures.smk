@@ -1,5 +1,3 @@
-from types import SimpleNamespace
-
 # Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/studies/figures/.
 
 # What `compute` of each takes: settings of the config, named as the last key of their paths (a * stands for all of a
@@ -68,19 +66,6 @@ COMPANIONS = {
 }
 
 
-def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
-    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
-    try:
-        case = at(config, case) if case else None
-        inputs = {name: path.format(case=case) for name, path in inputs.items()}
-        swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
-        entries([*swept, *(path.format(case=case) for path in needs)])
-        params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
-    except LookupError:
-        return None
-    return SimpleNamespace(inputs=inputs, params=params)
-
-
 MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
 
 for figure, found in MADE.items():
@@ -91,7 +76,7 @@ for figure, found in MADE.items():
         input:
             **found.inputs,
         output:
-            **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures"),
+            **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures", CAPTION),
         params:
             **found.params,
             code=code("figure", module_of(figure)),
@@ -115,7 +100,7 @@ for figure, machines in config["machines"].items():
         input:
             notebook=own(NOTEBOOKS["physical_units"]),
         output:
-            **page_and_files(figure),
+            **page_and_files(figure, "Companion figures", CAPTION),
         params:
             **scene(figure, section="machines"),
         log:

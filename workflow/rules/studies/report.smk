@@ -86,7 +86,7 @@ rule report:
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
-        code=code("studies/report", "development.lock", "docs", "report", "src/vibroimpact"),
+        code=code("studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])),
     log:
         "results/logs/report/report.log",
     benchmark:

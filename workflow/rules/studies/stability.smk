@@ -23,7 +23,7 @@ rule proofs:
 # The theory's verdicts over a plane of forces, against exact orbits at several epsilon.
 rule verdict_grid:
     output:
-        **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
+        **in_report({"csv": "results/verdict_grid.csv"}, "Tables", CAPTION),
     params:
         system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid has the forces
         settings=config["stability"]["verdict_grid"],

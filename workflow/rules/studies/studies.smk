@@ -1,6 +1,7 @@
 # What goes beyond the chapter: `snakemake --cores 2 studies`. Deleting every folder and file called `studies` removes it.
 
 
+include: "common.smk"
 include: "stability.smk"
 include: "sweeps.smk"
 include: "figures.smk"

@@ -6,14 +6,6 @@ from vibroimpact.studies.sweeps.cost import points, tiles
 SWEEPS = config.get("sweeps", {})
 
 
-def sweep_request(sweep):
-    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
-    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
-    if "regimes" in sweep["observe"]:
-        spec["observation"] = config["regimes"]["observation"]
-    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
-
-
 scattergather:
     **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
 
@@ -44,7 +36,7 @@ for name, sweep in SWEEPS.items():
         input:
             getattr(gather, name)(f"results/sweeps/{name}/tiles/{{scatteritem}}.csv"),
         output:
-            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables"),
+            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables", CAPTION),
             netcdf=f"results/sweeps/{name}.nc",
         params:
             points=points(sweep["axes"]),

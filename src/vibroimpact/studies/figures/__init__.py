@@ -1,1 +1,5 @@
-"""Figures beyond the chapter."""
+"""Figures beyond the chapter, as its own: compute(...) -> tables, draw(tables) -> Figure."""
+
+from vibroimpact.system.extras import need
+
+need("figures", "matplotlib", "pandas")

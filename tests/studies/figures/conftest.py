@@ -1,1 +1,0 @@
-from chapter_figures import lightness, points_of, run_of, scenes, system  # noqa: F401 (fixtures)

@@ -1,0 +1,25 @@
+# What the rules of the studies share.
+
+# From their files.
+CAPTION = "../../../report/caption.rst"
+
+
+def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
+    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
+    try:
+        case = at(config, case) if case else None
+        inputs = {name: path.format(case=case) for name, path in inputs.items()}
+        swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
+        entries([*swept, *(path.format(case=case) for path in needs)])
+        params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
+    except LookupError:
+        return None
+    return SimpleNamespace(inputs=inputs, params=params)
+
+
+def sweep_request(sweep):
+    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
+    spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
+    if "regimes" in sweep["observe"]:
+        spec["observation"] = config["regimes"]["observation"]
+    return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
