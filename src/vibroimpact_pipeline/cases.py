@@ -4,8 +4,6 @@ import copy
 
 CHAPTER = ("equal", "unequal", "weak")
 """Cases of the chapter. A config may do without them: see `with_cases`."""
-NOTEBOOKS = ("fixed_points", "theoretical_response", "simulation")
-"""Notebooks of figures that show a case."""
 STUDIES = ("accuracy.benchmark", "report.force_sweep", *(f"regimes.{name}" for name in
     ("branches", "basins")))  # fmt: skip
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
@@ -35,8 +33,7 @@ def with_cases(config: dict) -> dict:
     entries += [entry for name in COLLECTIONS for entry in _at(config, name).values()]
     entries += [entry for name, entry in figures.items() if not str(name).startswith("fig10_")]
     for entry in entries:
-        about_a_case = isinstance(entry, dict) and entry and entry.get("notebook", NOTEBOOKS[0]) in NOTEBOOKS
-        if about_a_case and entry.get("case") in (None, *missing):
+        if isinstance(entry, dict) and entry and entry.get("case") in (None, *missing):
             entry["case"] = default
     return config
 

@@ -28,7 +28,7 @@ def write(job, out) -> None:
         out: temporary paths of its outputs. Its drawing has left the versions of packages at `out.provenance`.
     """
     folder = Path(job.output.provenance).parent
-    outputs = {path: getattr(out, name) for name, path in job.output.items() if name not in ("html", "provenance")}
+    outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
     commit, tree = origin(code.ROOT)
     record = {
         "figure": job.params.figure,

@@ -3,7 +3,7 @@
 A SPEC is a literal with these entries; what the figure is computed from says its rule, in workflow/rules/.
 
 - title, caption, alt, equations: what is written of the figure; own: the same words for a figure of the config that is
-  drawn likewise. method: how it is computed.
+  drawn likewise. method: how it is computed. notebook: the one that explains it, if it has a page.
 - sweeps: of sweeps that it draws what they move along each axis, and observe.
 - columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
   figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere;
@@ -20,9 +20,6 @@ from pathlib import Path
 from vibroimpact_pipeline.cases import own_parameters
 from vibroimpact_pipeline.code import SOURCES, modules
 
-LIKE = {"fixed_points": "fig10_06", "theoretical_response": "fig10_07", "simulation": "fig10_08"}
-LIKE |= {"physical_units": "machines"}
-"""The figure that a notebook draws first, whose module and SPEC serve every other figure of that notebook."""
 SHARED = "own", "equations", "columns"
 """Entries of a SPEC that may name a figure which has the same."""
 PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
@@ -59,16 +56,9 @@ def module_of(figure: str) -> str:
     return next(name for package in PACKAGES if (name := f"{package}.{figure}") in modules())
 
 
-def drawing_module(figure: str, scene: dict, known: dict) -> str:
-    """Return the module that draws a figure of the config: its own, or that of its notebook's first figure."""
-    if figure in known:
-        return figure
-    return "fig10_10" if "C_max" in scene and scene["notebook"] == "theoretical_response" else LIKE[scene["notebook"]]
-
-
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
     """Return the SPEC of a figure and its "module" in full; where that is another figure's, the own words and files."""
-    module = drawing_module(figure, scene, known)
+    module = scene.get("like", figure)
     if module == figure:
         return known[figure] | {"module": module_of(module)}
     own = known[module]["own"]

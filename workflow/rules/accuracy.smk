@@ -57,11 +57,11 @@ MODELLED = {figure: entry for figure, entry in config["figures"].items() if "mod
 
 def modelled(figure, entry):
     """A figure with its settings or, of a simulation, those of the run."""
-    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
-    if entry["notebook"] == "simulation":
+    known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
+    settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
+    if known["notebook"] == "simulation":
         settings = config["cases"][entry["case"]]["simulation"]
-    known = {name: entry[name] for name in ("notebook", "model")}
-    return known | {"module": spec(figure)["module"], "system": system_of(entry["case"]), "settings": settings}
+    return known | {"system": system_of(entry["case"]), "settings": settings}
 
 
 rule models:
@@ -69,6 +69,7 @@ rule models:
         **in_report(figure_files("results/accuracy/models", SPECS["models"]["tables"]), "Accuracy and speed"),
     params:
         figure="models",
+        module=module_of("models"),
         settings={
             "scenes": {figure: modelled(figure, entry) for figure, entry in MODELLED.items()},
             "seconds": ACCURACY["short_seconds"],

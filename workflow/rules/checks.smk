@@ -4,7 +4,7 @@
 # Has no output, so that it compares each time; it prints its result on the terminal, too.
 rule figure_check:
     input:
-        rules.figures.input,
+        [getattr(rules, figure).output for figure in config["figures"]],
     params:
         figures=config["figures"],
         reference="figures",

@@ -128,7 +128,7 @@ def spec(figure):
 
 
 def figure_files(stem, tables):
-    """The files of a figure by kind: pictures, where they come from, and its tables."""
+    """The files of a figure by kind: pictures, record of provenance, and tables."""
     kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
     return kinds | {name: table["file"] for name, table in tables.items()}
 
@@ -148,21 +148,30 @@ def entries(paths):
     found = {}
     for path in paths:
         section, _, name = path.rpartition(".")
-        names = [key for key in at(config, section) if key not in ("notebook", "case")] if name == "*" else [name]
+        names = [key for key in at(config, section) if key not in ("like", "case")] if name == "*" else [name]
         found |= {f"{section}.{key}": at(config, f"{section}.{key}") for key in names}
     return found
 
 
-def figure_params(figure, paths, case=None, systems=False):
-    """Settings of a figure, named as the last key of their paths, and its systems; `config`: all of it, by path."""
-    decides = entries(paths)
-    params = {"figure": figure, "case": case, "config": decides}
-    params["settings"] = {path.rpartition(".")[2]: entry for path, entry in decides.items()}
+def figure_params(figure, paths, case=None, systems=False, decides=()):
+    """Settings of a figure, named as the last key of their paths, and its systems.
+
+    `config`: all that decides what it shows, by path, also what its inputs are made with (`decides`).
+    """
+    settings = entries(paths)
+    params = {"figure": figure, "module": spec(figure)["module"], "case": case, "config": settings | entries(decides)}
+    params["settings"] = {path.rpartition(".")[2]: entry for path, entry in settings.items()}
     if case:
-        params["system"] = decides[f"cases.{case}"] = system_of(case)
+        params["system"] = params["config"][f"cases.{case}"] = system_of(case)
     if systems:
-        params["systems"] = decides["cases"] = all_systems()
+        params["systems"] = params["config"]["cases"] = all_systems()
     return params
+
+
+def files(figure, *marks):
+    """Outputs of a figure: <figure>.png, .pdf, .svg, .csv, .provenance.json and further tables; marks: of `in_report`."""
+    tables = spec(figure)["tables"]
+    return in_report(figure_files(f"results/figures/{figure}", tables), *(marks or ("Figures of the chapter",)))
 
 
 def of_case(figure, paths):
@@ -171,29 +180,53 @@ def of_case(figure, paths):
     return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
 
+def scene(figure, *others, section="figures"):
+    """Params of a figure of the config: its own settings, others by their path, and the system of its case.
+
+    Of a simulated motion the model and the settings of the run are decided in its inputs.
+    """
+    if figure not in SCENES:
+        return {"settings": absent(figure)}
+    case, own_settings = SCENES[figure].get("case"), entries([f"{section}.{figure}.*"])
+    decides = [f"cases.{case}.simulation.*", f"{section}.{figure}.model"] if spec(figure)["notebook"] == "simulation" else []
+    paths = [path for path in own_settings if path not in decides]
+    params = figure_params(figure, [*paths, *others], case, decides=decides)
+    return params | {"code": code("figure", spec(figure)["module"], *map(module_of, spec(figure)["shares"]))}
+
+
 # The notebooks by name.
 NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
 
+# What the notebook of a page reads beside the files of its figure.
+READ = {
+    "fixed_points": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+    "theoretical_response": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+    "simulation": {
+        "points": "results/fixed_points.csv",
+        "samples": "results/simulations/{case}/{model}/samples.csv",
+        "events": "results/simulations/{case}/{model}/events.csv",
+        "summary": "results/simulations/{case}/{model}/summary.json",
+    },
+}
 
-def page_and_files(figure, *marks):
-    """Outputs of a notebook: <figure>.png, .pdf, .svg, .csv and .provenance.json, and its page; marks: of `in_report`."""
-    marks = marks or ("Figures of the chapter",)
-    files = in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), *marks)
-    return files | {"html": f"results/notebooks/{figure}.html"}
 
-
-def scene(figure, *paths, section="figures"):
-    """Params of a figure of the config: its own settings, those at further paths, and the system of its case."""
+def page_inputs(wildcards):
+    """Files that the notebook of a page reads, by name: tables and picture of its figure, and results beside them."""
+    figure = wildcards.figure
     if figure not in SCENES:
-        return {"scene": absent(figure)}
-    own_settings = SCENES[figure]
-    case, notebook = own_settings.get("case"), own_settings["notebook"]
-    params = figure_params(figure, [f"{section}.{figure}.*", *(path.format(case=case) for path in paths)], case)
-    title = {"case": title_of(config, case)} if case else {}
-    return params | {
-        "scene": own_settings | title,
-        "code": code("notebook", NOTEBOOKS[notebook], spec(figure)["module"], *map(module_of, spec(figure)["shares"])),
-    }
+        absent(figure)(wildcards)
+    tables = {name: table["file"] for name, table in spec(figure)["tables"].items()}
+    return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
+
+
+def notebook_of(figure):
+    return NOTEBOOKS[spec(figure)["notebook"]]
+
+
+def titled(figure):
+    """The entry of a figure in the config, its case under its title."""
+    shown = SCENES[figure]
+    return shown | ({"case": title_of(config, shown["case"])} if "case" in shown else {})
 
 
 def absent(figure):
@@ -208,7 +241,7 @@ def absent(figure):
 def caption(figure):
     """The caption of a figure, with the numbers that it asks for."""
     params = getattr(rules, figure).params
-    known = SCENES.get(figure, {}) | (params.get("system") or config["system"]) | params.get("scene", {})
+    known = (titled(figure) if figure in SCENES else {}) | (params.get("system") or config["system"])
     text = with_model(spec(figure)["caption"], known)
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), text)
 
@@ -231,7 +264,8 @@ def made_with_now(name, wildcards):
         raise LookupError(name)
     made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
     params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
-    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
+    inputs = [path for item in made_by.input for path in (item(given) if callable(item) else [item])]
+    return params, [path for path in expand(inputs, **wildcards) if is_result(path)]
 
 
 def results_of_a_commit(wildcards):

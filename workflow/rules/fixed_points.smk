@@ -1,17 +1,17 @@
-# Fixed points of the slow flow, (10.23): one file per case.
+# Fixed points of the slow flow (10.23), exact 1:1 responses, and the verdicts of every criterion on both.
 
 
 rule fixed_points:
     output:
-        csv="results/fixed_points/{case}.csv",
+        **in_report({"csv": "results/fixed_points.csv"}, "Tables"),
+        orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
+        search="results/orbits.search.json",
     params:
-        system=lambda wildcards: system_of(wildcards.case),
+        systems=all_systems(),
         code=code("fixed_points"),
-    priority: 10
+    priority: 20
     log:
-        "results/logs/fixed_points/{case}.log",
-    benchmark:
-        "results/benchmarks/fixed_points/{case}.tsv"
+        "results/logs/fixed_points.log",
     conda:
         "../envs/vibroimpact.yaml"
     script:

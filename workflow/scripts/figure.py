@@ -1,10 +1,9 @@
-"""One figure: the tables of its module, written, and the picture of what was written."""
+"""One figure: the tables that its module computes, written, and the picture of what was written."""
 
 from importlib import import_module
 
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
-from vibroimpact_pipeline.specs import module_of
 
 from vibroimpact import tables
 from vibroimpact.figures.plotting.style import write_and_draw
@@ -18,10 +17,15 @@ def arguments(params, inputs) -> dict:
         given["system"] = System(**params.system)
     if params.get("systems"):
         given["systems"] = {case: System(**parameters) for case, parameters in params.systems.items()}
-    return given | {name: tables.read(path) for name, path in inputs.items()}
+    return given | {name: rows_of(params.get("case"), tables.read(path)) for name, path in inputs.items()}
+
+
+def rows_of(case, table):
+    """Return the rows of the figure's case, if it has one and the table is one of several cases."""
+    return table[table["case"] == case].reset_index(drop=True) if case and "case" in table else table
 
 
 with running(snakemake) as out:
-    module = import_module(module_of(snakemake.params.figure))
+    module = import_module(snakemake.params.module)
     write_and_draw(module, module.compute(**arguments(snakemake.params, snakemake.input)), vars(out))
     provenance.write(snakemake, out)

@@ -1,11 +1,10 @@
-"""One figure: its notebook executed with the figure's parameters -> the files of the figure, and the page to read.
+"""The page of a figure: its notebook executed with the figure's parameters, on the finished tables and picture.
 
 The executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
 """
 
 from pathlib import Path
 
-from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.html.offline import page
 from vibroimpact_pipeline.jobs import running
@@ -67,31 +66,23 @@ def execute(notebook, executed, parameters: dict):
         raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
 
 
-def the_same_in_each_build(notebook, paths: dict):
-    """Return an executed notebook whose cell of given parameters has a fixed id, and paths for temporary ones."""
-    given = next(cell for cell in notebook.cells if "injected-parameters" in cell.metadata.get("tags", ()))
-    given.id = "injected-parameters"
-    for temporary, path in paths.items():
-        given.source = given.source.replace(temporary, path)
-    return notebook
+def parameters_of(config: dict) -> dict:
+    """Return the parameters of a notebook by name, from the entries of the config that decide what its figure shows."""
+    given = {}
+    for path, value in config.items():
+        name = path.rpartition(".")[2]
+        given |= value if path == f"cases.{name}" else value if name == "plant" else {name: value}
+    return given
 
 
 with running(snakemake) as out:
-    params, outputs = snakemake.params, vars(out)
-    texts = words(params.figure, params.scene, params.get("system") or {})
-    settings = dict(params.settings)
-    parameters = {
-        "figure": params.figure,
-        "alt": texts["alt"],
-        **({"case": params.case, **params.system} if params.case else {}),
-        **settings.pop("plant", {}),
-        **settings,
-        "inputs": {name: path for name, path in snakemake.input.items() if name != "notebook"},
-        "outputs": {name: path for name, path in outputs.items() if name != "html"},
-    }
+    figure, params = snakemake.wildcards.figure, snakemake.params
+    texts = words(figure, params.scene, params.system)
+    case = {"case": params.case} if params.case else {}
+    given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(params.config), "inputs": params.inputs}
     executed = Path(snakemake.log[0]).with_suffix(".ipynb")
     print(f"{snakemake.input.notebook} as it was executed: {executed}")
-    done = execute(snakemake.input.notebook, executed, parameters)
-    paths = {outputs[name]: path for name, path in snakemake.output.items()}
-    Path(out.html).write_text(page(the_same_in_each_build(done, paths), texts["title"]), encoding="utf-8")
-    provenance.write(snakemake, out)
+    done = execute(snakemake.input.notebook, executed, given)
+    injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
+    injected.id = "injected-parameters"  # random else, and the page of each build another
+    Path(out.html).write_text(page(done, texts["title"]), encoding="utf-8")

@@ -7,6 +7,7 @@ from vibroimpact.figures.plotting.style import SINGLE_COLUMN, styled
 
 SPEC = {
     "title": "The mechanical system",
+    "notebook": "drawings",
     "caption": "Fig. 10.1. The vibro-impact system: two boxes of mass :math:`M`, each with a ball of mass :math:`m` "
         "that moves freely in a straight cavity, tied to the ground by :math:`k_i`, :math:`c_i` and to each other by "
         ":math:`k_{12}`, :math:`c_{12}`, under forces :math:`F_i(t)`.",
@@ -31,6 +32,11 @@ GAP = (WALLS[1] - WALLS[0] - 2 * BOX_WIDTH) / 3
 LEFTS = WALLS[0] + GAP, WALLS[0] + 2 * GAP + BOX_WIDTH
 CAVITY_HEIGHT, CAVITY_MARGIN, BALL_OFFSET = 6.0, 1.8, 3.0
 X_LEVEL, Y_LEVEL = TOP + 10.0, TOP + 5.0
+
+
+def compute() -> dict:
+    """Return no tables: a drawing to scale has no numbers."""
+    return {}
 
 
 @styled

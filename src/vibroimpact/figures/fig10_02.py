@@ -7,6 +7,7 @@ from vibroimpact.figures.plotting.style import SINGLE_COLUMN, styled
 
 SPEC = {
     "title": "A single module",
+    "notebook": "drawings",
     "caption": "Fig. 10.2. A single module of the system and the characteristic dimension :math:`L`.",
     "alt": "Technical drawing of one box with a ball in its cavity and the characteristic dimension L, the free path "
         "of the ball to either wall from the middle.",
@@ -21,6 +22,11 @@ ORIGIN, CENTRE, BOTTOM = 5.0, 47.0, 10.0
 BOX_WIDTH, BOX_HEIGHT = 62.0, 19.0
 CAVITY_BOTTOM, AXIS = 13.5, 18.5
 X_LEVEL, Y_LEVEL, L_LEVEL = 41.0, 35.0, 4.0
+
+
+def compute() -> dict:
+    """Return no tables: a drawing to scale has no numbers."""
+    return {}
 
 
 @styled

@@ -13,6 +13,7 @@ from vibroimpact.theory.manifold import sawtooth
 
 SPEC = {
     "title": "The saw-tooth function",
+    "notebook": "closed_form",
     "caption": r"Fig. 10.3. The saw-tooth function :math:`Z_i(\tau_0)` of (10.11) for constant :math:`C_i` and "
         r":math:`\theta_i`; its corners are the impacts.",
     "alt": "Triangle wave Z over tau_0 between C and -C; its corners, the impacts, are half a period apart, at theta, "

@@ -12,6 +12,7 @@ from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_li
 
 SPEC = {
     "title": "The slow invariant manifold",
+    "notebook": "closed_form",
     "caption": "Fig. 10.4. Slow invariant manifold (SIM): stable branch bold solid, unstable branch dashed, as (10.26) "
         r"divides them; dotted: the level :math:`B_{\min}`.",
     "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min; the left arm is dashed, "

@@ -12,6 +12,7 @@ from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, impact_multipliers, pr
 
 SPEC = {
     "title": "Stability regions as printed",
+    "notebook": "closed_form",
     "caption": r"Fig. 10.5. Stable (shaded) and unstable (white) regions on the plane :math:`(\kappa, C_i)` by "
         r"(10.26); dotted: :math:`C_{\min}(\kappa)`.",
     "alt": "Plane of kappa and C, shaded above a rising line, stable, and white below it, unstable. The dotted curve "

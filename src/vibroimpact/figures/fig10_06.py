@@ -13,6 +13,7 @@ from vibroimpact.theory.fixed_points.table import labelled_points
 
 SPEC = {
     "title": "Fixed points for equal forces",
+    "notebook": "fixed_points",
     "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
         "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "

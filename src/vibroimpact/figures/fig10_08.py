@@ -4,6 +4,7 @@ from vibroimpact.figures.plotting.simulated import compute, draw
 
 SPEC = {
     "title": "Simulated steady state for equal forces",
+    "notebook": "simulation",
     "caption": r"Fig. 10.8. Simulated steady state for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
         "{f20_hat}`: a, displacement of the second box; b, relative displacement of its ball.",
     "alt": "Two panels over some forcing periods: a, the displacement X2 of the second box, close to a sine; b, the "

@@ -4,6 +4,7 @@ from vibroimpact.figures.fig10_06 import compute, draw
 
 SPEC = {
     "title": "Fixed points for unequal forces",
+    "notebook": "fixed_points",
     "caption": r"Fig. 10.9. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, drawn "
         "as in Fig. 10.6: the branch that (10.26), as printed, calls stable bold solid, the other dashed. Squares are "
         "our assumption: the text has them in Fig. 10.6 only. The chapter's verdicts: a unstable, b unstable, c "

@@ -10,6 +10,7 @@ from vibroimpact.tables import join
 
 SPEC = {
     "title": "The only fixed point for weak forces, and its response",
+    "notebook": "theoretical_response",
     "caption": r"Fig. 10.10. The only fixed point for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` "
         "on both planes, and its theoretical response: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, :math:`Y_i` black.",
     "alt": "Above, two planes with the manifold and circles P1, P2 on its dashed left arms; below, the theoretical "

@@ -7,6 +7,7 @@ from vibroimpact.figures.plotting import simulated
 
 SPEC = {
     "title": "Strongly modulated response for weak forces",
+    "notebook": "simulation",
     "caption": r"Fig. 10.11. Strongly modulated response, simulated for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat "
         "f_{20} = {f20_hat}`: a, displacement of the second box; b, relative displacement of its ball.",
     "alt": "Two panels over many forcing periods: a, the displacement X2 with an amplitude that swells and fades; b, "

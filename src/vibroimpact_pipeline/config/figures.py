@@ -1,7 +1,4 @@
-"""Section `figures`: which figures are built, each by its notebook.
-
-The chapter's figures keep their notebooks, as their captions do; any other name may be given to a figure of one's own.
-"""
+"""Section `figures`: those of the chapter to build, and under other names your own, each like one of them."""
 
 from typing import Annotated, Literal
 
@@ -12,7 +9,7 @@ from vibroimpact_pipeline.config.section import Section
 
 MOST = 100
 """Figures of a build, a job each."""
-NOTEBOOK = Field(description="Its notebook explains and draws it")
+LIKE = Field(description="The figure of the chapter that it is drawn like")
 MODEL = "What it is computed with: "
 """A figure has a choice of models where there is more than one, see results/accuracy/models.csv."""
 THEORY = f"{MODEL}slow_flow, leading order; exact_orbit, the exact orbits next to its fixed points"
@@ -21,16 +18,8 @@ THEORY = f"{MODEL}slow_flow, leading order; exact_orbit, the exact orbits next t
 class Drawing(Section):
     """A drawing to scale."""
 
-    notebook: Literal["drawings"] = NOTEBOOK
 
-
-class ClosedForm(Section):
-    """A figure that is algebra."""
-
-    notebook: Literal["closed_form"] = NOTEBOOK
-
-
-class Sawtooth(ClosedForm):
+class Sawtooth(Section):
     """Figure 10.3."""
 
     amplitude: fields.real("C of the saw-tooth", 1e-3, 1000)
@@ -38,13 +27,13 @@ class Sawtooth(ClosedForm):
     tau0_max: fields.real("Right end of the axis; there is an impact within pi [rad]", 3.15, 100)
 
 
-class Manifold(ClosedForm):
+class Manifold(Section):
     """Figure 10.4."""
 
     C_max: fields.Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
 
 
-class Regions(ClosedForm):
+class Regions(Section):
     """Figure 10.5."""
 
     C_range: fields.around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
@@ -53,38 +42,64 @@ class Regions(ClosedForm):
 class FixedPoints(Section):
     """Fixed points and singular points of a case on the slow invariant manifold, as in figures 10.6 and 10.9."""
 
-    notebook: Literal["fixed_points"] = NOTEBOOK
     model: Literal["slow_flow", "exact_orbit"] = Field("slow_flow", description=THEORY)
     case: fields.CaseName
     C_max: fields.Planes
 
 
 class Response(Section):
-    """The theoretical response at a fixed point, as in figure 10.7 and, with planes, figure 10.10."""
+    """The theoretical response at a fixed point, as in figure 10.7."""
 
-    notebook: Literal["theoretical_response"] = NOTEBOOK
     model: Literal["slow_flow", "exact_orbit", "second_term"] = Field(
         "slow_flow", description=f"{THEORY}; second_term, the slow flow with the second term of (10.7)"
     )
     case: fields.CaseName
     fixed_point: fields.Label
     periods: fields.real("Length of the response [forcing periods]", 0.5, 100)
-    C_max: fields.Planes | None = Field(None, description="Right ends of the planes; absent: the response alone")
+
+
+class ResponseOnPlanes(Response):
+    """The same with its place on the manifold, as in figure 10.10."""
+
+    C_max: fields.Planes
 
 
 class SimulatedMotion(Section):
     """The second module's motion by direct integration of a case, as in figures 10.8 and 10.11."""
 
-    notebook: Literal["simulation"] = NOTEBOOK
     model: Literal["float64", "reference"] = Field(
         "float64", description=f"{MODEL}float64, double precision; reference, arithmetic of many digits, for chaos"
     )
     case: fields.CaseName
 
 
-OWN = ("fixed_points", "theoretical_response", "simulation")
-"""Notebooks of figures of one's own."""
-OwnFigure = Annotated[FixedPoints | Response | SimulatedMotion, Field(discriminator="notebook")]
+class OwnFixedPoints(FixedPoints):
+    """Your own figure of fixed points."""
+
+    like: Literal["fig10_06"] = LIKE
+
+
+class OwnResponse(Response):
+    """Your own figure of a response."""
+
+    like: Literal["fig10_07"] = LIKE
+
+
+class OwnSimulatedMotion(SimulatedMotion):
+    """Your own figure of a simulated motion."""
+
+    like: Literal["fig10_08"] = LIKE
+
+
+class OwnResponseOnPlanes(ResponseOnPlanes):
+    """Your own figure of a response and its place on the manifold."""
+
+    like: Literal["fig10_10"] = LIKE
+
+
+OwnFigure = Annotated[
+    OwnFixedPoints | OwnResponse | OwnSimulatedMotion | OwnResponseOnPlanes, Field(discriminator="like")
+]
 
 
 class Figures(Section):
@@ -102,7 +117,7 @@ class Figures(Section):
     fig10_07: Response | None = None
     fig10_08: SimulatedMotion | None = None
     fig10_09: FixedPoints | None = None
-    fig10_10: Response | None = None
+    fig10_10: ResponseOnPlanes | None = None
     fig10_11: SimulatedMotion | None = None
 
     def conditions(self):

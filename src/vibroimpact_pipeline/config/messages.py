@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from pydantic import ValidationError
 
-from vibroimpact_pipeline.config.figures import OWN
 from vibroimpact_pipeline.config.section import Place, Section
 
 
@@ -19,10 +18,10 @@ def problems_of(error: ValidationError) -> dict[Place, dict]:
         place = details["loc"]
         if details["type"] == "missing" and place[:-1] in misspelt:
             continue
-        if place[:1] == ("figures",) and {*place[2:3]} & {*OWN}:
-            place = place[:2] + place[3:]  # without the name of the variant
+        if place[:1] == ("figures",) and len(place) > 2 and str(place[2]).startswith("fig10_"):
+            place = place[:2] + place[3:]  # without the figure that this one is like
         place = place[:-1] if place[-1:] == ("[key]",) else place
-        place += ("notebook",) if "discriminator" in details.get("ctx", {}) else ()
+        place += ("like",) if "discriminator" in details.get("ctx", {}) else ()
         found.setdefault(place, details)
     return found
 

@@ -36,7 +36,7 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
         scene: its entry in the config. parameters: of the system that it shows, as far as it has one.
     """
     known = specs()
-    spec = spec_of(figure, scene, known) if figure in known or "notebook" in scene else known["animation"]
+    spec = spec_of(figure, scene, known) if figure in known or "like" in scene else known["animation"]
     heading = ""
     if figure.startswith("fig10_"):
         heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "

@@ -8,7 +8,7 @@ COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",
         "inputs": {
-            "points": "results/fixed_points/{case}.csv",
+            "points": "results/fixed_points.csv",
             "samples": "results/simulations/{case}/float64/samples.csv",
             "events": "results/simulations/{case}/float64/events.csv",
         },
@@ -90,27 +90,24 @@ for figure, found in MADE.items():
             "../../scripts/figure.py"
 
 
-# Machines in SI units, by a notebook as the chapter's figures.
-for figure, machines in config["machines"].items():
-    SCENES[figure] = machines | {"notebook": "physical_units"}
+# Machines in SI units, with a page as the chapter's figures.
+SCENES |= {name: entry | {"like": "machines"} for name, entry in config["machines"].items()}
+
+for figure in config["machines"]:
 
     rule:
         name:
             figure
-        input:
-            notebook=own(NOTEBOOKS["physical_units"]),
         output:
-            **page_and_files(figure, "Companion figures", CAPTION),
+            **files(figure, "Companion figures", CAPTION),
         params:
             **scene(figure, section="machines"),
         log:
             f"results/logs/figures/{figure}.log",
-        benchmark:
-            f"results/benchmarks/figures/{figure}.tsv"
         conda:
             "../../envs/vibroimpact.yaml"
         script:
-            "../../scripts/notebook.py"
+            "../../scripts/figure.py"
 
 
 STUDY_DRAWINGS = [*MADE, *config["machines"]]
@@ -121,3 +118,4 @@ config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
 rule companions:
     input:
         [getattr(rules, figure).output for figure in STUDY_DRAWINGS],
+        expand("results/notebooks/{figure}.html", figure=config["machines"]),

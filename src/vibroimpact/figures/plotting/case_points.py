@@ -27,9 +27,9 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
     computed = fixed_point_table(case, system)
     if not inputs:
         return computed
-    given = tables.read(inputs["points"])
+    given = _of_case(case, inputs["points"])
     _expect_same_points(given, computed, inputs["points"])
-    return given
+    return given[computed.columns.intersection(given.columns)]
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
@@ -42,8 +42,7 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
         ValueError: the file holds another case, or other points.
     """
     if inputs:
-        orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["verdicts"])
-        _expect_same_points(given, points, inputs["verdicts"])
+        orbits, given = _of_case(case, inputs["orbits"]), _of_case(case, inputs["points"])
     else:
         labelled = [(point.label, point) for point in labelled_points(points)]
         orbits = orbit_rows(case, search(system).orbits)
@@ -83,6 +82,12 @@ def exact(verdicts: pd.DataFrame) -> str:
             with_orbits = (f"{name} (orbit {plain(orbit)})" for name, orbit in zip(names, rows["orbit"], strict=True))
             said.append(f"{', '.join(with_orbits)}: **{verdict}** by Floquet multipliers")
     return f"{EXACTLY} {'; '.join(said)}."
+
+
+def _of_case(case, path):
+    """Return the rows of a case of a table."""
+    table = tables.read(path)
+    return table[table["case"] == case].reset_index(drop=True)
 
 
 def _expect_same_points(given, expected, path):

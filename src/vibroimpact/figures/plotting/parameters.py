@@ -6,7 +6,7 @@ FIRST = "figure = "
 """Begins the cell with the parameters of a notebook."""
 GIVEN = "# Parameters"
 """Begins the cell with those that papermill sets, of which it only warns where the notebook has no such name."""
-OF_ALL = ("figure", "alt", "case", "inputs", "outputs")
+OF_ALL = ("figure", "alt", "case", "inputs")
 
 
 def refuse_unknown(shell, known) -> None:

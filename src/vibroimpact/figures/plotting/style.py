@@ -113,15 +113,20 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
     save(draw_tables(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs)
 
 
-def picture(figure, computed, outputs: dict) -> str | bytes:
-    """Return the PNG of a figure: its path among the files that are written, or its content where none are.
+def shown(figure, inputs: dict, *args, **settings) -> tuple:
+    """Return what a page shows of a figure: what its `compute` returns, and its PNG (a path or the content).
 
-    Args: as `write_and_draw`; outputs may be empty.
+    Args:
+        figure: its module.
+        inputs: paths of its tables and "png" in a build, which are read; empty: it is computed and drawn.
+        args, settings: of `compute`.
     """
-    if not outputs:
-        return png(draw_tables(figure, _by_name(computed)))
-    write_and_draw(figure, computed, outputs)
-    return outputs["png"]
+    if not inputs:
+        computed = figure.compute(*args, **settings)
+        return computed, png(draw_tables(figure, _by_name(computed)))
+    further = figure.SPEC.get("tables", {})
+    made = {name: tables.read(inputs[name]) for name in (["csv"] if "columns" in figure.SPEC else []) + [*further]}
+    return made if further else made.get("csv"), inputs["png"]
 
 
 def _by_name(computed):

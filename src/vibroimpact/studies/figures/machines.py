@@ -14,6 +14,7 @@ from vibroimpact.system import PhysicalSystem
 
 SPEC = {
     "title": "Machines in kilograms, newtons and metres",
+    "notebook": "physical_units",
     "caption": "Two machines on springs, in SI units. a: the largest displacement of the box that swings more over the "
         "frequency, from rest, without balls, with balls at several clearances :math:`L`, and with the best linear "
         "absorbers of the mass of the balls. b: box 1 and its ball over the time, from rest.",
