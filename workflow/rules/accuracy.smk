@@ -55,15 +55,6 @@ rule hazards:
 MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
 
 
-def modelled(figure, entry):
-    """A figure with its settings or, of a simulation, those of the run."""
-    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
-    if entry["notebook"] == "simulation":
-        settings = config["cases"][entry["case"]]["simulation"]
-    known = {name: entry[name] for name in ("notebook", "model")}
-    return known | {"module": spec(figure)["module"], "system": system_of(entry["case"]), "settings": settings}
-
-
 rule models:
     output:
         **in_report(figure_files("results/accuracy/models", SPECS["models"]["tables"]), "Accuracy and speed"),

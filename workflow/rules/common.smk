@@ -196,6 +196,15 @@ def scene(figure, *paths, section="figures"):
     }
 
 
+def modelled(figure, entry):
+    """A figure with its settings or, of a simulation, those of the run."""
+    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
+    if entry["notebook"] == "simulation":
+        settings = config["cases"][entry["case"]]["simulation"]
+    known = {name: entry[name] for name in ("notebook", "model")}
+    return known | {"module": spec(figure)["module"], "system": system_of(entry["case"]), "settings": settings}
+
+
 def absent(figure):
     """A function for Snakemake that raises the reason why a figure cannot be made."""
 
