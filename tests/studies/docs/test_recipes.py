@@ -105,7 +105,7 @@ def test_a_figure_can_be_added(project):
 
 @pytest.mark.thorough
 def test_an_integrator_can_be_added(project):
-    (printed,) = follow("Add an integrator", project)
+    _, printed = follow("Add an integrator", project)
     assert "." in printed.splitlines()[0]
     listed = run("python -c 'from vibroimpact.integrators import METHODS; print([m.name for m in METHODS])'", project)
     assert "symplectic Euler" in listed
