@@ -52,10 +52,8 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.set(xscale="log", yscale="log", xlabel="depth of the impact", ylabel="error of the final state")
     shown = table[np.isfinite(table["error_state"])].assign(depth=10.0 ** -table["digits"])
     lines = {
-        method: draw_method(
-            axes, method, 10.0 ** -rows["digits"], rows["error_state"], rows["missed"] + rows["spurious"] > 0
-        )
-        for method, rows in table[np.isfinite(table["error_state"])].groupby("method", sort=False)
+        method: draw_method(axes, method, rows["depth"], rows["error_state"], rows["missed"] + rows["spurious"] > 0)
+        for method, rows in shown.groupby("method", sort=False)
     }
     axes.set_xticks(10.0 ** -np.arange(2, 15, 3))
     axes.minorticks_off()
