@@ -6,7 +6,7 @@ import pytest
 from matplotlib.transforms import Bbox
 
 from pipeline_trees import ROOT
-from vibroimpact.figures import grazing, stress_tests, work_precision
+from vibroimpact.figures import fig10_06, fig10_09, grazing, stress_tests, work_precision
 from vibroimpact.figures.plotting.methods import HOLLOW, LOOKS
 from vibroimpact.integrators import TIMED
 from vibroimpact.tables import read
@@ -69,6 +69,22 @@ def test_names_in_the_chart_of_grazing_cover_nothing():
     (axes,) = grazing.draw(read(ROOT / "figures/grazing.csv")).axes
     expect_clear_names(axes)
     assert {text.get_text() for text in axes.texts} == {*LOOKS}
+
+
+@pytest.mark.parametrize("figure", [fig10_06, fig10_09])
+def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger(figure):
+    table = read(ROOT / f"figures/{figure.__name__.rpartition('.')[2]}.csv")
+    drawn = figure.draw(table)
+    points = table[table["series"].str.fullmatch("[SP]_[12]")]
+    near = points[points["C"].between(*fig10_06.ZOOM["xlim"])].groupby("panel").size()
+    for axes, panel in zip(drawn.axes, table["panel"].unique(), strict=True):
+        assert len(axes.child_axes) == (near.get(panel, 0) > 1)
+        for pane in (axes, *axes.child_axes):
+            expect_clear_names(pane)
+        names = [text.get_text() for pane in (axes, *axes.child_axes) for text in pane.texts]
+        assert sorted(names) == sorted(f"${name}$" for name in points.loc[points["panel"] == panel, "series"]) or (
+            set(table.loc[table["panel"] == panel, "series"]) & {"S_1 beyond", "S_2 beyond"}
+        )
 
 
 def expect_clear_names(axes):

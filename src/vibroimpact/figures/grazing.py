@@ -51,10 +51,10 @@ def draw(table: pd.DataFrame) -> Figure:
     axes = figure.add_subplot()
     axes.set(xscale="log", yscale="log", xlabel="depth of the impact", ylabel="error of the final state")
     shown = table[np.isfinite(table["error_state"])].assign(depth=10.0 ** -table["digits"])
-    lines = {
-        method: draw_method(axes, method, rows["depth"], rows["error_state"], rows["missed"] + rows["spurious"] > 0)
+    lines = [
+        (method, draw_method(axes, method, rows["depth"], rows["error_state"], rows["missed"] + rows["spurious"] > 0))
         for method, rows in shown.groupby("method", sort=False)
-    }
+    ]
     axes.set_xticks(10.0 ** -np.arange(2, 15, 3))
     axes.minorticks_off()
     axes.margins(0.06)

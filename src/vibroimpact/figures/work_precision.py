@@ -77,7 +77,8 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
-        curves[axes] = {method: _method(axes, method, rows) for method, rows in measured.groupby("method", sort=False)}
+        by_method = measured.groupby("method", sort=False)
+        curves[axes] = [(method, _method(axes, method, rows)) for method, rows in by_method]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))
         axes.minorticks_off()
         axes.margins(y=0.08)

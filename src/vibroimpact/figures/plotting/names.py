@@ -20,12 +20,12 @@ UNCLEAR, COVERS = 1, 2
 
 
 def name_curves(figure, panels: dict, **style) -> None:
-    """Write the name of each curve next to it, in its colour, over no line, marker or text of its axes.
+    """Write the name of each curve next to it, in its colour, over no line, marker, text or inset of its axes.
 
     Call this last: it fixes the limits and the layout of the figure. A halo hides what is no line, as a shade.
 
     Args:
-        panels: by axes and by name the Line2D that show a curve. style: of the texts.
+        panels: by axes the names with the Line2D that show each curve, as pairs. style: of the texts.
     """
     figure.draw_without_rendering()
     for axes, curves in panels.items():
@@ -40,13 +40,14 @@ class _Names:
         self.to_data = axes.transData.inverted().transform
         self.avoided = {line: _outline(line, point) for line in axes.lines}
         self.boxes = [text.get_window_extent() for text in axes.texts]
+        self.boxes += [inset.get_tightbbox() for inset in axes.child_axes]
 
     def write(self, curves, style):
-        outlines = {name: np.concatenate([self.avoided[line] for line in lines]) for name, lines in curves.items()}
-        for name, own in outlines.items():
-            others = [points for other, points in outlines.items() if other != name]
-            colour = curves[name][0].get_color()
-            text = self.axes.text(0, 0, name, color=colour, ha="center", va="center", **HALO | style)
+        outlines = [np.concatenate([self.avoided[line] for line in lines]) for _, lines in curves]
+        for n, (name, lines) in enumerate(curves):
+            own, others = outlines[n], outlines[:n] + outlines[n + 1 :]
+            look = {"color": lines[0].get_color(), "ha": "center", "va": "center"}
+            text = self.axes.text(0, 0, name, **HALO | look | style)
             size = text.get_window_extent()
             place, start, end = self._place(
                 np.array([size.width, size.height]) / 2, own, np.concatenate([own[:0], *others])
