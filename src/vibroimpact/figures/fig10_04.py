@@ -74,13 +74,13 @@ def draw(table: pd.DataFrame) -> Figure:
     border, fold = stable["C"].iloc[0], stable["C"].loc[stable["B"].idxmin()]
     axes.set(xlim=(0.0, C_max), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
     inset = axes.inset_axes(INSET, xlim=(2 * border - fold, 2 * fold - border), ylim=(0.8 * B_level, 1.5 * B_level))
-    inset.set_xticks([border, fold], [f"{border:.3f}", r"$C_{\min}$"], fontsize=8)
-    inset.set_yticks([B_level], [r"$B_{\min}$"], fontsize=8)
+    inset.set(xticks=[], yticks=[])
     for one in (axes, inset):
         draw_branches(one, table, "SIM")
         one.plot([0.0, C_max], [B_level, B_level], **LEVEL)
         one.plot([fold, fold], [0.0, B_level], **LEVEL)
         one.plot(border, stable["B"].iloc[0], "|", color=BLACK, markersize=9, markeredgewidth=1.2)
+    inset.annotate(f"(10.26)\n{border:.3f}", (border, stable["B"].iloc[0]), (8, 4), textcoords="offset points")
     axes.indicate_inset_zoom(inset, edgecolor=GREY)
     axes.annotate(r"$B_{\min}$", (0.0, B_level), (6, 4), textcoords="offset points", fontsize=10)
     axes.annotate(r"$C_{\min}$", (fold, 0.0), (3, 3), textcoords="offset points", fontsize=10)

@@ -142,11 +142,12 @@ def test_a_point_that_is_new_starts_a_track_of_its_own():
     assert (names, count) == ([2, 3, 1], 3)
 
 
-def test_the_picture_of_the_travel_names_every_stretch_with_one_letter_that_is_long_enough(swept):
+def test_the_picture_of_the_travel_names_every_curve_once_and_with_its_own_letter(swept):
     figure = force_sweep.draw(swept)
-    stretches = []
-    for _, row in swept["points"].groupby("track"):
-        new = row["label"].ne(row["label"].shift()).cumsum()
-        stretches += [len(stretch) for _, stretch in row.groupby(new) if len(stretch) >= force_sweep.NAMED_FROM]
-    shown = [text.get_text() for text in figure.axes[1].texts if text.get_text() in ("a", "b", "c")]
-    assert len(shown) == len(stretches) > 3
+    points = swept["points"]
+    for axes in figure.axes:
+        shown = [text.get_text() for text in axes.texts]
+        assert sorted(shown) == ["a", "b", "c"]
+    assert points["track"].nunique() == 3
+    (key,) = figure.legends
+    assert {f"fixed point {letter}" for letter in "abc"} <= {text.get_text() for text in key.get_texts()}

@@ -43,6 +43,7 @@ class _Names:
         self.boxes += [inset.get_tightbbox() for inset in axes.child_axes]
 
     def write(self, curves, style):
+        curves = [(name, lines) for name, lines in curves if any(len(self.avoided[line]) for line in lines)]
         outlines = [np.concatenate([self.avoided[line] for line in lines]) for _, lines in curves]
         for n, (name, lines) in enumerate(curves):
             own, others = outlines[n], outlines[:n] + outlines[n + 1 :]
