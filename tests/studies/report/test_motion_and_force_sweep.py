@@ -53,6 +53,19 @@ def test_between_frames_the_ball_flies_straight(window):
         np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
 
 
+def test_a_still_of_several_cycles_is_an_envelope_of_both_boxes(window):
+    tables = animation.compute(*window, 2)
+    for module, axes in enumerate(animation.draw(tables).axes, start=1):
+        motion, highest, lowest = axes.lines
+        X = tables["motion"].set_index("t")[f"X{module}"]
+        assert len(motion.get_xdata()) == len(X)
+        for cycle in (0, 1):
+            seen = X.loc[cycle : cycle + 1 - 1e-9]
+            assert highest.get_ydata()[cycle] == pytest.approx(seen.max(), abs=1e-3)
+            assert lowest.get_ydata()[cycle] == pytest.approx(seen.min(), abs=1e-3)
+    assert len(animation.draw(animation.compute(*window, 1)).axes) == animation.INSTANTS
+
+
 def test_more_cycles_than_the_window_has_are_refused(window):
     with pytest.raises(ValueError, match="cycles: 4"):
         animation.compute(*window, 4)
