@@ -114,12 +114,6 @@ def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_o
     assert [shown.count("2/2"), shown.count("1/2")] == [1, len(verdicts) - 1]
 
 
-def test_a_verdict_has_its_numbers_behind_it():
-    row = dict(verdict="silently wrong", error_state=3e-5, missed=1, spurious=2)
-    table = pd.DataFrame([row, row | dict(verdict="right", missed=0, spurious=0), row | dict(error_state=float("nan"))])
-    assert [stress_tests.cell(row) for row in table.itertuples()] == ["×\xa03e−5\xa0−1+2", "✓\xa03e−5", "×"]
-
-
 def test_a_cell_is_the_deeper_the_more_tests_fail():
     shares = [0.125, 0.5, 1.0]
     for verdict in ("silently wrong", "did not finish", "refused with an error", "reported undecidable"):

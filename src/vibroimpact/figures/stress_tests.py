@@ -1,6 +1,5 @@
 """The stress tests as a picture: methods across, groups of tests down, the share that a method gets right in a cell."""
 
-import numpy as np
 import pandas as pd
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -89,14 +88,3 @@ def draw(table: pd.DataFrame) -> Figure:
     for text in legend.get_texts():
         text.set_family(["STIXGeneral", "DejaVu Sans"])
     return figure
-
-
-def cell(row) -> str:
-    """The mark of a verdict, and behind it the error of the final state, impacts missed (-) and spurious (+)."""
-    mark = VERDICTS[row.verdict][0]
-    if not np.isfinite(row.error_state):
-        return mark
-    impacts = "".join(f"{sign}{count:.0f}" for sign, count in (("−", row.missed), ("+", row.spurious)) if count)
-    mantissa, exponent = f"{row.error_state:.0e}".split("e")
-    number = f"{mantissa}e{int(exponent)}".replace("-", "−")
-    return "\N{NO-BREAK SPACE}".join(filter(None, [mark, number, impacts]))
