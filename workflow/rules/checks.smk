@@ -5,8 +5,9 @@
 rule figure_check:
     input:
         rules.figures.input,
+        [getattr(rules, name).output for name in CHARTS],
     params:
-        figures=config["figures"],
+        figures=config["figures"] | {name: {} for name in CHARTS},
         reference="figures",
         page="results/figure_check",
         strict=False,
@@ -23,7 +24,7 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        figures=config["figures"],
+        figures=config["figures"] | {name: {} for name in CHARTS},
         reference="figures",
         page="results/figure_check",
         strict=True,

@@ -68,7 +68,7 @@ def _is_new(verdict, reference):
 
 
 def _built_from(verdict, build):
-    path = build / f"results/figures/{verdict['figure']}.provenance.json"
+    path = build / f"{verdict['stem']}.provenance.json"
     record = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     return f" Built from {record['commit'][:10]} ({record['tree']} tree)." if record.get("commit") else ""
 

@@ -95,7 +95,14 @@ def test_a_new_figure_brings_its_tables_and_is_recorded_as_new(tree, run):
 
 
 def test_a_figure_that_is_no_longer_made_leaves_the_set(tree, run):
-    verdict = {"figure": "fig10_11", "module": None, "files": {}, "status": "failed", "tables": []}
+    verdict = {
+        "figure": "fig10_11",
+        "stem": "results/figures/fig10_11",
+        "module": None,
+        "files": {},
+        "status": "failed",
+        "tables": [],
+    }
     folder = tree.build / "results/figure_check"
     run("fig10_06", "--reason", "first")
     (folder / "figure_check.json").write_text(json.dumps([verdict | {"reasons": ["not built"]}]))
