@@ -16,7 +16,8 @@ rule work_precision:
         figure="work_precision",
         settings={
             "problems": {
-                name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()
+                name: {"system": system_of(problem["case"]), **problem}
+                for name, problem in ACCURACY["problems"].items()
             },
             "seconds": ACCURACY["full_seconds" if FULL else "short_seconds"],
             "short": not FULL,
@@ -37,7 +38,9 @@ rule work_precision:
 
 rule stress_tests:
     output:
-        **in_report(figure_files("results/accuracy/stress_tests", SPECS["stress_tests"]["tables"]), "Accuracy and speed"),
+        **in_report(
+            figure_files("results/accuracy/stress_tests", SPECS["stress_tests"]["tables"]), "Accuracy and speed"
+        ),
     params:
         figure="stress_tests",
         settings={"full": FULL},
