@@ -1,4 +1,20 @@
-"""Computational nonlinear dynamics of two coupled vibro-impact modules: theory, exact simulation, comparison."""
+"""Computational nonlinear dynamics of two coupled vibro-impact modules: theory, exact simulation, comparison.
+
+- `System`, `PhysicalSystem`: the parameters, dimensionless or in SI units.
+- `fixed_points`: the motions that the chapter's theory predicts.
+- `orbits`, `prove`: exact periodic motions with their Floquet multipliers; the proof of one in interval arithmetic.
+- `simulate`, `simulate_many`, `ensemble`: one exact run; many; summary statistics of many.
+- `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with errors.
+- `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
+- `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
+- `branches`, `bifurcation_curves`: continuation in one parameter; folds and symmetry breaking in two.
+- `sweep`: observations over a grid of parameters.
+- `design`, `best_tuning`, `textbook_tuning`: the ball for a machine; linear absorbers.
+- `to_frame`, `to_dataset`: results as tables.
+
+Verdicts on stability have the same names everywhere: `fast` (impacts), `slow` (amplitudes), `theory` (both), `exact`
+(the exact orbit).
+"""
 
 from importlib import import_module
 from importlib.metadata import version

@@ -31,7 +31,7 @@ def results_behind(targets: list[str]) -> list[Path]:
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
     while pending:
-        path = pending.pop()
+        path = pending.pop(0)
         if path in known and path not in behind:
             behind.add(path)
             pending += known[path].get("inputs", ())
@@ -54,7 +54,7 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
     """
     known, seen, pending, following = records(), set(), list(targets), []
     while pending:
-        path = pending.pop()
+        path = pending.pop(0)
         if path in seen or path not in known:
             continue
         seen.add(path)

@@ -1,8 +1,11 @@
-"""The first page after a build: the exact system's verdict on each figure, and links to all results."""
+"""The first page after a build: the exact system's verdict on each figure, methods to choose, links to all results."""
 
+import csv
 import json
+import math
 import re
 from collections import Counter
+from itertools import groupby
 from pathlib import Path
 
 from jinja2 import Environment
@@ -12,6 +15,8 @@ from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
+LARGE = "Speed and accuracy"
+"""Heading of the figures that the page shows as wide as its text."""
 KINDS = {"PNG": ".png", "SVG": ".svg", "PDF": ".pdf", "numbers (CSV)": ".csv"}
 TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*.csv"
 
@@ -30,7 +35,25 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     tables = sorted(str(path.relative_to(results)) for pattern in TABLES for path in results.glob(pattern))
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
-    return guarded(template.render(style=STYLE, counts=counts, tables=tables, groups=listed))
+    return guarded(
+        template.render(style=STYLE, counts=counts, tables=tables, groups=listed, large=LARGE, chosen=_choices(results))
+    )
+
+
+def _choices(results) -> list[list[str]]:
+    """Return a row per problem and error of accuracy/choices.csv: both, then the methods with their costs."""
+    path = results / "accuracy/choices.csv"
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
+    found = []
+    for (problem, error), choices in groupby(rows, key=lambda row: (row["problem"], row["error"])):
+        exponent = str(round(math.log10(float(error)))).replace("-", "−")
+        methods = [
+            f"{row['method']}, {1e6 * float(row['seconds_per_cycle']):.2g} µs; "
+            f"silently wrong in {row['wrong']} of {row['tests']} stress tests"
+            for row in choices
+        ]
+        found.append([problem, exponent, *methods])
+    return found
 
 
 def _listed(results, titles) -> list[dict]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.accuracy.comparison import compare
+from vibroimpact.accuracy.comparison import choices, compare
 
 RUN = {"missed": 0, "spurious": 0, "outcome": "finished", "family": "f"}
 
@@ -25,10 +25,10 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem():
         run("p", "d", 1e-7, 1.0, outcome="unfinished"),
     ]
     verdicts = {"a": ["right", "right"], "b": ["silently wrong", "did not finish"], "c": ["refused with an error"]}
-    hazards = pd.DataFrame([(method, one) for method, all_ in verdicts.items() for one in all_]).set_axis(
+    stress_tests = pd.DataFrame([(method, one) for method, all_ in verdicts.items() for one in all_]).set_axis(
         ["method", "verdict"], axis=1
     )
-    found = compare(pd.DataFrame(runs), hazards).set_index("method")
+    found = compare(pd.DataFrame(runs), stress_tests).set_index("method")
     assert found.index.tolist() == ["a", "b", "c", "d"]
     assert found["problems"].tolist() == [2, 2, 1, 0]
     np.testing.assert_array_equal(found["times"], [1.0, 4.0, np.nan, np.nan])
@@ -36,13 +36,33 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem():
     assert found.loc["a", "right"] == 2
 
 
+def test_the_choices_are_the_two_cheapest_tested_methods_that_are_accurate_enough():
+    runs = [
+        run("p", "a", 1e-13, 5.0, setting="fine"),
+        run("p", "a", 1e-7, 3.0, setting="coarse"),
+        run("p", "b", 1e-7, 2.0, setting="1"),
+        run("p", "b", 1e-7, 1.0, setting="2"),
+        run("p", "c", 1e-7, 4.0, setting="1"),
+        run("p", "untested", 1e-7, 0.1, setting="1"),
+        run("p", "d", 1e-13, 0.1, setting="1", missed=1),
+    ]
+    verdicts = [("a", "right"), ("a", "silently wrong"), ("b", "right"), ("c", "right"), ("d", "right")]
+    found = choices(pd.DataFrame(runs), pd.DataFrame(verdicts, columns=["method", "verdict"]))
+    assert found[["error", "choice", "method", "setting", "seconds_per_cycle"]].to_numpy().tolist() == [
+        [1e-6, 1, "b", "2", 1.0],
+        [1e-6, 2, "a", "coarse", 3.0],
+        [1e-12, 1, "a", "fine", 5.0],
+    ]
+    assert found[["wrong", "tests"]].to_numpy().tolist() == [[0, 1], [1, 2], [1, 2]]
+
+
 def test_what_the_article_says_of_a_build(built):
     """All four solvers of SciPy handle chatter, and are silently wrong in grazing only, where impacts are missed."""
-    hazards = pd.read_csv(built / "results/accuracy/hazards.csv")
-    scipy = hazards[hazards["method"].isin(["RK45", "DOP853", "Radau", "LSODA"])]
+    stress_tests = pd.read_csv(built / "results/accuracy/stress_tests.csv")
+    scipy = stress_tests[stress_tests["method"].isin(["RK45", "DOP853", "Radau", "LSODA"])]
     bad = scipy[scipy["verdict"] == "silently wrong"]
     assert set(bad["test"]) == {"hits by 1e-6", "hits by 1e-10", "hits by 1e-14"}
     assert (bad["missed"] > 0).all()
-    chatter = hazards[hazards["group"] == "chatter"].groupby("method")["verdict"].unique()
+    chatter = stress_tests[stress_tests["group"] == "chatter"].groupby("method")["verdict"].unique()
     assert chatter["power law"].tolist() == ["silently wrong"]
     assert chatter["Ivanov, events"].tolist() == ["did not finish"]

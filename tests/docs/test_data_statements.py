@@ -140,7 +140,7 @@ def test_the_model_in_use_meets_its_tolerance_and_the_reference_has_no_error(tab
 
 
 def test_verdicts_on_methods_follow_from_their_numbers(table):
-    judged = table("accuracy/hazards.csv")
+    judged = table("accuracy/stress_tests.csv")
     good = (judged["error_state"] <= 0.01) & (judged["missed"] == 0) & (judged["spurious"] == 0)
     assert good[judged["verdict"] == "right"].all()
     assert not good[judged["verdict"] == "silently wrong"].any()

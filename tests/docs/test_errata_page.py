@@ -10,7 +10,6 @@ from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT
 
 PAGE = (ROOT / "docs/errata.md").read_text(encoding="utf-8").replace("−", "-").replace("**", "")
-TEXT = " ".join(PAGE.split())
 ROWS = re.findall(r"^\| (\w+), ([abc]) \| ([\d.]+), ([\d.]+) \| (.*) \|$", PAGE, re.MULTILINE)
 POINTS = {
     (case, point.label): point
@@ -34,19 +33,6 @@ def test_amplitudes_and_slow_eigenvalues(row):
         said += [complex(float(real), sign * float(imaginary)) for sign in (1, -1)] if imaginary else [float(real)]
     rounded = np.sort_complex(point.slow_eigenvalues.round(4))
     np.testing.assert_allclose(np.sort_complex(np.array(said, complex)), rounded, atol=1.01e-4)
-
-
-def test_between_which_limits_the_captions_hold():
-    rho = 2 * (1 - PARAMETERS["kappa"]) / (np.pi * (1 + PARAMETERS["kappa"]))
-    smallest = {name: point.C.min() for name, point in POINTS.items()}
-    # Two points of Fig. 10.9 are unstable, whichever: the limit is above the second smallest.
-    least = sorted(smallest["unequal", label] for label in "abc")[1]
-    assert (
-        f"only if it lies above {least:.5f}, and the left arm has a stable piece only below {1 / (1 + rho**2):.5f}"
-        in TEXT
-    )
-    assert f"what is printed, {4 / (4 + np.pi * rho):.5f}, cannot be" in TEXT
-    assert 4 / (4 + np.pi * rho) < least < 4 / (4 + rho) < 4 / (4 + (np.pi * rho) ** 3) < 1 / (1 + rho**2)
 
 
 def test_how_far_the_point_next_to_the_fold_is_from_it():

@@ -152,17 +152,6 @@ def test_point_c_of_the_equal_case():
     assert nearest_orbit(system, C).C[1] == said(r"its exact orbit has \$C_2 = ([\d.]+)\$")
 
 
-def test_verdicts_on_the_fixed_points():
-    points, _ = tables()
-    rows = cells("case, label")[1:]
-    assert len(rows) == len(points)
-    for (name, C, _, *verdicts), (_, point) in zip(rows, points.iterrows(), strict=True):
-        assert name == f"{point['case']}, {point['label']}"
-        assert [point["C1"], point["C2"]] == [number(value) for value in C.split(", ")]
-        criteria = ["printed_10_26", "fast", "slow", "exact"]
-        assert [verdict.strip("*") for verdict in verdicts] == point[criteria].tolist()
-
-
 @pytest.mark.parametrize("case", ["equal", "unequal"])
 def test_the_asymmetric_pair(case):
     _, orbits = tables()

@@ -33,6 +33,7 @@ def figure_check(folder):
     row = dict.fromkeys(("table", "column", "kind", "where", "reference", "new"), HOSTILE)
     verdict = {
         "figure": HOSTILE,
+        "stem": HOSTILE,
         "status": "failed",
         "reasons": [HOSTILE] * 30,
         "distance": 1.0,

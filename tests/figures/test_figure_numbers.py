@@ -11,6 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from figure_tables import table_of_points, tables_of_run
 from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
+from vibroimpact.figures.plotting import simulated
 from vibroimpact.tables import select
 
 KAPPA = mpmath.mpf("0.65")
@@ -218,9 +219,12 @@ def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(scenes, name, v
     table = scenes[name].table
     C = [min(select(table, f"{label}{i}", f"P_{i}")["C"].item() for i in (1, 2)) for label in "abc"]
     assert ["stable" if one > float(LIMIT) else "unstable" for one in C] == verdicts
-    axes = fig10_06.draw(table).axes
+    axes = {"fig10_06": fig10_06, "fig10_09": fig10_09}[name].draw(table).axes
     heads = [one.get_title("left").split("   ")[1] for one in axes[::2]]
-    assert heads == [f"{verdict} by (10.26)" for verdict in verdicts]
+    said = [f"{verdict} by (10.26)" for verdict in verdicts]
+    if name == "fig10_09":
+        said[1] = "chapter unstable, (10.26) stable"
+    assert heads == said
     assert [one.get_title("center").strip() for one in axes[:2]] == ["module 1", "module 2"]
     assert len({one.get_xlim() for one in axes}) == 1
 
@@ -240,6 +244,13 @@ def test_planes_reach_every_fixed_point(system):
     table = fig10_06.compute(system, table_of_points(system), 1.2)
     reach = table[table["series"] == "SIM stable"].groupby("panel")["C"].max()
     assert reach["a2"] > table_of_points(system)["C2"].max()
+
+
+def test_flights_of_more_than_a_cycle_are_without_resonance():
+    """Impacts at known times and walls; a ball that stays at a wall has not reached the other one."""
+    times, walls = [0.0, 0.5, 1.0, 1.2, 2.3, 2.8, 4.0], [1, -1, 1, 1, -1, 1, -1]
+    table = pd.DataFrame({"panel": "b", "series": "W_2", "cycle": times, "value": np.array(walls, float)})
+    np.testing.assert_array_equal(simulated.without_resonance(table), [[1.0, 2.3], [2.8, 4.0]])
 
 
 # Figures 10.7 and 10.10

@@ -1,11 +1,18 @@
-"""The work-precision chart and the hazards picture show every row that they are given, failures included."""
+"""The accuracy charts show every row of the methods that they draw, and their names cover nothing."""
 
+import numpy as np
 import pandas as pd
+import pytest
+from matplotlib.transforms import Bbox
 
-from vibroimpact.figures import hazards, work_precision
+from pipeline_trees import ROOT
+from vibroimpact.figures import fig10_06, fig10_09, grazing, stress_tests, work_precision
+from vibroimpact.figures.plotting.methods import HOLLOW, LOOKS
+from vibroimpact.integrators import TIMED
+from vibroimpact.tables import read
 
 ROW = dict(
-    problem="s", method="a", family="Taylor", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0
+    problem="s", method="heyoka", family="Taylor", setting="1", error_state=1e-6, error_time=1e-7, missed=0, spurious=0
 )
 ROW |= dict(seconds_per_cycle=1e-3, outcome="finished", reason="", order=None)
 
@@ -14,60 +21,123 @@ def texts(figure):
     return [text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text"))]
 
 
-def test_chart_keeps_failed_and_unavailable_methods():
+def points(axes, hollow=False):
+    """Places of the markers, filled or hollow."""
+    marked = [line for line in axes.lines if line.get_marker() not in ("", "None")]
+    chosen = [line for line in marked if (line.get_markerfacecolor() == "white") == hollow]
+    return {tuple(place) for line in chosen for place in line.get_xydata()}
+
+
+def test_the_chart_shows_runs_that_failed_in_their_lane_and_says_what_is_not_installed():
     rows = [
         ROW,
-        ROW | dict(setting="2", missed=1),
-        ROW | dict(method="b", error_state=float("inf"), error_time=float("inf"), outcome="refused", reason="gave up"),
-        ROW | dict(method="c", seconds_per_cycle=None, outcome="unavailable", reason="not installed"),
+        ROW | dict(setting="2", error_state=1e-8, missed=1),
+        ROW | dict(method="DOP853", error_state=np.inf, error_time=np.inf, outcome="refused", reason="gave up"),
+        ROW | dict(method="RK4, compiled", seconds_per_cycle=None, outcome="unavailable", reason="not installed"),
+        ROW | dict(method="Hertz", error_state=1e-3),
     ]
-    figure = work_precision.draw(pd.DataFrame(rows), footer="versions")
-    shown = "\n".join(texts(figure))
-    for expected in ("1  b: gave up", "c: unavailable (not installed)", "versions"):
-        assert expected in shown
-    points = [
-        line for line in figure.findobj(lambda a: hasattr(a, "get_xdata")) if line.get_marker() not in ("", "None")
-    ]
-    drawn = {(x, y) for line in points for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}
-    assert (1e-6, 1e-3) in drawn
-    assert any(x > work_precision.LARGEST and y == 1e-3 for x, y in drawn)
+    figure = work_precision.draw(pd.DataFrame(rows))
+    hollow = points(figure.axes[0], hollow=True)
+    assert hollow == {(1e-8, 1e-3)}
+    assert points(figure.axes[0]) - hollow == {(1e-6, 1e-3), (work_precision.NO_RESULT, 1e-3)}
+    shown = texts(figure)
+    assert HOLLOW in shown
+    assert "no result (not installed: RK4, compiled)" in shown
+    assert {"heyoka", "DOP853"} <= {*shown}
+    assert "Hertz" not in shown
 
 
-def test_each_kind_of_method_has_its_own_colour_and_mark_and_each_method_its_name():
-    rows = [ROW | dict(method=kind, family=kind) for kind in work_precision.KINDS]
-    rows += [ROW | dict(method=f"another {kind}", family=kind) for kind in ("Taylor", "solve_ivp")]
-    figure = work_precision.draw(pd.DataFrame(rows), footer="")
-    looks = work_precision.KINDS.values()
-    assert len({colour for colour, *_ in looks}) == len({marker for _, marker, _ in looks}) == len(looks)
-    (key,) = (legend for part in figure.subfigs for legend in part.legends)
-    *kinds, hollow = [text.get_text() for text in key.get_texts()]
-    assert {*kinds} == {"Taylor", "solve_ivp", *work_precision.CROWDED}
-    *shown, _ = [(line.get_color(), line.get_marker()) for line in key.get_lines()]
-    assert shown == [work_precision.KINDS[kind][:2] for kind in kinds]
-    assert (hollow, key.get_lines()[-1].get_markerfacecolor()) == ("hollow: other impacts", "white")
-    named = {text.get_text() for text in figure.subfigs[0].axes[0].texts}
-    assert named - {"better"} == {row["method"] for row in rows} - set(work_precision.CROWDED)
+def test_eight_methods_are_drawn_each_with_its_own_colour_and_mark():
+    assert len({colour for colour, *_ in LOOKS.values()}) == len({marker for _, marker, _ in LOOKS.values()}) == 8
+    assert {*LOOKS} < {method.name for method in TIMED}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_names_cover_no_curve_marker_or_name_whatever_the_timings_are(seed):
+    """Timings of the reference set, each moved by a factor of up to some 3, as another machine would."""
+    table = read(ROOT / "figures/work_precision.csv")
+    random = np.random.default_rng(seed)
+    factors = dict(zip(table["method"].unique(), np.exp(random.normal(0.0, 0.5, 99)), strict=False))
+    table["seconds_per_cycle"] *= table["method"].map(factors) * np.exp(random.normal(0.0, 0.15, len(table)))
+    figure = work_precision.draw(table)
+    for axes in figure.axes:
+        expect_clear_names(axes)
+        assert len(axes.texts) == len(LOOKS)
+
+
+def test_names_in_the_chart_of_grazing_cover_nothing():
+    (axes,) = grazing.draw(read(ROOT / "figures/grazing.csv")).axes
+    expect_clear_names(axes)
+    assert {text.get_text() for text in axes.texts} == {*LOOKS}
+
+
+@pytest.mark.parametrize("figure", [fig10_06, fig10_09])
+def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger(figure):
+    table = read(ROOT / f"figures/{figure.__name__.rpartition('.')[2]}.csv")
+    drawn = figure.draw(table)
+    points = table[table["series"].str.fullmatch("[SP]_[12]")]
+    near = points[points["C"].between(*fig10_06.ZOOM["xlim"])].groupby("panel").size()
+    for axes, panel in zip(drawn.axes, table["panel"].unique(), strict=True):
+        assert len(axes.child_axes) == (near.get(panel, 0) > 1)
+        for pane in (axes, *axes.child_axes):
+            expect_clear_names(pane)
+        names = [text.get_text() for pane in (axes, *axes.child_axes) for text in pane.texts]
+        assert sorted(names) == sorted(f"${name}$" for name in points.loc[points["panel"] == panel, "series"]) or (
+            set(table.loc[table["panel"] == panel, "series"]) & {"S_1 beyond", "S_2 beyond"}
+        )
+
+
+def expect_clear_names(axes):
+    """No box of a text meets another one, a segment of a line, or a marker; leaders may end next to their own."""
+    boxes = [text.get_window_extent() for text in axes.texts]
+    for n, box in enumerate(boxes):
+        assert not any(box.overlaps(other) for other in boxes[:n])
+        assert axes.get_window_extent().contains(box.x0, box.y0)
+        assert axes.get_window_extent().contains(box.x1, box.y1)
+        inner = box.padded(-1)  # the end of a leader is on the edge
+        for line in axes.lines:
+            path = line.get_transform().transform_path(line.get_path())
+            if line.get_linestyle() != "None" and len(path.vertices) > 1:
+                assert not path.intersects_bbox(inner, filled=False)
+            if line.get_marker() not in ("", "None"):
+                half = line.get_markersize() / 2 * axes.figure.dpi / 72
+                assert not any(box.overlaps(Bbox([place - half, place + half])) for place in path.vertices)
 
 
 def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_ones():
-    verdicts = list(hazards.VERDICTS)
+    verdicts = list(stress_tests.VERDICTS)
     rows = [dict(group=worst, method="m", verdict=verdict) for worst in verdicts for verdict in ("right", worst)]
-    shown = texts(hazards.draw(pd.DataFrame(rows)))
-    for verdict, (mark, _) in hazards.VERDICTS.items():
+    shown = texts(stress_tests.draw(pd.DataFrame(rows)))
+    for verdict, (mark, _) in stress_tests.VERDICTS.items():
         assert f"{mark}  {verdict}" in shown
         assert shown.count(mark) == (0 if verdict == "unavailable" else 2 if verdict == "right" else 1)
     assert [shown.count("2/2"), shown.count("1/2")] == [1, len(verdicts) - 1]
 
 
-def test_a_verdict_has_its_numbers_behind_it():
-    row = dict(verdict="silently wrong", error_state=3e-5, missed=1, spurious=2)
-    table = pd.DataFrame([row, row | dict(verdict="right", missed=0, spurious=0), row | dict(error_state=float("nan"))])
-    assert [hazards.cell(row) for row in table.itertuples()] == ["×\xa03e−5\xa0−1+2", "✓\xa03e−5", "×"]
+def test_a_cell_is_the_deeper_the_more_tests_fail():
+    shares = [0.125, 0.5, 1.0]
+    for verdict in ("silently wrong", "did not finish", "refused with an error", "reported undecidable"):
+        light = [np.dot(stress_tests.shade(verdict, share), [0.299, 0.587, 0.114]) for share in shares]
+        assert light == sorted(light, reverse=True)
+        assert light[0] - light[-1] > 0.1  # seen in grey, too
 
 
 def test_no_text_is_too_small_to_read():
-    failed = ROW | dict(method="b", error_state=float("inf"), error_time=float("inf"), outcome="refused", reason="no")
-    verdict = dict(group="g", hazard="h", method="m", verdict="right", error_state=3e-5, missed=12, spurious=34)
-    for figure in (work_precision.draw(pd.DataFrame([ROW, failed]), "versions"), hazards.draw(pd.DataFrame([verdict]))):
+    failed = ROW | dict(method="DOP853", error_state=float("inf"), outcome="refused", reason="no")
+    verdict = dict(group="g", test="h", method="m", verdict="right", error_state=3e-5, missed=12, spurious=34)
+    figures = work_precision.draw(pd.DataFrame([ROW, failed])), stress_tests.draw(pd.DataFrame([verdict]))
+    for figure in figures:
         drawn = figure.findobj(lambda artist: hasattr(artist, "get_fontsize") and artist.get_text())
         assert min(text.get_fontsize() for text in drawn) >= 7
+
+
+def test_a_missed_impact_costs_an_error_that_falls_with_the_root_of_the_depth():
+    """The impact that a method misses has a speed that is the root of twice the depth times the acceleration."""
+    table = grazing.compute()
+    missed = table[(table["method"] == "DOP853") & (table["missed"] > 0)]
+    assert len(missed) > 8
+    slope = np.polyfit(-np.log(10) * missed["digits"], np.log(missed["error_state"]), 1)[0]
+    assert slope == pytest.approx(0.5, abs=0.01)
+    ours = table[table["method"] == "this engine"]
+    assert (ours["missed"] + ours["spurious"] == 0).all()
+    assert (ours["error_state"] < 1e-7).all()

@@ -261,9 +261,9 @@ def test_papermill_sets_a_parameter_by_its_name(tmp_path):
 def test_papermill_is_refused_a_parameter_that_the_notebook_has_not(tmp_path):
     done, _ = papermill(tmp_path, "-p", "kapa", "0.5")
     assert done.returncode != 0
-    assert "ValueError: parameters: unknown kapa; this notebook has C_max, epsilon, kappa" in done.stderr
+    assert "ValueError: parameters: unknown kapa; this notebook has model, C_max, epsilon, kappa" in done.stderr
 
 
 def test_a_reader_is_refused_it_too(tmp_path):
-    with pytest.raises(CellExecutionError, match="parameters: unknown kapa; this notebook has C_max"):
+    with pytest.raises(CellExecutionError, match="parameters: unknown kapa; this notebook has model, C_max"):
         printed({"typo": ("fixed_points", {"kappa = 0.65": "kappa = 0.65\nkapa = 0.5"})}, tmp_path)

@@ -50,10 +50,12 @@ def test_fit_for_print(figure):
         assert text.get_fontsize() * (0.7 if "_" in text.get_text() else 1) >= 6.999, text.get_text()
     keys = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
     assert all(len(key.get_texts()) <= 7 for key in keys)
-    hues = {matplotlib.colors.to_rgb(line.get_color()) for line in figure.findobj(Line2D)}
-    hues = {hue for hue in hues if len(set(hue)) > 1}
-    apart = np.diff(sorted(lightness(hue) for hue in hues | {(0.0, 0.0, 0.0)}))
-    assert all(apart > 15), f"colours that look alike in grey print: {hues}"
+    looks = {(str(line.get_marker()), matplotlib.colors.to_rgb(line.get_color())) for line in figure.findobj(Line2D)}
+    hues = {hue for _, hue in looks if len(set(hue)) > 1}
+    for marker in {marker for marker, _ in looks}:
+        alike = {hue for other, hue in looks if other == marker and hue in hues}
+        apart = np.diff(sorted(lightness(hue) for hue in alike | {(0.0, 0.0, 0.0)}))
+        assert all(apart > 15), f"colours that look alike in grey print: {alike}"
     unlabelled = hues - {matplotlib.colors.to_rgb(text.get_color()) for text in figure.findobj(Text)}
     assert not unlabelled, f"a line of colour {unlabelled} needs a label in its colour: no colour speaks alone"
 

@@ -42,12 +42,12 @@ UNFIT = {
 
 
 def said(path, content) -> str:
-    """What is said of a file, in a second at most."""
+    """What is said of a file; what expands without end would take hours."""
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     started = time.process_time()
     with pytest.raises(ConfigError) as refusal:
         checked(content := read(path), [(path, content)])
-    assert time.process_time() - started < 2
+    assert time.process_time() - started < 20
     return str(refusal.value)
 
 

@@ -50,3 +50,12 @@ def test_misprints_are_counted_last_however_many_they_are(results):
     add(results / "claims.json", '[{"verdict": "misprint"}, {"verdict": "misprint"}, {"verdict": "refuted"}]')
     html = page(results, {})
     assert "refuted 1, misprint 2." in html
+
+
+def test_the_accuracy_charts_are_large_below_a_table_of_methods_to_choose(results):
+    add(results / "accuracy/work_precision.svg", "")
+    rows = "p,1e-06,1,<a>,x,2.6e-06,0,24\np,1e-06,2,b,x,8e-06,3,24\n"
+    add(results / "accuracy/choices.csv", f"problem,error,choice,method,setting,seconds_per_cycle,wrong,tests\n{rows}")
+    html = page(results, {"Speed and accuracy": {"work_precision": "Chart"}})
+    row = "<tr><td>p<td>10<sup>−6</sup><td>&lt;a&gt;, 2.6 µs; silently wrong in 0 of 24 stress tests<td>b, 8 µs;"
+    assert html.index(row) < html.index('class="figures large"') < html.index("accuracy/work_precision.svg")

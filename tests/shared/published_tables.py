@@ -18,6 +18,7 @@ COLUMNS = {
 }
 """Columns by name of each published table."""
 DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "shares", "spreads"}
+DECIDED_BY_ROUNDING |= {"measured error", "order", "of the machine"}
 
 
 def tables_in(folder: str) -> list[str]:

@@ -279,7 +279,7 @@ def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_p
 
 def test_settings_of_the_user_do_not_change_the_picture(found, tmp_path, monkeypatch, capsys):
     """LaTeX, which need not be installed, a font, a size."""
-    monkeypatch.setattr(one_machine, "design", lambda *given, **more: found)
+    monkeypatch.setattr(vi, "design", lambda *given, **more: found)
     plain, own = tmp_path / "plain.png", tmp_path / "own.png"
     assert main([*WORDS, "--plot", str(plain)]) == 0
     with matplotlib.rc_context({"text.usetex": True, "font.size": 30, "savefig.dpi": 10, "savefig.bbox": "tight"}):
@@ -329,7 +329,7 @@ def failing(*_):
 
 
 def test_a_picture_that_cannot_be_saved_does_not_cost_the_answer(found, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(one_machine, "design", lambda *given, **more: found)
+    monkeypatch.setattr(vi, "design", lambda *given, **more: found)
     monkeypatch.setattr(one_machine.Design, "plot", failing)
     table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
     with pytest.raises(SystemExit) as end:
@@ -352,8 +352,8 @@ def test_the_picture_has_the_displacements_of_the_table(found):
 
 def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
     asked = []
-    monkeypatch.setattr(one_machine, "design", lambda *given, masses: asked.append(masses) or done)
     done = vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
+    monkeypatch.setattr(vi, "design", lambda *given, masses, **choices: asked.append(masses) or done)
     words = OPTIONS.replace("--m 6", "--m {}")
     for given, masses in (("0..4", [1.0, 2.0, 3.0, 4.0]), ("2..6", [2.0, 3.0, 4.0, 5.0, 6.0]), ("6", None)):
         assert main(words.format(given).split()) == 0

@@ -18,9 +18,9 @@ AWARE = {
     "src/vibroimpact/__init__.pyi",
     "src/vibroimpact_pipeline/config/reading.py",
     "src/vibroimpact_pipeline/config/schema.py",
+    "src/vibroimpact_pipeline/figure_check/table_distances.py",
     "src/vibroimpact_pipeline/specs.py",
     "workflow/Snakefile",
-    "workflow/rules/archive.smk",
     "workflow/rules/checks.smk",
     "workflow/rules/common.smk",
 }
@@ -82,7 +82,7 @@ def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_
     assert chapter_alone.planned() == set()  # results of the same code are up to date
     made = "results/orbits/weak.csv", "fig10_04"
     chapter_alone.snakemake("--forcerun", "orbits", "fig10_04", "--", *made)
-    assert "11 figures: 10 passed" in chapter_alone.snakemake("figure_check", check=False)
+    assert re.search(r"\b(\d+) figures: \1 passed", chapter_alone.snakemake("figure_check"))
     assert_tests_pass(chapter_alone, "--collect-only")
     assert_tests_pass(chapter_alone, *(f"tests/{name}.py" for name in QUICK))
     assert "vibroimpact.branches belongs to the studies" in run(chapter_alone, "-c", SAID).stdout
@@ -98,5 +98,5 @@ def test_all_of_the_chapter_is_built_and_tested_without_the_studies(chapter_alon
     shutil.rmtree(chapter_alone / "results")
     shutil.rmtree(chapter_alone / ".snakemake")
     chapter_alone.snakemake()
-    assert "11 figures: 10 passed" in chapter_alone.snakemake("figure_check", check=False)
+    assert re.search(r"\b(\d+) figures: \1 passed", chapter_alone.snakemake("figure_check"))
     assert_tests_pass(chapter_alone, "--ignore", "tests/workflow/test_layers.py")

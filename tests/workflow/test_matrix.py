@@ -14,6 +14,10 @@ set-up:
 	mkdir -p .venv/bin results/figures
 	cp tool .venv/bin/snakemake && cp tool .venv/bin/python
 	test ! -e no-set-up
+figures studies: set-up
+	.venv/bin/snakemake $@
+check-figures: set-up
+	.venv/bin/snakemake figure_check
 test-quick:
 	@echo tested
 """

@@ -14,14 +14,18 @@ rule work_precision:
         ),
     params:
         figure="work_precision",
-        problems={
-            name: {"system": system_of(problem["case"]), **problem} for name, problem in ACCURACY["problems"].items()
+        module=module_of("work_precision"),
+        settings={
+            "problems": {
+                name: {"system": system_of(problem["case"]), **problem}
+                for name, problem in ACCURACY["problems"].items()
+            },
+            "seconds": ACCURACY["full_seconds" if FULL else "short_seconds"],
+            "short": not FULL,
         },
-        seconds=ACCURACY["full_seconds" if FULL else "short_seconds"],
-        short=not FULL,
         config={f"accuracy.{name}": ACCURACY[name] for name in ("problems", "effort", "short_seconds", "full_seconds")}
         | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
-        code=code("work_precision"),
+        code=code("figure", module_of("work_precision")),
     threads: ALL_CORES
     log:
         "results/logs/accuracy/work_precision.log",
@@ -30,38 +34,51 @@ rule work_precision:
     conda:
         "../envs/vibroimpact.yaml"
     script:
-        "../scripts/work_precision.py"
+        "../scripts/figure.py"
 
 
-rule hazards:
+rule stress_tests:
     output:
-        **in_report(figure_files("results/accuracy/hazards", SPECS["hazards"]["tables"]), "Accuracy and speed"),
+        **in_report(
+            figure_files("results/accuracy/stress_tests", SPECS["stress_tests"]["tables"]), "Accuracy and speed"
+        ),
     params:
-        figure="hazards",
-        full=FULL,
+        figure="stress_tests",
+        module=module_of("stress_tests"),
+        settings={"full": FULL},
         config={"accuracy.effort": ACCURACY["effort"]},
-        code=code("hazards"),
+        code=code("figure", module_of("stress_tests")),
     log:
-        "results/logs/accuracy/hazards.log",
+        "results/logs/accuracy/stress_tests.log",
     benchmark:
-        "results/benchmarks/accuracy/hazards.tsv"
+        "results/benchmarks/accuracy/stress_tests.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:
-        "../scripts/hazards.py"
+        "../scripts/figure.py"
+
+
+rule grazing:
+    output:
+        **in_report(figure_files("results/accuracy/grazing", SPECS["grazing"]["tables"]), "Accuracy and speed"),
+    params:
+        figure="grazing",
+        module=module_of("grazing"),
+        settings={},
+        config={},
+        code=code("figure", module_of("grazing")),
+    log:
+        "results/logs/accuracy/grazing.log",
+    benchmark:
+        "results/benchmarks/accuracy/grazing.tsv"
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/figure.py"
 
 
 # The figures that have a choice of models, and what each is computed from.
 MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
-
-
-def modelled(figure, entry):
-    """A figure with its settings or, of a simulation, those of the run."""
-    known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
-    settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
-    if known["notebook"] == "simulation":
-        settings = config["cases"][entry["case"]]["simulation"]
-    return known | {"system": system_of(entry["case"]), "settings": settings}
 
 
 rule models:
@@ -92,9 +109,10 @@ rule models:
 rule method_comparison:
     input:
         work_precision="results/accuracy/work_precision.csv",
-        hazards="results/accuracy/hazards.csv",
+        stress_tests="results/accuracy/stress_tests.csv",
     output:
         **in_report({"csv": "results/accuracy/method_comparison.csv"}, "Accuracy and speed"),
+        choices="results/accuracy/choices.csv",
     params:
         code=code("method_comparison"),
     log:
@@ -107,9 +125,12 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
+# The charts that are compared with a reference set: their errors, orders and failures, not their seconds.
+CHARTS = "work_precision", "stress_tests", "grazing"
+
+
 rule accuracy:
     input:
-        rules.work_precision.output,
-        rules.hazards.output,
+        [getattr(rules, name).output for name in CHARTS],
         rules.models.output,
         rules.method_comparison.output,

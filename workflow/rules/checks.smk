@@ -4,9 +4,9 @@
 # Has no output, so that it compares each time; it prints its result on the terminal, too.
 rule figure_check:
     input:
-        [getattr(rules, figure).output for figure in config["figures"]],
+        [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],
     params:
-        figures=config["figures"],
+        figures=config["figures"] | {name: {} for name in CHARTS},
         reference="figures",
         page="results/figure_check",
         strict=False,
@@ -23,7 +23,7 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        figures=config["figures"],
+        figures=config["figures"] | {name: {} for name in CHARTS},
         reference="figures",
         page="results/figure_check",
         strict=True,

@@ -188,7 +188,9 @@ def scene(figure, *others, section="figures"):
     if figure not in SCENES:
         return {"settings": absent(figure)}
     case, own_settings = SCENES[figure].get("case"), entries([f"{section}.{figure}.*"])
-    decides = [f"cases.{case}.simulation.*", f"{section}.{figure}.model"] if spec(figure)["notebook"] == "simulation" else []
+    decides = (
+        [f"cases.{case}.simulation.*", f"{section}.{figure}.model"] if spec(figure)["notebook"] == "simulation" else []
+    )
     paths = [path for path in own_settings if path not in decides]
     params = figure_params(figure, [*paths, *others], case, decides=decides)
     return params | {"code": code("figure", spec(figure)["module"], *map(module_of, spec(figure)["shares"]))}
@@ -227,6 +229,15 @@ def titled(figure):
     """The entry of a figure in the config, its case under its title."""
     shown = SCENES[figure]
     return shown | ({"case": title_of(config, shown["case"])} if "case" in shown else {})
+
+
+def modelled(figure, entry):
+    """A figure with its settings or, of a simulation, those of the run."""
+    known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
+    settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
+    if known["notebook"] == "simulation":
+        settings = config["cases"][entry["case"]]["simulation"]
+    return known | {"system": system_of(entry["case"]), "settings": settings}
 
 
 def absent(figure):

@@ -34,4 +34,5 @@ with running(snakemake):
         report += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
     for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
         print(*report, sep="\n", file=stream, flush=True)
-sys.exit(int(has_failed(found, snakemake.params.strict)))
+    if has_failed(found, snakemake.params.strict):
+        sys.exit("Some figures are not those of the reference set.")

@@ -7,7 +7,7 @@ from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results_page import page
 
-ACCURACY = "work_precision", "hazards", "models"
+ACCURACY = "work_precision", "stress_tests", "grazing", "models"
 
 with running(snakemake) as out:
     texts = figure_texts(ROOT, snakemake.params.config)

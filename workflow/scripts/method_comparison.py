@@ -1,9 +1,11 @@
-"""Work-precision chart and stress tests -> CSV, a row per method."""
+"""Work-precision chart and stress tests -> CSV, a row per method, and the methods to choose."""
 
 from vibroimpact_pipeline.jobs import running
 
 from vibroimpact import tables
-from vibroimpact.accuracy.comparison import compare
+from vibroimpact.accuracy.comparison import choices, compare
 
 with running(snakemake) as out:
-    tables.write(compare(tables.read(snakemake.input.work_precision), tables.read(snakemake.input.hazards)), out.csv)
+    measured = tables.read(snakemake.input.work_precision), tables.read(snakemake.input.stress_tests)
+    tables.write(compare(*measured), out.csv)
+    tables.write(choices(*measured), out.choices)

@@ -1,4 +1,4 @@
-"""One row per method: what an error of at most 1e-6 costs it, and how it fares in the stress tests."""
+"""What an error costs each method, how it fares in the stress tests, and which methods to choose."""
 
 from vibroimpact.accuracy.stress_tests import ENDLESS, ERROR, RIGHT, SILENTLY_WRONG
 from vibroimpact.system.extras import need
@@ -7,29 +7,61 @@ need("figures", "pandas")
 
 import pandas as pd  # noqa: E402 (after the word on what is missing)
 
-GOAL = 1e-6
+GOAL, GOALS = 1e-6, (1e-6, 1e-12)
 OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDLESS]}
 
 
-def compare(work_precision: pd.DataFrame, hazards: pd.DataFrame) -> pd.DataFrame:
+def compare(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
     """Return methods in the order of the chart, with their cost relative to the first and their stress tests.
 
     Args:
-        work_precision, hazards: the tables of the same names.
+        work_precision, stress_tests: the tables of the same names.
 
     Columns method, family, problems (test problems that it solves with an error of at most 1e-6, without an impact
     missed or spurious), times (run time of its fastest such runs over those of the first method, the worst problem;
     blank unless it solves all), right, wrong (silently), stopped (by an error, or not finished), tests.
     """
-    exact = work_precision[["missed", "spurious"]].eq(0).all(axis=1) & (work_precision["outcome"] == "finished")
-    good = work_precision[exact & (work_precision["error_state"] <= GOAL)]
+    good = _good(work_precision, GOAL)
     cost = good.pivot_table("seconds_per_cycle", "method", "problem", aggfunc="min")
     methods = work_precision.drop_duplicates("method").set_index("method")["family"]
     cost = cost.reindex(index=methods.index, columns=work_precision["problem"].unique())
     table = pd.DataFrame({"family": methods, "problems": cost.notna().sum(axis=1)})
     table["times"] = (cost / cost.iloc[0]).max(axis=1, skipna=False)
-    counts = hazards.groupby("method")["verdict"]
+    counts = stress_tests.groupby("method")["verdict"]
     for name, verdicts in OUTCOMES.items():
         table[name] = counts.agg(lambda found, verdicts=verdicts: found.isin(verdicts).sum())
     table["tests"] = counts.size()
     return table.reset_index()
+
+
+def choices(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
+    """Return the cheapest and the second cheapest of the stress-tested methods for each problem and error.
+
+    Columns problem, error (largest allowed, no impact missed or spurious), choice (1, 2), method, setting,
+    seconds_per_cycle, wrong (stress tests that the method gets silently wrong), tests.
+    """
+    verdicts = stress_tests.groupby("method")["verdict"]
+    counts = pd.DataFrame(
+        {"wrong": verdicts.agg(lambda found: (found == SILENTLY_WRONG).sum()), "tests": verdicts.size()}
+    )
+    tested = work_precision[work_precision["method"].isin(counts.index)]
+    rows = [
+        {"problem": problem, "error": goal, "choice": place, "method": run.method, "setting": run.setting}
+        | {"seconds_per_cycle": run.seconds_per_cycle, **counts.loc[run.method]}
+        for problem in work_precision["problem"].unique()
+        for goal in GOALS
+        for place, run in enumerate(_cheapest(tested[tested["problem"] == problem], goal), start=1)
+    ]
+    return pd.DataFrame(rows)
+
+
+def _cheapest(runs, goal):
+    """Return the runs, as tuples, of the two methods that reach `goal` at the least cost."""
+    by_cost = _good(runs, goal).sort_values("seconds_per_cycle", kind="stable")
+    return by_cost.drop_duplicates("method").head(2).itertuples()
+
+
+def _good(work_precision, goal):
+    """Return the runs with an error of at most `goal` and the impacts of the reference."""
+    exact = work_precision[["missed", "spurious"]].eq(0).all(axis=1) & (work_precision["outcome"] == "finished")
+    return work_precision[exact & (work_precision["error_state"] <= goal)]

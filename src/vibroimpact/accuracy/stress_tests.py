@@ -28,9 +28,6 @@ RIGHT, UNDECIDABLE, ERROR, ENDLESS, SILENTLY_WRONG, UNAVAILABLE = (
 )
 FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}
 
-FORMER = {"hazard": "test", "says": "reason"}
-"""Columns of `judge` by their former names, which `hazards.csv` has until the next release."""
-
 CHAPTER = PARAMETERS | CASES["equal"]
 
 
@@ -69,7 +66,7 @@ def stress_tests() -> list[StressTest]:
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
     still = system.with_(f10_hat=0.0, f20_hat=0.0)
-    problems = [_grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
+    problems = [grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
     problems += [StressTest("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
     problems += [
         StressTest("sticking", "stick and release", system, RESTING, 2),
@@ -141,8 +138,11 @@ def _row(test, method, reference):
     }
 
 
-def _grazing(system, side, digits):
-    """Ball 1 clears its wall (side 1) or would go beyond it (side -1) by 1e-digits; every impact counts."""
+def grazing(system: System, side: int, digits: int) -> StressTest:
+    """Return the test in which ball 1 clears its wall (side 1) or would go beyond it (side -1) by 1e-digits.
+
+    Every impact counts.
+    """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
     return StressTest("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))

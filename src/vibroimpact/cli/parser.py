@@ -31,7 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """The parser of all commands."""
-    top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__)
+    top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__.splitlines()[0])
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
     if find_spec("shtab"):
         import_module("shtab").add_argument_to(

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.markdown import EXACTLY
-from vibroimpact.figures.plotting.style import BLACK, LEVEL, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, GREY, LEVEL, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.manifold import B_min, rho
 from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
@@ -14,9 +14,10 @@ SPEC = {
     "title": "The slow invariant manifold",
     "notebook": "closed_form",
     "caption": "Fig. 10.4. Slow invariant manifold (SIM): stable branch bold solid, unstable branch dashed, as (10.26) "
-        r"divides them; dotted: the level :math:`B_{\min}`.",
-    "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min; the left arm is dashed, "
-        "unstable, the bottom and the right arm are bold, stable.",
+        r"divides them; dotted: :math:`B_{\min}` and :math:`C_{\min}`. Inset: the stable piece of the left arm, from "
+        "the border by (10.26) to the fold.",
+    "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min at C_min; the left arm "
+        "is dashed, unstable, the bottom and the right arm are bold, stable; an inset shows the bottom.",
     "equations": [
         r"B_i^2 = 1 - 2C_i + (1 + \rho^2)\,C_i^2, \qquad \rho = \frac{2(1-\kappa)}{\pi(1+\kappa)} \tag{10.16}",
         r"B_{\min} = \frac{\rho}{\sqrt{1+\rho^2}}, \qquad C_{\min} = \frac{1}{1+\rho^2} \tag{10.25}",
@@ -29,6 +30,8 @@ SPEC = {
         "C, B": {"compared": "algebra"},
     },
 }  # fmt: skip
+
+INSET = (0.335, 0.43, 0.31, 0.38)
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
@@ -62,20 +65,25 @@ def exact(kappa: float, C_max: float) -> str:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min dotted."""
-    figure = new_figure(SINGLE_COLUMN, 56.0)
+    """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min and C_min dotted.
+
+    The inset shows the stable piece of the left arm, from the border of (10.26) to the fold.
+    """
+    figure = new_figure(SINGLE_COLUMN, 66.0)
     axes = figure.add_subplot()
-    draw_branches(axes, table, "SIM")
-    level = select(table, "SIM", "B_min")
-    axes.plot(level["C"], level["B"], **LEVEL)
-    axes.annotate(
-        r"$B_{\min}$", (level["C"].iloc[0], level["B"].iloc[0]), (6, 4), textcoords="offset points", fontsize=10
-    )
-    border, B = select(table, "SIM", "SIM stable")[["C", "B"]].iloc[0]
-    axes.plot(border, B, "|", color=BLACK, markersize=9, markeredgewidth=1.2)
-    leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 4}
-    place = {"textcoords": "offset points", "ha": "center", "arrowprops": leader, "fontsize": 10}
-    axes.annotate(f"(10.26)\n$C_i = {border:.3f}$", (border, B), (2, 36), **place)
-    axes.set(xlim=(0.0, table["C"].max()), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
-    axes.legend(loc="upper center", reverse=True)
+    stable, (C_max, B_level) = select(table, "SIM", "SIM stable"), select(table, "SIM", "B_min")[["C", "B"]].iloc[-1]
+    border, fold = stable["C"].iloc[0], stable["C"].loc[stable["B"].idxmin()]
+    axes.set(xlim=(0.0, C_max), ylim=(0.0, 1.06 * table["B"].max()), xlabel="$C_i$", ylabel="$B_i$")
+    inset = axes.inset_axes(INSET, xlim=(2 * border - fold, 2 * fold - border), ylim=(0.8 * B_level, 1.5 * B_level))
+    inset.set(xticks=[], yticks=[])
+    for one in (axes, inset):
+        draw_branches(one, table, "SIM")
+        one.plot([0.0, C_max], [B_level, B_level], **LEVEL)
+        one.plot([fold, fold], [0.0, B_level], **LEVEL)
+        one.plot(border, stable["B"].iloc[0], "|", color=BLACK, markersize=9, markeredgewidth=1.2)
+    inset.annotate(f"(10.26)\n{border:.3f}", (border, stable["B"].iloc[0]), (8, 4), textcoords="offset points")
+    axes.indicate_inset_zoom(inset, edgecolor=GREY)
+    axes.annotate(r"$B_{\min}$", (0.0, B_level), (6, 4), textcoords="offset points", fontsize=10)
+    axes.annotate(r"$C_{\min}$", (fold, 0.0), (3, 3), textcoords="offset points", fontsize=10)
+    axes.legend(loc="upper center", reverse=True, ncols=2)
     return figure

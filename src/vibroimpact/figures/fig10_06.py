@@ -1,11 +1,15 @@
 """Figure 10.6: fixed points and singular points on the slow invariant manifold."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.accuracy.model_choice import motions
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
@@ -20,17 +24,17 @@ SPEC = {
         "arrow after :math:`S_2`: there is one further up the SIM, off the frame. Heads: verdicts of (10.26), those "
         "of the chapter; it judges the impacts alone, and the exact motion may be unstable where it says stable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
-        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, hollow grey squares S1, S2 the "
+        "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
         "singular points; in row b an arrow points to an S2 beyond the frame.",
     "own": {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
             "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
-            ":math:`S_2` (hollow grey squares), one row per fixed point. Heads: verdicts of (10.26), which judges the "
+            ":math:`S_2` (grey squares), one row per fixed point. Heads: verdicts of (10.26), which judges the "
             "impacts alone.",
         "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
             "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
-            "row, hollow grey squares S1, S2 the singular points.",
+            "row, grey squares S1, S2 the singular points.",
     },
     "equations": [
         r"h_{B_1}^* = h_{\psi_1}^* = h_{B_2}^* = h_{\psi_2}^* = 0 \tag{10.23}",
@@ -46,13 +50,14 @@ SPEC = {
 }  # fmt: skip
 
 MODULES = (1, 2)
-NAME = {"textcoords": "offset points", "fontsize": 10}
-CLOSE = 0.12
-"""Distance from the fold, as a part of the axis, within which labels need leaders."""
-ROW_HEIGHT, ENDS = 34.0, 11.0
+NAME = {"fontsize": 10, "color": BLACK}
+ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
+"""The part of a plane around the fold; where several points lie in it, it is drawn again, larger, at INSET."""
+INSET = (0.13, 0.5, 0.44, 0.46)
+ROW_HEIGHT, ENDS = 38.0, 11.0
 """Height in mm of a row of planes, and of the heads above and labels below them all."""
 MARKERS = {
-    "S": {"marker": "s", "color": GREY, "markersize": 4.4, "markerfacecolor": "none", "markeredgewidth": 1.0},
+    "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
     "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
 }
 """In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
@@ -102,19 +107,28 @@ def _plane(system, point, module, end):
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i hollow grey squares."""
+def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({})) -> Figure:
+    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i grey squares.
+
+    Args:
+        chapter: the chapter's verdicts by label, which the heads show where (10.26) gives another one.
+    """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)
     grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
+    names = {}
     for row, label in zip(grid, labels, strict=True):
-        heading(row[0], label, verdict(table, label))
+        by_limit, printed = verdict(table, label), chapter.get(label)
+        agrees = printed in (None, by_limit) or not by_limit
+        words = f"{by_limit} by (10.26)" if agrees else f"chapter {printed}, (10.26) {by_limit}"
+        heading(row[0], label, words if by_limit else "")
         for axes, module in zip(row, MODULES, strict=True):
-            draw_plane(axes, table, f"{label}{module}")
+            names |= draw_plane(axes, table, f"{label}{module}")
     for axes, module in zip(grid[0], MODULES, strict=True):
         axes.set_title(f"module {module}\n", pad=4)  # a line above the head of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
+    name_curves(figure, names, **NAME)
     return figure
 
 
@@ -126,41 +140,35 @@ def verdict(table: pd.DataFrame, label: str) -> str:
     if not any(map(len, places)):
         return ""
     stable = all(border < C for place, border in zip(places, borders, strict=True) for C in place)
-    return f"{'stable' if stable else 'unstable'} by (10.26)"
+    return "stable" if stable else "unstable"
 
 
-def draw_plane(axes, table: pd.DataFrame, panel: str) -> None:
-    """Draw the plane (C_i, B_i) of one panel."""
+def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
+    """Draw the plane (C_i, B_i) of one panel; return what `name_curves` is to name, by axes."""
     module = panel[-1]
-    draw_branches(axes, table, panel)
     stable = select(table, panel, "SIM stable")
-    end, fold = stable.iloc[-1], stable["C"].loc[stable["B"].idxmin()]
-    top = max(end["B"], select(table, panel, "SIM unstable")["B"].iloc[0])
+    end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])
     # Rounded, because Matplotlib's choice of ticks would change with the last digit of an end such as 2.
     axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
-    shown = {kind: select(table, panel, f"{kind}_{module}") for kind in MARKERS}
-    for kind, marker in MARKERS.items():
-        axes.plot(shown[kind]["C"], shown[kind]["B"], linestyle="none", zorder=3, **marker)
-    names = [(C, B, kind) for kind in MARKERS for C, B in shown[kind][["C", "B"]].to_numpy()]
-    _name(axes, names, module, fold)
+    points = [
+        (kind, C, B) for kind in MARKERS for C, B in select(table, panel, f"{kind}_{module}")[["C", "B"]].to_numpy()
+    ]
+    close = [point for point in points if ZOOM["xlim"][0] < point[1] < ZOOM["xlim"][1]]
+    panes = {axes: points}
+    if len(close) > 1:
+        inset = axes.inset_axes(INSET, xticks=[], yticks=[], **ZOOM)
+        axes.indicate_inset((*np.transpose([*ZOOM.values()])[0], *np.ptp([*ZOOM.values()], axis=1)), edgecolor=GREY)
+        panes[inset] = close
+    names = {}
+    for pane, shown in panes.items():
+        draw_branches(pane, table, panel)
+        lines = [(point, pane.plot(*point[1:], linestyle="none", zorder=3, **MARKERS[point[0]])) for point in shown]
+        own = [one for one in lines if pane is not axes or len(panes) == 1 or one[0] not in close]
+        names[pane] = [(f"${kind}_{module}$", line) for (kind, _, _), line in own]
     if len(select(table, panel, f"S_{module} beyond")):
         # The point lies further up the manifold than the frame reaches.
-        axes.annotate(rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), **NAME, ha="right")
-
-
-def _name(axes, points, module, fold):
-    """Label points (C, B, kind); those close to the fold are labelled above it, side by side, with leaders."""
-    close = sorted(point for point in points if abs(point[0] - fold) < CLOSE * axes.get_xlim()[1])
-    shifts = 16.0 * (np.arange(len(close)) - 0.5 * (len(close) - 1))
-    for (C, B, kind), shift in zip(close, shifts, strict=True):
-        leader = {"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 2}
-        offset = {"xytext": (shift, 24), "ha": "center", "arrowprops": leader}
-        axes.annotate(f"${kind}_{module}$", (C, B), **NAME, **offset)
-    for C, B, kind in (point for point in points if point not in close):
-        below = fold < C < 0.8 * axes.get_xlim()[1]
-        rightwards = below or fold > C
-        offset, side = ((5, -9 if below else 2), "left") if rightwards else ((-5, 2), "right")
-        if fold > C and len(close) > 1:  # to the right are the names of those
-            offset, side = (3, -12), "right"
-        axes.annotate(f"${kind}_{module}$", (C, B), offset, **NAME, ha=side)
+        axes.annotate(
+            rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), textcoords="offset points", ha="right", **NAME
+        )
+    return names

@@ -3,9 +3,10 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.model_choice import motion
-from vibroimpact.figures.plotting.style import BLACK, GREY, HALO, SINGLE_COLUMN, heading, new_figure, styled, time_plot
+from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
 
 SPEC = {
@@ -91,31 +92,19 @@ def draw(table: pd.DataFrame) -> Figure:
         draw_response(axes, table, module)
         heading(axes, letter, f"module {module}")
     grid[-1].set_xlabel(r"$\tau$")
+    key(figure)
     return figure
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> None:
-    """Draw the four coordinates of one module over tau with their names, and the walls W_i = 1 and W_i = -1."""
+    """Draw the four coordinates of one module over tau, and the walls W_i = 1 and W_i = -1."""
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
-    tau = lines["U"]["tau"].to_numpy()
-    inner = (tau > 0.05 * tau[-1]) & (tau < 0.95 * tau[-1])
-    # Rounded: else the last digit decides between one cycle and the next.
-    U, X, W, Y = (line["value"].round(9).where(inner).to_numpy() for line in lines.values())
-    apart, highest, lowest = np.nanargmax(np.abs(U - X)), np.nanargmax(W), np.nanargmin(Y)
-    upwards = U[apart] > X[apart]
-    names = {"U": (apart, upwards), "X": (apart, not upwards), "W": (highest, True), "Y": (lowest, False)}
-    for name, (at, above) in names.items():
-        axes.annotate(
-            f"${name}_{module}$",
-            lines[name][["tau", "value"]].iloc[at],
-            (0, 2 if above else -2),
-            textcoords="offset points",
-            fontsize=10,
-            va="bottom" if above else "top",
-            ha="center",
-            color=COORDINATES[name]["color"],
-            **HALO,
-        )
     axes.set_ylabel("displacement")
-    axes.margins(y=0.2)
+    axes.margins(y=0.1)
+
+
+def key(figure) -> None:
+    """Name the coordinates below the panels: curves so close to each other have no room for names."""
+    handles = [Line2D([], [], **look, label=f"${name}_i$") for name, look in COORDINATES.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=2.4)

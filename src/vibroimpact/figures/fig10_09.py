@@ -1,6 +1,11 @@
 """Figure 10.9: fixed points and singular points for unequal forces, drawn as figure 10.6."""
 
-from vibroimpact.figures.fig10_06 import compute, draw
+import pandas as pd
+from matplotlib.figure import Figure
+
+from vibroimpact.figures import fig10_06
+from vibroimpact.figures.fig10_06 import compute
+from vibroimpact.tables import select
 
 SPEC = {
     "title": "Fixed points for unequal forces",
@@ -8,8 +13,9 @@ SPEC = {
     "caption": r"Fig. 10.9. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, drawn "
         "as in Fig. 10.6: the branch that (10.26), as printed, calls stable bold solid, the other dashed. Squares are "
         "our assumption: the text has them in Fig. 10.6 only. The chapter's verdicts: a unstable, b unstable, c "
-        "stable; the heads have those of (10.26). Both projections of b lie on the bold line all the same: the printed "
-        "limit, :math:`C_i = 0.904`, cannot be that of the chapter's own figure, which takes one above 0.957.",
+        "stable; the heads have those of (10.26), and both where they differ. Both projections of b lie on the bold "
+        "line all the same: the printed limit, :math:`C_i = 0.904`, cannot be that of the chapter's own figure, which "
+        "takes one above 0.957.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, as in figure 10.6; most circles have moved down "
         "towards the fold of the manifold.",
     "own": "fig10_06",
@@ -19,3 +25,14 @@ SPEC = {
 }  # fmt: skip
 
 __all__ = ["compute", "draw"]
+
+CHAPTER = {"a": "unstable", "b": "unstable", "c": "stable"}
+"""Verdicts in the chapter's caption."""
+PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
+"""C of point b at the chapter's parameters, which these verdicts are about, in planes of both modules."""
+
+
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute` as figure 10.6; at the chapter's parameters with its verdicts where (10.26) differs."""
+    found = [abs(select(table, plane, f"P_{plane[1]}")["C"] - C) < 1e-3 for plane, C in PLACE_OF_B.items()]
+    return fig10_06.draw(table, CHAPTER if all(len(near) and near.all() for near in found) else {})

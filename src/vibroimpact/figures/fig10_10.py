@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.accuracy.model_choice import motion
 from vibroimpact.figures import fig10_06, fig10_07
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.tables import join
 
@@ -51,15 +52,17 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: the planes side by side, the responses of both modules below."""
     figure = new_figure(SINGLE_COLUMN, 132.0)
     panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
-    label = table["panel"].iloc[0][:-1]
-    for module, letters in zip(fig10_06.MODULES, ("ac", "bd"), strict=True):
-        fig10_06.draw_plane(panels[module], table, f"{label}{module}")
+    label, names = table["panel"].iloc[0][:-1], {}
+    for module in fig10_06.MODULES:
+        names |= fig10_06.draw_plane(panels[module], table, f"{label}{module}")
         panels[module].set_xlabel(f"$C_{module}$")
-        heading(panels[module], letters[0], f"point {label}, module {module}")
+        heading(panels[module], words=f"fixed point ({label}), module {module}")
         fig10_07.draw_response(panels[f"module {module}"], table, module)
-        heading(panels[f"module {module}"], letters[1], f"its response, module {module}")
+        heading(panels[f"module {module}"], words=f"its response, module {module}")
     panels["module 1"].sharex(panels["module 2"])
     panels["module 1"].sharey(panels["module 2"])
     panels["module 1"].tick_params(labelbottom=False)
     panels["module 2"].set_xlabel(r"$\tau$")
+    fig10_07.key(figure)
+    name_curves(figure, names, **fig10_06.NAME)
     return figure

@@ -9,7 +9,8 @@ SPEC = {
     "title": "Strongly modulated response for weak forces",
     "notebook": "simulation",
     "caption": r"Fig. 10.11. Strongly modulated response, simulated for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat "
-        "f_{20} = {f20_hat}`: a, displacement of the second box; b, relative displacement of its ball.",
+        "f_{20} = {f20_hat}`: a, displacement of the second box; b, relative displacement of its ball. Grey: "
+        "no resonance, the ball takes longer than a forcing period from wall to wall.",
     "alt": "Two panels over many forcing periods: a, the displacement X2 with an amplitude that swells and fades; b, "
         "the relative displacement W2, with stretches that fill the gap between the walls and irregular ones between "
         "them.",
@@ -49,5 +50,5 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd
 
 
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute` as figure 10.8."""
-    return simulated.draw(tables["csv"])
+    """Draw the tables of `compute` as figure 10.8, intervals without resonance on grey."""
+    return simulated.draw(tables["csv"], simulated.without_resonance(tables["csv"]))

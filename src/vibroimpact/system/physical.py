@@ -15,6 +15,10 @@ class PhysicalSystem:
     likewise; F10, F20: force amplitudes; omega1, omega2: circular frequencies of the forces; L: the ball meets a
     wall at |x - y| = L; kappa: restitution coefficient.
 
+    What is dimensionless becomes physical by a factor, with omega10 = sqrt(k1 / M): time 1 / omega10, frequency
+    omega10, displacement L, velocity L omega10, force k1 L, energy k1 L^2. An absorber has the spring
+    epsilon k1 frequency^2 and the damper 2 epsilon M omega10 frequency damping.
+
     Raises:
         ValueError: a parameter is not a finite number, a mass, stiffness to ground, frequency or L is not above 0, a
             damping or k12 is below 0.

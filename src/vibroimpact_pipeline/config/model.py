@@ -17,10 +17,10 @@ PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
 """Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
 RULES = {
     *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check", "figures"),
-    *("figure_check_strict", "fixed_points", "force_sweep", "gather", "hazards", "index", "method_comparison"),
+    *("figure_check_strict", "fixed_points", "force_sweep", "gather", "grazing", "index", "method_comparison"),
     *("models", "modulation", "nudge", "orbits", "proofs", "report", "simulation", "stability", "studies"),
     *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts", "verdicts_by_epsilon"),
-    "work_precision",
+    *("stress_tests", "work_precision"),
 }
 """Rules whose names figures and other entries, which become rules as well, cannot have."""
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]

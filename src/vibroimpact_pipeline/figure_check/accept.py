@@ -57,10 +57,10 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
             sums[figure] = {**pictures.sums(drawn), "drawn with": drawing_versions()}
     (reference / SUMS).write_text(json.dumps(dict(sorted(sums.items())), indent=1) + "\n", encoding="utf-8")
     changes = reference / "CHANGES.md"
-    earlier = changes.read_text(encoding="utf-8").removeprefix(HEADING) if changes.exists() else ""
-    told = (one | {"status": "new", "reasons": []} if one["figure"] in new else one for one in verdicts)
-    entries = "\n".join(f"- {line(one)}.{_built_from(one, build)}" for one in told)
-    changes.write_text(f"{HEADING}\n## {date:%Y-%m-%d}: {reason}\n\n{entries}\n{earlier}", encoding="utf-8")
+    earlier = changes.read_text(encoding="utf-8").removeprefix(f"{HEADING}\n") if changes.exists() else ""
+    named = ", ".join(f"new {name}" if name in new else name for name in (one["figure"] for one in verdicts))
+    built = "".join(sorted({_built_from(one, build) for one in verdicts}))
+    changes.write_text(f"{HEADING}\n- {date:%Y-%m-%d}: {reason} ({named}).{built}\n{earlier}", encoding="utf-8")
 
 
 def _is_new(verdict, reference):
@@ -68,7 +68,7 @@ def _is_new(verdict, reference):
 
 
 def _built_from(verdict, build):
-    path = build / f"results/figures/{verdict['figure']}.provenance.json"
+    path = build / f"{verdict['stem']}.provenance.json"
     record = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     return f" Built from {record['commit'][:10]} ({record['tree']} tree)." if record.get("commit") else ""
 

@@ -53,12 +53,13 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         spec: its SPEC, and as "module" what draws it; None for one that is no longer made.
         reference: folder of the reference set. build: folder in which results/ lies, up to date.
 
-    Returns keys figure, module, files (of each table that is compared its name in the reference set, and its path in
-    the build), status, reasons (one line each), distance (the largest, of which 1 is the limit), tables (see
-    `tables.compare`, with the table's name).
+    Returns keys figure, stem (path of its pictures in the build, without their endings), module, files (of each table
+    that is compared its name in the reference set, and its path in the build), status, reasons (one line each),
+    distance (the largest, of which 1 is the limit), tables (see `tables.compare`, with the table's name).
     """
     verdict = {
         "figure": figure,
+        "stem": f"results/figures/{figure}",
         "module": None,
         "files": {},
         "status": FAILED,
@@ -69,8 +70,9 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     if spec is None:
         return verdict | {"reasons": ["not built: the config has no such figure"]}
     reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], compared_files(figure, spec)
-    verdict |= {"module": spec["module"], "files": files}
-    built = {kind: build / f"results/figures/{figure}.{kind}" for kind in pictures.KINDS}
+    plotted = spec["tables"].get("csv", {"file": f"{verdict['stem']}.csv"})
+    verdict |= {"module": spec["module"], "files": files, "stem": plotted["file"].removesuffix(".csv")}
+    built = {kind: build / f"{verdict['stem']}.{kind}" for kind in pictures.KINDS}
     published = [reference / file for file in (f"{figure}.png", *(file for file, _ in files.values()))]
     new_files = [*built.values(), *(build / path for _, path in files.values())]
     for reason, paths in (("no reference", published), ("not built", new_files)):

@@ -28,7 +28,7 @@ def page(verdicts: list[dict], reference, build) -> str:
 def _pictures(verdict, reference, build):
     """Return reference, new picture and difference as PNG files; of a figure that has passed the reference alone."""
     files, shown = {}, []
-    for name, folder in (("Reference", Path(reference)), ("New", Path(build) / "results/figures")):
+    for name, folder in (("Reference", Path(reference)), ("New", (Path(build) / verdict["stem"]).parent)):
         with suppress(Exception):  # the verdict says so, whatever the library raises
             content = (folder / f"{verdict['figure']}.png").read_bytes()
             shown.append(pictures.picture(content))

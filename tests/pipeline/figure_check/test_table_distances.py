@@ -147,6 +147,22 @@ def test_one_number_off_by_a_per_cent_fails(name):
     assert unnoticed(name) == []
 
 
+def test_of_the_accuracy_charts_errors_orders_and_failures_are_compared_and_seconds_are_not():
+    old, columns = published("work_precision")
+    slower = {"seconds_per_cycle": 9 * old["seconds_per_cycle"], "steps": old["steps"] + 1}
+    slower["reason"] = old["reason"].where(old["reason"].isna() | (old["reason"] == ""), "another")
+    assert compare(old, old.assign(**slower), columns)[0] == []
+    last = old.index == old.index[old["outcome"] == "finished"][-1]
+    for name, values in {
+        "error_state": old["error_state"].where(~last, 100 * old["error_state"]),
+        "error_time": 2 * old["error_time"],
+        "order": old["order"] - 0.5,
+        "missed": old["missed"] + (old["method"] == "heyoka"),
+        "outcome": old["outcome"].where(~last, "unfinished"),
+    }.items():
+        assert compare(old, old.assign(**{name: values}), columns)[0], name
+
+
 @pytest.mark.parametrize(("gamma1_hat", "caught"), [(0.2, False), (0.2 * 1.003, True)])
 def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(gamma1_hat, caught):
     def settled(gamma1_hat):

@@ -14,7 +14,7 @@ SHOWN = {
     "chapter": ["fig10_06"],
     "own": ["mine"],
     "companions": ["companion_basins"],
-    "accuracy": ["work_precision", "hazards", "models"],
+    "accuracy": ["work_precision", "stress_tests", "grazing", "models"],
     "animations": ["waves"],
     "force_sweep": ["force_sweep"],
     "nudge": ["nudge"],
@@ -58,7 +58,7 @@ def results(folder: Path) -> Path:
     record = dict.fromkeys(("commit", "tree"), HOSTILE) | {"config": {HOSTILE: HOSTILE}, "code": {"lock": HOSTILE}}
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
-    places |= dict.fromkeys(("work_precision", "hazards", "models"), "accuracy")
+    places |= dict.fromkeys(("work_precision", "stress_tests", "grazing", "models"), "accuracy")
     places |= {"waves": "animations", "force_sweep": "force_sweep", "nudge": "nudge"}
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
@@ -94,7 +94,7 @@ def results(folder: Path) -> Path:
             run | {"outcome": "finished", "reason": ""},
             run | {"outcome": HOSTILE, "reason": HOSTILE},
         ],
-        "accuracy/hazards.csv": [
+        "accuracy/stress_tests.csv": [
             {"group": HOSTILE, "test": HOSTILE, "method": HOSTILE, "verdict": "right"}
             | {"error_state": 1e-9, "missed": 0, "spurious": 0}
         ],

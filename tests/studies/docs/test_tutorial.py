@@ -83,23 +83,6 @@ def test_the_weak_response_is_modulated_and_beyond_its_horizon(followed):
     assert len(np.unique(cloud[:, 2].round(3))) > 300  # no motion of few periods
 
 
-def test_what_is_said_of_basins_exponent_and_sections(followed):
-    names = followed[0]
-    basins, pair = names["basins"], [orbit.state for orbit in names["orbits"] if orbit.stable]
-    large = [label for label, share in basins.shares.items() if share > 0.4]
-    found = [basins.attractors[label].states for label in large]
-    assert len(found) == 2
-    for states in found:
-        assert min(np.abs(states - state).max() for state in pair) < 1e-8
-    assert np.abs(found[0] - found[1]).max() > 0.1
-    idle = np.isin(basins.labels, [n for n, one in basins.attractors.items() if one.regime == "one ball idle"])
-    assert idle.any()
-    assert not idle[:, np.abs(basins.axes["W2"]) > 1e-9].any()
-    assert names["exponent"].mean > 5 * names["exponent"].error
-    assert names["spread"][0] > 0.1
-    assert names["spread"][-1] < 1e-3
-
-
 def test_what_is_said_of_the_diagram(followed):
     table, branches = followed[0]["table"], followed[0]["branches"]
     exact = table[table["family"] == "asymmetric orbit"]

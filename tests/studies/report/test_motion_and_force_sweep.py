@@ -53,6 +53,19 @@ def test_between_frames_the_ball_flies_straight(window):
         np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
 
 
+def test_a_still_of_several_cycles_is_an_envelope_of_both_boxes(window):
+    tables = animation.compute(*window, 2)
+    for module, axes in enumerate(animation.draw(tables).axes, start=1):
+        motion, highest, lowest = axes.lines
+        X = tables["motion"].set_index("t")[f"X{module}"]
+        assert len(motion.get_xdata()) == len(X)
+        for cycle in (0, 1):
+            seen = X.loc[cycle : cycle + 1 - 1e-9]
+            assert highest.get_ydata()[cycle] == pytest.approx(seen.max(), abs=1e-3)
+            assert lowest.get_ydata()[cycle] == pytest.approx(seen.min(), abs=1e-3)
+    assert len(animation.draw(animation.compute(*window, 1)).axes) == animation.INSTANTS
+
+
 def test_more_cycles_than_the_window_has_are_refused(window):
     with pytest.raises(ValueError, match="cycles: 4"):
         animation.compute(*window, 4)
@@ -142,11 +155,12 @@ def test_a_point_that_is_new_starts_a_track_of_its_own():
     assert (names, count) == ([2, 3, 1], 3)
 
 
-def test_the_picture_of_the_travel_names_every_stretch_with_one_letter_that_is_long_enough(swept):
+def test_the_picture_of_the_travel_names_every_curve_once_and_with_its_own_letter(swept):
     figure = force_sweep.draw(swept)
-    stretches = []
-    for _, row in swept["points"].groupby("track"):
-        new = row["label"].ne(row["label"].shift()).cumsum()
-        stretches += [len(stretch) for _, stretch in row.groupby(new) if len(stretch) >= force_sweep.NAMED_FROM]
-    shown = [text.get_text() for text in figure.axes[1].texts if text.get_text() in ("a", "b", "c")]
-    assert len(shown) == len(stretches) > 3
+    points = swept["points"]
+    for axes in figure.axes:
+        shown = [text.get_text() for text in axes.texts]
+        assert sorted(shown) == ["a", "b", "c"]
+    assert points["track"].nunique() == 3
+    (key,) = figure.legends
+    assert {f"fixed point {letter}" for letter in "abc"} <= {text.get_text() for text in key.get_texts()}

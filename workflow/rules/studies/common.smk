@@ -23,3 +23,8 @@ def sweep_request(sweep):
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]
     return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
+
+
+def arithmetic(scene):
+    """The model of a case's simulation that is shown: the reference where the case gives its digits."""
+    return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"

@@ -4,11 +4,6 @@ MOVING = config["report"]
 PICTURES = "png", "pdf", "svg"
 
 
-def arithmetic(scene):
-    """The model of a case's simulation that is shown: the reference where the case gives its digits."""
-    return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"
-
-
 for name, scene in MOVING["animations"].items():
 
     rule:
@@ -86,7 +81,9 @@ rule report:
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability")},
-        code=code("studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])),
+        code=code(
+            "studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])
+        ),
     log:
         "results/logs/report/report.log",
     benchmark:

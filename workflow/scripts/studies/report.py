@@ -49,7 +49,7 @@ def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
         "chapter": chapter,
         "own": [figure for figure in figures if figure not in chapter + companions],
         "companions": companions,
-        "accuracy": ["work_precision", "hazards", "models"],
+        "accuracy": ["work_precision", "stress_tests", "grazing", "models"],
         "animations": list(config["report"]["animations"]),
         "force_sweep": ["force_sweep"],
         "nudge": ["nudge"],

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.exact.measures import modulation
 from vibroimpact.exact.measures.periodicity import samples_per_cycle
-from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled, time_plot
+from vibroimpact.figures.plotting.style import BLACK, LIGHT_GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
 
 PANELS = {"a": "X_2", "b": "W_2"}
@@ -62,23 +62,31 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
 
 @styled
-def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines; cycles on top."""
-    figure = new_figure(SINGLE_COLUMN, 84.0)
+def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
+    """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines.
+
+    Args:
+        shaded: intervals of time in forcing cycles, (n, 2), on a grey ground.
+    """
+    figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
-    span, period = np.ptp(table["tau"]), table["tau"].iloc[-1] / table["cycle"].iloc[-1]
-    style = {"color": BLACK, "linewidth": 0.35 if span > LONG_WINDOW else 1.1}
+    style = {"color": BLACK, "linewidth": 0.35 if np.ptp(table["tau"]) > LONG_WINDOW else 1.1}
     for axes, (panel, series) in zip(grid, PANELS.items(), strict=True):
         line = select(table, panel, series)
-        time_plot(axes, [(line["tau"], line["value"], style)], walls=series == "W_2")
+        time_plot(axes, [(line["cycle"], line["value"], style)], walls=series == "W_2")
+        for start, end in shaded:
+            axes.axvspan(start, end, color=LIGHT_GREY, linewidth=0, zorder=-1)
         reach = 1.1 * line["value"].abs().max()
         axes.set(ylim=(-reach, reach), ylabel=f"${series}$")
         heading(axes, panel, WORDS[series])
-        cycles = axes.secondary_xaxis("top", functions=(lambda tau: tau / period, lambda cycle: cycle * period))
-        cycles.tick_params(labeltop=axes is grid[0])
-        axes.tick_params(top=False)
-    cycles_above = grid[0].child_axes[0]
-    cycles_above.set_xlabel("forcing cycle", labelpad=6)
-    grid[-1].set_xlabel(r"$\tau$")
+    grid[-1].set_xlabel(r"forcing cycle, $\tau\,\Omega/2\pi$")
     figure.align_ylabels()
     return figure
+
+
+def without_resonance(table: pd.DataFrame) -> np.ndarray:
+    """Return the intervals of time [forcing cycles], (n, 2), in which ball 2 takes over a cycle from wall to wall."""
+    motion = select(table, "b", "W_2")
+    time, wall = motion.loc[motion["value"].abs() == 1, ["cycle", "value"]].to_numpy().T
+    reached = time[np.diff(wall, prepend=0) != 0]
+    return np.column_stack([reached[:-1], reached[1:]])[np.diff(reached) > 1]

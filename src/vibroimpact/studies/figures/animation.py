@@ -9,10 +9,11 @@ from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT
 
 SPEC = {
     "title": "The motion of case {case}",
-    "caption": r"Six instants of the motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
-        "{f20_hat}`. :math:`T` is the forcing period; a star marks a wall that is hit before the next instant.",
-    "alt": "Six small pictures of two boxes on springs with a ball in each, at successive instants of the motion of "
-        "case {case}.",
+    "caption": r"The motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: of one "
+        "cycle six instants, where :math:`T` is the forcing period and a star marks a wall that is hit before the next "
+        "instant; of several cycles the displacements of both boxes (grey) and their envelopes (black).",
+    "alt": "Of one cycle of case {case} six small pictures of two boxes on springs with a ball in each, at successive "
+        "instants; of several cycles the displacement of each box within its envelope.",
     "method": "the window of a simulation, frame by frame",
 }  # fmt: skip
 
@@ -58,7 +59,12 @@ def _timed(table, start, period):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """A still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked."""
+    """A still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked.
+
+    Of more than a cycle it is the displacement of each box over time, and its envelope.
+    """
+    if round(tables["motion"]["t"].iloc[-1]) > 1:
+        return _envelopes(tables["motion"])
     first = tables["impacts"]["t"].min() if len(tables["impacts"]) else 0.0
     start = np.floor(first)
     figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS + 4.0)
@@ -68,6 +74,20 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
         axes.set_axis_off()
         axes.text(-EDGE, 0.35, f"t = {t:.2f} T", fontsize=8)
         _instant(axes, tables, t)
+    return figure
+
+
+def _envelopes(motion):
+    """The displacements of both boxes, and their largest and smallest value in each cycle."""
+    figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS)
+    cycle = np.minimum(motion["t"].astype(int), round(motion["t"].iloc[-1]) - 1)
+    for axes, module in zip(figure.subplots(2, 1, sharex=True, sharey=True), PLACES, strict=True):
+        X = motion[f"X{module}"]
+        axes.plot(motion["t"], X, color=GREY, linewidth=0.5)
+        for extreme in (X.groupby(cycle).max(), X.groupby(cycle).min()):
+            axes.plot(extreme.index + 0.5, extreme, color=BLACK, linewidth=1.4)
+        axes.set(xlim=(0.0, motion["t"].iloc[-1]), ylabel=f"$X_{module}$")
+    axes.set_xlabel("forcing cycle")
     return figure
 
 

@@ -9,6 +9,7 @@ from itertools import takewhile
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, new_figure, styled
 from vibroimpact.studies.absorbers.decay import decay_time, quickest_decay
@@ -103,6 +104,8 @@ SPEC = {
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
 """Quantities of the summary, beside those of `_held_against`."""
+LIGHT, STAR = "#D55E00", {"marker": "*", "markersize": 10, "markeredgecolor": "white", "linestyle": "none"}
+"""Colour of the best restitution coefficient, and mark of the lowest peaks."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""
 LEVEL = 1.2
@@ -268,18 +271,18 @@ def draw(tables: dict) -> Figure:
     logarithmic(axes, "y", 3.0, 80.0)
     for name in ("without balls", "best absorbers"):
         axes.axhline(peaks.loc[name, "value"], **LINES[name])
-    for who, sweep, face in ((BALLS, "clearance", BLACK), (BEST_KAPPA, "design", "white")):
+    for who, sweep, colour, marker in ((BALLS, "clearance", BLACK, "o"), (BEST_KAPPA, "design", LIGHT, "s")):
         best = peaks.loc[who]
         rows = swept[(swept["sweep"] == sweep) & (swept["kappa"] == best["kappa"])]
-        axes.plot(
-            rows["clearance"], rows["ratio"], "o-", color=BLACK, markersize=3, linewidth=0.7, markerfacecolor=face
-        )
-        axes.plot(best["clearance"], best["value"], "*", color=BLACK, markersize=9, markerfacecolor=face, zorder=4)
-        below = {"textcoords": "offset points", "va": "top"}
+        axes.plot(rows["clearance"], rows["ratio"], f"{marker}-", color=colour, markersize=3, linewidth=0.7)
+        axes.plot(best["clearance"], best["value"], **STAR | {"color": colour}, zorder=4)
+        below = {"textcoords": "offset points", "va": "top", "color": colour}
         axes.annotate(rf"balls, $\kappa = {best['kappa']:g}$", best[["clearance", "value"]], (0, -7), **below)
     named = {"without balls": "without balls", "best absorbers": "best linear absorbers"}
     for name, words in named.items():
         place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
         axes.annotate(words, (0.03, peaks.loc[name, "value"]), (0, 4), **place)
     axes.set(xlabel="clearance over static deflection, $1/f$", ylabel="peak over static deflection, $|X_i|\\,/\\,f$")
+    star = Line2D([], [], **STAR, color=BLACK, label="lowest, measured again with more starts")
+    figure.legend(handles=[star], loc="outside lower center", fontsize=9)
     return figure

@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import asymmetric_limit
@@ -134,6 +135,8 @@ MARKS = {
     POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
     ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
+BESIDE = 0.2
+"""Reach of the picture of the manifold beyond the branch and marks, in C."""
 SKEWED = 1e-3
 """Flights of a module are unequal where its v^2 is above this."""
 _PHASES, _SPEEDS = (
@@ -253,29 +256,32 @@ def draw(tables: dict) -> Figure:
         axes.sharey(others[0])
         axes.tick_params(labelleft=False)
     heading(left, "a", "both branches of the manifold")
-    _draw_manifold(left, tables["csv"], tables["modules"])
+    names = {left: _draw_manifold(left, tables["csv"], tables["modules"])}
     for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
         heading(axes, letter, f"exact pairs, {case} forces" if case in CASES else f"exact pairs, case {case}")
         _draw_case(axes, pairs[pairs["case"] == case])
     if cases:
         others[0].set_ylabel("inequality of flights, $v^2$")
     figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    name_curves(figure, names)
     return figure
 
 
 def _draw_manifold(axes, pieces, modules):
+    """Draw the manifold where its branches part; return the names of these with their lines."""
+    lines = {}
     for series, style in PIECES.items():
         piece = pieces[pieces["series"] == series]
-        axes.plot(piece["C"], piece["B"], **style)
+        lines[series] = axes.plot(piece["C"], piece["B"], **style)
     for series, style in MARKS.items():
         rows = modules[modules["series"] == series]
         axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
-    end = pieces.iloc[-1]
-    beside = {"textcoords": "offset points", "ha": "right"}
-    axes.annotate("asymmetric", end[["C", "B"]], (-8, -8), **beside, **_COLOUR)
-    lowest = pieces[pieces["series"] == "symmetric, stable"].iloc[-1]
-    axes.annotate("symmetric", lowest[["C", "B"]], (-24, -24), **beside)
-    axes.set(xlim=(0, None), ylim=(0, None), xlabel="$C_i$", ylabel="$B_i$")
+    # The rest of the manifold is in figure 10.4.
+    near = pd.concat([modules["C"], pieces["C"][pieces["series"].str.startswith("asymmetric")]])
+    axes.set(xlim=(near.min() - BESIDE, near.max() + BESIDE), xlabel="$C_i$", ylabel="$B_i$")
+    seen = pd.concat([pieces["B"][pieces["C"].between(*axes.get_xlim())], modules["B"]])
+    axes.set_ylim(seen.min() - 0.05, seen.max() + 0.1)
+    return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, right"])]
 
 
 def _draw_case(axes, pairs):

@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
     GREY,
-    HALO,
     STABLE,
     UNSTABLE,
     heading,
@@ -143,6 +143,8 @@ HUES = {
 }
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
 """Names of lines of exact orbits; those of the theory are named by their stability."""
+CROWD, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
+"""Part of an axis within which three marks are crowded, and where the axes show them larger."""
 COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
 
@@ -234,14 +236,23 @@ def draw(tables: dict) -> Figure:
     panels = list(dict.fromkeys(attractors["panel"]))
     figure = new_figure(DOUBLE_COLUMN, 118.0)
     grid = figure.subplots(2, len(panels), sharex="col", sharey=True, squeeze=False)
+    names = {}
     for column, (panel, along) in enumerate(zip(panels, dict.fromkeys(tables["special_points"]["path"]), strict=True)):
         mine, simulated = (table[table["panel"] == panel] for table in (nodes, attractors))
         theory = mine["series"] == FixedPoints.name
         grid[0, column].set(xlim=simulated["p"].agg(["min", "max"]), ylim=(0.0, 2.6))
+        exact = mine[~theory & mine["admissible"].eq(True)]
         _attractor_dots(grid[1, column], simulated)
         _cases(*grid[:, column], cases[cases["panel"] == panel])
-        _branches(grid[0, column], mine[theory])
-        _branches(grid[1, column], mine[~theory & mine["admissible"].eq(True)])
+        names[grid[0, column]] = _branches(grid[0, column], mine[theory])
+        names[grid[1, column]] = _branches(grid[1, column], exact)
+        if window := _crowded(grid[1, column], exact):
+            inset = grid[1, column].inset_axes(INSET, xticks=[], yticks=[], **window)
+            grid[1, column].indicate_inset(
+                (window["xlim"][0], window["ylim"][0], *np.ptp([*window.values()], axis=1)), edgecolor=BLACK
+            )
+            _attractor_dots(inset, simulated)
+            _branches(inset, exact)
         grid[1, column].set_xlabel(_axis(along))
         for row, words in enumerate(("theory: fixed points", "exact 1:1 responses, and what attracts")):
             heading(grid[row, column], ascii_lowercase[row * len(panels) + column], words)
@@ -250,6 +261,7 @@ def draw(tables: dict) -> Figure:
     drawn = {line.get_label(): line for axes in grid.flat for line in axes.lines if len(line.get_xdata())}
     handles = {name: drawn[name] for name in (*DOTS, *MARKERS) if name in drawn}
     figure.legend(handles.values(), handles, fontsize=9, columnspacing=1.0, loc="outside lower center", ncols=3)
+    name_curves(figure, names)
     return figure
 
 
@@ -263,25 +275,38 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Lines of the pieces with their names, at the longest stable one or else the longest, and the marks on them."""
+    """Draw the lines of the pieces and the marks on them; return the names of the longest ones with their lines."""
     named = {}
     for (family, stable, *_), piece in nodes.groupby(["series", "stable", "branch", "piece"], sort=False):
-        axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
+        line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
         name, length = NAMES.get(family, "stable" if stable else "unstable"), np.ptp(piece["p"].clip(*axes.get_xlim()))
-        named.setdefault(name, []).append((stable, length, piece))
-    for name, pieces in named.items():
-        *_, piece = max(pieces, key=lambda one: one[:2])
-        middle = piece.iloc[(piece["p"] - piece["p"].clip(*axes.get_xlim()).mean()).abs().argmin()]
-        above = name == NAMES[SymmetricOrbits.name]
-        beside = {"textcoords": "offset points", "ha": "center", "va": "bottom" if above else "top"}
-        offset, colour = (0, 3 if above else -4), HUES[middle["series"]]
-        axes.annotate(name, middle[["p", "C2"]], offset, color=colour, **beside, **HALO)
+        named.setdefault(name, []).append((stable, length, line))
+    for name, (marker, rows) in _marks(axes, nodes).items():
+        axes.plot(rows["p"], rows["C2"], marker=marker, label=name, **_SPECIAL)
+    return [(name, max(pieces, key=lambda one: one[:2])[2]) for name, pieces in named.items()]
+
+
+def _marks(axes, nodes):
+    """Return the marker and the special points within an axis, by name of the mark."""
     special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
+    found = {}
     for name, (marker, kinds) in MARKERS.items():
         rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some name the module, too
         rows = rows[rows["stable"].eq(True) | (set(kinds) <= {*ENDS})]
-        rows = rows.drop_duplicates(["series", "branch", "p"])
-        axes.plot(rows["p"], rows["C2"], marker=marker, label=name, **_SPECIAL)
+        found[name] = marker, rows.drop_duplicates(["series", "branch", "p"])
+    return found
+
+
+def _crowded(axes, nodes):
+    """Return the window, xlim and ylim, around most marks that are too close to each other; None without such."""
+    marks = pd.concat([rows[["p", "C2"]] for _, rows in _marks(axes, nodes).values()]).to_numpy(float)
+    size = CROWD * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
+    near = (np.abs(marks[:, None] - marks) < size).all(axis=2)
+    if not len(marks) or near.sum(axis=1).max() < 3:
+        return None
+    inside = marks[near[near.sum(axis=1).argmax()]]
+    low, high = inside.min(axis=0) - size / 2, np.minimum(inside.max(axis=0) + size / 2, [axes.get_xlim()[1], np.inf])
+    return {"xlim": (low[0], high[0]), "ylim": (low[1], high[1])}
 
 
 def _attractor_dots(axes, attractors):

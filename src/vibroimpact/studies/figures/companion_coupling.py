@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.second_term import first_order
 from vibroimpact.exact.orbits.search import symmetric_orbit
@@ -32,16 +33,16 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "From weak to strong coupling",
-    "caption": "a: error of leading order in :math:`C` at every fixed point of the cases equal and unequal, against "
-        "its exact orbit, with the coupling damper in proportion to the spring and held; crosses: no motion beside "
-        "it (upright: in proportion). b: difference of the flight times of ball 1 over the period where both balls "
-        "lean, the same way or opposite ways, while that is stable; marks: how it ends. Modules tuned alike, forces "
-        "1.52 and 1.54. c: mean power of all impacts, over the square of both forces: exact symmetric orbits, the "
-        "stable leaning one, mean and standard deviation over starts; dotted: dampers of linear absorbers of the same "
-        "mass.",
+    "caption": "a: largest error of leading order in :math:`C` over the fixed points of the cases equal and unequal, "
+        "against their exact orbits, with the coupling damper in proportion to the spring and held; crosses: couplings "
+        "at which a fixed point has no exact motion (upper row: damper in proportion). b: difference of the flight "
+        "times of ball 1 over the period where both balls are asymmetric, in phase or in antiphase, while that is "
+        "stable; marks: how it ends. Modules tuned alike, forces 1.52 and 1.54. c: mean power of all impacts, over the "
+        "square of both forces: exact symmetric orbits, the stable asymmetric one, mean and standard deviation over "
+        "starts; dotted: dampers of linear absorbers of the same mass.",
     "alt": "Three panels. First: errors near six per cent but for couplings from 1.4 to 2, and crosses there and near"
-        " 40. Second: opposite ways rises from 0.76 to 4.7 and falls next to 14; the same way is level, up to 5.9 "
-        "and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of leaning.",
+        " 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, up to 5.9 and from 14 "
+        "on. Third: the mean over starts falls from above the dotted level to the diamonds of the asymmetric orbit.",
     "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
     "columns": {
         "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
@@ -102,6 +103,8 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
 """Coupling from which errors and missing motions are told apart from those of weaker coupling."""
+IN_WORDS = {SAME: "in phase", OPPOSITE: "antiphase", SYMMETRIC: "symmetric", LEANING: "asymmetric"}
+"""Words of the picture for the patterns and motions of the table."""
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", STRAIGHT: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
@@ -316,7 +319,7 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     grid = figure.subplots(1, 3)
-    heads = "error of leading order", "where both balls lean", "power at the impacts"
+    heads = "error of leading order", "both balls asymmetric", "power at the impacts"
     for axes, letter, words in zip(grid, "abc", heads, strict=True):
         heading(axes, letter, words)
     _draw_errors(grid[0], table)
@@ -326,21 +329,21 @@ def draw(tables: dict) -> Figure:
 
 
 def _draw_errors(axes, table):
-    looks = {PROPORTION: ("o", BLACK, 3.2), HELD: ("s", "white", 3.8)}
-    look = {"color": BLACK, "markeredgewidth": 0.7, "linestyle": "none"}
-    for name, (marker, face, size) in looks.items():
+    looks = {PROPORTION: ("o", BLACK, 3.2, "-", 15.2), HELD: ("s", "white", 3.8, (0, (3, 1.5)), 14.4)}
+    look = {"color": BLACK, "markeredgewidth": 0.7}
+    for name, (marker, face, size, style, row) in looks.items():
         rows = select(table, "error", name)
-        axes.plot(
-            rows["coupling"], 100 * rows["error"], marker, markerfacecolor=face, markersize=size, label=name, **look
-        )
-        missing = rows[rows["error"].isna()]["coupling"]
-        cross, label = ("+", None) if name == PROPORTION else ("x", "no exact motion")
-        above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
-        axes.plot(missing, np.ones(len(missing)), cross, markersize=5, label=label, **look, **above)
-    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="error of $C$ in %", ylim=(0, 16))
+        largest = 100 * rows.groupby("coupling")["error"].max()
+        line = {"markerfacecolor": face, "markersize": size, "label": name, "linestyle": style, "linewidth": 0.8}
+        axes.plot(largest.index, largest, marker=marker, **look, **line)
+        missing = rows[rows["error"].isna()]["coupling"].unique()
+        axes.plot(missing, np.full(len(missing), row), marker="x", markersize=5, linestyle="none", **look)
+    handles, named = axes.get_legend_handles_labels()
+    cross = Line2D([], [], marker="x", markersize=5, linestyle="none", **look)
+    axes.legend([*handles, cross], [*named, "a point has no exact motion"], loc="lower left", fontsize=8)
+    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="largest error of $C$ in %", ylim=(0, 16))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)
-    axes.legend(loc="lower left", fontsize=8)
 
 
 def _draw_leans(axes, table):
@@ -350,7 +353,8 @@ def _draw_leans(axes, table):
     for end, marker in ENDS.items():
         rows = table[table["ends"] == end]
         if len(rows):
-            axes.plot(rows["coupling"], rows["v"], marker=marker, label=end, zorder=3, **_END)
+            words = "asymmetry vanishes" if end == STRAIGHT else end
+            axes.plot(rows["coupling"], rows["v"], marker=marker, label=words, zorder=3, **_END)
     beside = {"textcoords": "offset points", "fontsize": 8.5}
     for name, near, look in (
         (SAME, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
@@ -359,9 +363,9 @@ def _draw_leans(axes, table):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
             place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
-            axes.annotate(name, place[["coupling", "v"]], **beside, **look)
+            axes.annotate(IN_WORDS[name], place[["coupling", "v"]], **beside, **look)
     axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
-    axes.set(ylabel="inequality of flights, $|v_1|$", ylim=(0, 0.6))
+    axes.set(ylabel="flight asymmetry, $|v_1|$", ylim=(0, 0.6))
     if table["ends"].notna().any():
         axes.legend(loc="upper left", fontsize=8, handlelength=0.8)
 
@@ -373,7 +377,7 @@ def _draw_power(axes, table):
     }
     for name, look in marks.items():
         rows = select(table, "power", name)
-        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=name, **look)
+        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=IN_WORDS[name], **look)
     rows = select(table, "power", ALL)
     axes.errorbar(
         rows["force"], 100 * rows["power"], 100 * rows["spread"], color=GREY, capsize=2, linewidth=1.2, label=ALL

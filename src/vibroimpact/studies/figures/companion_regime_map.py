@@ -70,6 +70,8 @@ HALVINGS = 4
 TOGETHER = "coexisting"
 NAMED_FROM = 20
 """A patch of so many cells or more bears the name of its regime; the key has the regimes without one."""
+FLAT = 0.5
+"""Width of a cell over its height as a name, which is flat, sees it."""
 _BORDER = {"color": BLACK, "linewidth": 1.4}
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
@@ -174,30 +176,36 @@ def draw(tables: dict) -> Figure:
     paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
     for case, *place in cases.itertuples(index=False):
         axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", bbox=paper)
-    unnamed = [name for name in occurring if not _name(axes, regimes, name)]
     f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
+    lined = cells.pivot(index="f20_hat", columns="f10_hat", values=TOGETHER).to_numpy() > 1
+    for x, y in pieces.reshape(-1, 2):
+        lined[np.abs(f20 - y).argmin(), np.abs(f10 - x).argmin()] = True
+    unnamed = [name for name in occurring if not _name(axes, regimes, name, lined)]
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
     heading(axes, words="where most starts end")
-    handles = {"others coexist": Line2D([], [], **_STROKES), "theory's border": Line2D([], [], **_BORDER)}
+    handles = {"others coexist": Line2D([], [], **_STROKES), "inside: stable by theory": Line2D([], [], **_BORDER)}
     handles |= {fill(name, 26): handle for name, handle in key(unnamed).items()}
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
     return figure
 
 
-def _name(axes, regimes, name):
-    """Write the name of a regime on its largest patch, where this is widest; return True if it is large enough."""
+def _name(axes, regimes, name, lined):
+    """Write the name of a regime on its largest patch, where this is widest; return True if it is large enough.
+
+    lined: the cells with strokes or the theory's border, which names avoid.
+    """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
     if not len(sizes) or sizes.max() < NAMED_FROM:
         return False
-    depth = ndimage.distance_transform_edt(np.pad(patches == sizes.argmax() + 1, 1))
+    free = (patches == sizes.argmax() + 1) & ~lined
+    depth = ndimage.distance_transform_edt(np.pad(free, 1), sampling=(1.0, FLAT))
     i, j = np.unravel_index(depth.argmax(), depth.shape)
     dark = np.dot(to_rgb(COLOURS[name]), (0.3, 0.59, 0.11)) < 0.5
     place = regimes.columns[j - 1], regimes.index[i - 1]
-    behind = {"facecolor": COLOURS[name], "edgecolor": "none", "pad": 1.0}  # of the lines that cross it
-    axes.text(*place, name, ha="center", va="center", color="white" if dark else BLACK, bbox=behind)
+    axes.text(*place, name, ha="center", va="center", color="white" if dark else BLACK)
     return True
 
 

@@ -9,6 +9,7 @@ from vibroimpact.accuracy.verdict_table import NO_ORBIT
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.manifold import branches
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
@@ -22,8 +23,8 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, label
 SPEC = {
     "title": "Fixed points over the second force",
     "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`, with the letters that the "
-        "chapter would give them. Broad: exact asymmetric orbits, which belong to no fixed point, darker where they "
-        "are stable.",
+        "chapter would give them where most of them exist; stable: on both time scales. Broad: exact asymmetric "
+        "orbits, which belong to no fixed point, darker where they are stable.",
     "alt": "Two panels with C1 and C2 of every fixed point over f20, one line per point, filled markers where both "
         "time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad dots "
         "for the asymmetric orbits.",
@@ -44,13 +45,11 @@ SPEC = {
 LINES = [(BLACK, "-"), (BLACK, (0, (4.5, 1.5))), (GREY, "-"), (GREY, (0, (4.5, 1.5)))]
 """Colour and line of each track."""
 MARKS = {
-    "theory: stable on both time scales": {"markerfacecolor": BLACK, "markersize": 3.6},
-    "theory: not": {"markerfacecolor": "white", "markersize": 3.6},
+    "theory: stable": {"markerfacecolor": BLACK, "markersize": 3.6},
+    "theory: unstable": {"markerfacecolor": "white", "markersize": 3.6},
     "exact orbit: stable": {"markerfacecolor": "none", "markersize": 7.0},
 }
 PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
-NAMED_FROM = 5
-"""Letters stand in the middle of so many values, or more, at which they stay the same."""
 EVERY = 6
 """Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
 PAIR = 0
@@ -111,34 +110,43 @@ def _continued(names, last, now, tracks):
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw C_1 and C_2 of each track over the second force, and the exact asymmetric orbits."""
-    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    figure = new_figure(DOUBLE_COLUMN, 84.0)
     points, orbits = tables["points"], tables["orbits"]
     pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
+    letters, names = _letters(points), {}
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
         stable = pair[EXACT] == STABLE
         for (name, colour), shown in zip(PAIRS.items(), (stable, ~stable), strict=True):
             dots = {"linestyle": "none", "marker": "o", "markersize": 3.5, "color": colour, "label": name}
             axes.plot(pair["value"][shown], pair[f"C{module}"][shown], **dots)
-        for track, rows in points.groupby("track"):
-            _draw_track(axes, rows, f"C{module}", *LINES[(track - 1) % len(LINES)])
+        tracks = points.groupby("track")
+        names[axes] = [(letters[track], _draw_track(axes, rows, module, letters[track])) for track, rows in tracks]
         axes.set(xlabel=r"$\hat f_{20}$", ylabel=f"$C_{module}$")
         if len(points):
             axes.set_xlim(points["value"].min(), points["value"].max())
         heading(axes, letter, f"module {module}")
     handles = dict(zip(*reversed(figure.axes[0].get_legend_handles_labels()), strict=True))
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=3, fontsize=9)
+    name_curves(figure, names, color=BLACK)
     return figure
 
 
-def _draw_track(axes, rows, C, colour, line):
-    axes.plot(rows["value"], rows[C], color=colour, linestyle=line)
-    for _, same in rows.groupby((rows["label"] != rows["label"].shift()).cumsum()):
-        if len(same) >= NAMED_FROM:
-            middle = same.iloc[len(same) // 2]
-            axes.annotate(middle["label"], middle[["value", C]], (0, 5), textcoords="offset points", ha="center")
+def _letters(points):
+    """Return the letter of each track: that of its point at the value where most points are, or else its first one."""
+    counts = points["value"].value_counts().sort_index()
+    most = counts.index[counts == counts.max()]
+    here = points.assign(apart=(points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0)
+    return here.sort_values("apart", kind="stable").groupby("track")["label"].first()
+
+
+def _draw_track(axes, rows, module, letter):
+    """Draw the line of a track and its markers; return the line."""
+    C, (colour, style) = f"C{module}", LINES[(rows["track"].iloc[0] - 1) % len(LINES)]
+    line = axes.plot(rows["value"], rows[C], color=colour, linestyle=style, label=f"fixed point {letter}")
     marked = rows.iloc[::EVERY]
     theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
-    for (name, style), shown in zip(MARKS.items(), (theory, ~theory, exact), strict=True):
+    for (name, look), shown in zip(MARKS.items(), (theory, ~theory, exact), strict=True):
         if shown.any():
             dots = {"linestyle": "none", "marker": "o", "color": BLACK, "label": name}
-            axes.plot(marked["value"][shown], marked[C][shown], **dots, **style)
+            axes.plot(marked["value"][shown], marked[C][shown], **dots, **look)
+    return line

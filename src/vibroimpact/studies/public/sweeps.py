@@ -42,8 +42,11 @@ def sweep(
     Args:
         system: gives the other parameters.
         axes: the values of one or two parameters, by name.
-        observe: any of "amplitudes", "envelopes", "energy", "peaks", "regimes" (these simulate, from every start),
-            "fixed_points" and "orbits"; docs/howto.md has their columns.
+        observe: any of "amplitudes" (largest |X_i|, root mean square, mean ball speeds), "envelopes" (amplitude per
+            cycle, 5 % and 95 %), "energy" (share of the work that impacts take), "peaks" (what one cycle in a hundred
+            exceeds along a band), "regimes" (share of the starts that end in each; where rest ends), all of which
+            simulate from every start; "fixed_points" (their number, and that of those called stable by the theory) and
+            "orbits" (number of exact 1:1 orbits, and of stable ones).
         starts, seed: number of starts, spread evenly, the first at rest; what scrambles them. From rest a ball may stay
             idle that moves from any other start.
         cycles, settle: forcing periods of each run, and those of them that are left out; not of "regimes", which have

@@ -34,7 +34,7 @@ THEME_SCRIPT = '\n      document.body.dataset.theme = localStorage.getItem("them
 """The one script that the theme has within its pages."""
 DOCUMENTS = "docs", "docs/studies"
 """Folders of documents, which are beside each other on the site."""
-ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.)/(?=\w+\.md)")
+ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.|(?:\.\./)+report/pages)/(?=\w+\.md)")
 """Where a link to a document of the other folder begins."""
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)

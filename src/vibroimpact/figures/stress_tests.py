@@ -1,52 +1,69 @@
-"""The stress tests as a picture: methods across, groups of tests down, how many a method gets right in each cell."""
+"""The stress tests as a picture: methods across, groups of tests down, the share that a method gets right in a cell."""
 
-import numpy as np
 import pandas as pd
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
+from vibroimpact.accuracy.stress_tests import judge, stress_tests
 from vibroimpact.figures.plotting.style import DOUBLE_COLUMN, new_figure, styled
+from vibroimpact.integrators import METHODS
 
 SPEC = {
     "title": "Every method in every stress test",
     "caption": "Where methods fail. In each cell: how many of the group's stress tests the method gets right, of how "
-        "many; the mark and the colour are those of its worst verdict.",
+        "many; the mark and the colour are those of its worst verdict, the colour is the deeper the more tests fail.",
     "alt": "Table of marks: methods across, groups of stress tests down. A check mark means all right; else the worst "
         "verdict: a question mark reported undecidable, an exclamation mark refused, an infinity sign did not finish, "
         "a cross silently wrong.",
     "method": "error against a reference of extended precision",
-    "file": "results/accuracy/hazards.csv",
+    "file": "results/accuracy/stress_tests.csv",
     "columns": {
         "group": {"meaning": "what is hard", "unit": "text"},
-        "test": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting, steps": {},
+        "test": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting": {},
+        "steps": {"compared": "of the machine"},
         "verdict": {"meaning": "right: the error of the final state is at most 0.01, and no impact is missed or "
             "spurious; silently wrong: neither right nor reported undecidable", "unit": "text", "values": ["right",
             "reported undecidable", "refused with an error", "did not finish", "silently wrong", "unavailable"]},
-        "error_state, error_time, missed, spurious": {},
-        "reason": {"meaning": "what the method says of its failure or of its doubt", "unit": "text"},
-        "hazard": {"meaning": "former name of `test`, until the next release", "unit": "text"},
-        "says": {"meaning": "former name of `reason`, until the next release", "unit": "text"},
+        "error_state, error_time": {"compared": "measured error", "infinite": True},
+        "missed, spurious": {"compared": "impacts"},
+        "reason": {"meaning": "what the method says of its failure or of its doubt", "unit": "text",
+            "compared": "of the machine"},
     },
 }  # fmt: skip
 
 VERDICTS = {  # the worse, the further down
-    "unavailable": ("–", "#EEEEEE"),
+    "unavailable": ("–", "#DDDDDD"),
     "right": ("✓", "#D9EFE3"),
-    "reported undecidable": ("?", "#CFE3F5"),
-    "refused with an error": ("!", "#F6ECC4"),
-    "did not finish": ("∞", "#E6E0EE"),
-    "silently wrong": ("×", "#E8A090"),
+    "reported undecidable": ("?", "#74AEDF"),
+    "refused with an error": ("!", "#DDBB3D"),
+    "did not finish": ("∞", "#A68FC4"),
+    "silently wrong": ("×", "#DB5A45"),
 }
-"""Mark and colour of each verdict: the mark says the same as the colour."""
+"""Mark and colour of each verdict, which say the same; the colour is that of a cell where all tests fail."""
+PALEST = 0.3
+"""Part of the colour in a cell where next to no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0
 """Heights in mm."""
 LEFT, RIGHT = 27.0, 11.0
 """Widths in mm beside the marks: names of the groups, and what the last name of a method hangs over."""
 
 
+def compute(full: bool) -> pd.DataFrame:
+    """Return the rows of `accuracy.stress_tests.judge` for all tests or, unless full, those of the reduced set."""
+    chosen = [test for test in stress_tests() if full or test.quick]
+    return pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
+
+
+def shade(verdict: str, failed: float) -> tuple[float, float, float]:
+    """Return the colour of a cell: that of its worst verdict, the paler the smaller the share of tests that fail."""
+    part = 1.0 if verdict == "right" else PALEST + (1.0 - PALEST) * failed
+    return tuple(1.0 - part * (1.0 - value) for value in to_rgb(VERDICTS[verdict][1]))
+
+
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the rows of accuracy.stress_tests: columns group, method, verdict."""
+    """Draw the table of `compute`: columns group, method, verdict."""
     groups, methods = table["group"].unique().tolist(), table["method"].unique().tolist()
     height = HEAD + FOOT + ROW * len(groups)
     figure = new_figure(DOUBLE_COLUMN, height, layout=None)
@@ -56,12 +73,11 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.set_axis_off()
     for (group, method), rows in table.groupby(["group", "method"], sort=False):
         worst = max(rows["verdict"], key=list(VERDICTS).index)
-        mark, colour = VERDICTS[worst]
-        x, y = methods.index(method), groups.index(group)
+        x, y, right = methods.index(method), groups.index(group), (rows["verdict"] == "right").sum()
+        colour = shade(worst, 1.0 - right / len(rows))
         axes.add_patch(Rectangle((x, y), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.0))
-        axes.text(x + 0.08, y + 0.5, mark, fontsize=7.5, va="center", family="DejaVu Sans")
-        right = f"{(rows['verdict'] == 'right').sum()}/{len(rows)}"
-        axes.text(x + 0.93, y + 0.52, right, fontsize=8.5, va="center", ha="right")
+        axes.text(x + 0.08, y + 0.5, VERDICTS[worst][0], fontsize=7.5, va="center", family="DejaVu Sans")
+        axes.text(x + 0.93, y + 0.52, f"{right}/{len(rows)}", fontsize=8.5, va="center", ha="right")
     for x, method in enumerate(methods):
         axes.text(x + 0.4, -0.15, method, rotation=35, rotation_mode="anchor", ha="left", va="bottom", fontsize=8.5)
     for y, group in enumerate(groups):
@@ -72,14 +88,3 @@ def draw(table: pd.DataFrame) -> Figure:
     for text in legend.get_texts():
         text.set_family(["STIXGeneral", "DejaVu Sans"])
     return figure
-
-
-def cell(row) -> str:
-    """The mark of a verdict, and behind it the error of the final state, impacts missed (-) and spurious (+)."""
-    mark = VERDICTS[row.verdict][0]
-    if not np.isfinite(row.error_state):
-        return mark
-    impacts = "".join(f"{sign}{count:.0f}" for sign, count in (("−", row.missed), ("+", row.spurious)) if count)
-    mantissa, exponent = f"{row.error_state:.0e}".split("e")
-    number = f"{mantissa}e{int(exponent)}".replace("-", "−")
-    return "\N{NO-BREAK SPACE}".join(filter(None, [mark, number, impacts]))

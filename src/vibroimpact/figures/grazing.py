@@ -1,0 +1,65 @@
+"""Where methods fail: the error of each method over the depth of a grazing impact."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from vibroimpact.accuracy.stress_tests import CHAPTER, grazing, judge
+from vibroimpact.figures.plotting.methods import HOLLOW, LOOKS, draw_method
+from vibroimpact.figures.plotting.names import name_curves
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, new_figure, styled
+from vibroimpact.integrators import METHODS
+from vibroimpact.system import System
+
+SPEC = {
+    "title": "The error of each method over the depth of a grazing impact",
+    "caption": "Where methods fail. A ball meets its wall so softly that without the wall it would go beyond it by the "
+        "depth shown, in units of half the gap. A method that does not notice the impact (hollow marks) has an error "
+        "that falls with the root of the depth.",
+    "alt": "Error of the final state over the depth of an impact from 0.01 to 1e-14, both logarithmic, a named line "
+        "per method. Some methods leave the lower part, one after the other, for a common line with hollow marks, "
+        "that of a missed impact.",
+    "method": "error against a reference of extended precision",
+    "file": "results/accuracy/grazing.csv",
+    "columns": {
+        "method": {},
+        "digits": {"meaning": "the ball would go beyond its wall by 10 to the power of minus this", "unit": "number",
+            "compared": "algebra"},
+        "verdict": {"meaning": "as in `stress_tests.csv`", "unit": "text"},
+        "error_state": {"compared": "measured error", "infinite": True},
+        "missed, spurious": {"compared": "impacts"},
+    },
+}  # fmt: skip
+
+DIGITS = range(2, 15)
+"""The depths are 10 to the power of minus these."""
+
+
+def compute() -> pd.DataFrame:
+    """Return a row per method and depth, for the methods that are drawn: the numbers of `stress_tests.judge`."""
+    system, methods = System(**CHAPTER), [method for method in METHODS if method.name in LOOKS]
+    rows = [{"digits": digits} | row for digits in DIGITS for row in judge(grazing(system, -1, digits), methods)]
+    table = pd.DataFrame(rows)[[name for names in SPEC["columns"] for name in names.split(", ")]]
+    return table.sort_values("method", kind="stable", key=lambda names: names.map(list(LOOKS).index), ignore_index=True)
+
+
+@styled
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the table of `compute`: hollow markers miss the impact or add others."""
+    figure = new_figure(SINGLE_COLUMN, 90.0)
+    axes = figure.add_subplot()
+    axes.set(xscale="log", yscale="log", xlabel="depth of the impact", ylabel="error of the final state")
+    shown = table[np.isfinite(table["error_state"])].assign(depth=10.0 ** -table["digits"])
+    lines = [
+        (method, draw_method(axes, method, rows["depth"], rows["error_state"], rows["missed"] + rows["spurious"] > 0))
+        for method, rows in shown.groupby("method", sort=False)
+    ]
+    axes.set_xticks(10.0 ** -np.arange(2, 15, 3))
+    axes.minorticks_off()
+    axes.margins(0.06)
+    axes.invert_xaxis()
+    hollow = Line2D([], [], linestyle="none", color=BLACK, marker="o", markerfacecolor="white", label=HOLLOW)
+    figure.legend(handles=[hollow], loc="outside lower center", fontsize=9)
+    name_curves(figure, {axes: lines}, fontsize=8)
+    return figure

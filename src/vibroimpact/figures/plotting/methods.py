@@ -1,0 +1,30 @@
+"""The methods that the accuracy charts draw: eight of those in their tables, one of each kind at least."""
+
+from vibroimpact.figures.plotting.style import BLACK
+
+LOOKS = {
+    "this engine": (BLACK, "*", 6.5),
+    "modal scan": ("0.45", "h", 4.5),
+    "heyoka": ("#0072B2", "s", 3.6),
+    "RK4, compiled": ("#D55E00", "D", 3.2),
+    "DOP853": ("#A87900", "o", 3.6),
+    "Moreau-Jean": ("#00805C", "^", 3.8),
+    "penalty": ("#882255", "v", 3.8),
+    "Ivanov, events": ("#B0568A", "P", 4.2),
+}
+"""Colour, mark and its size of each method that is drawn; all colours are dark enough for text on white."""
+HOLLOW = "hollow: missed or spurious impacts"
+
+
+def mark(method: str) -> dict:
+    """Return the style of a method's markers."""
+    color, marker, size = LOOKS[method]
+    return {"color": color, "marker": marker, "markersize": size, "markeredgewidth": 0.7, "linestyle": "none"}
+
+
+def draw_method(axes, method: str, x, y, wrong) -> list:
+    """Draw the curve of a method, its markers hollow where `wrong` (n,); return its lines."""
+    return [
+        *axes.plot(x, y, **mark(method) | {"linestyle": "-", "linewidth": 0.8}),
+        *axes.plot(x[wrong], y[wrong], **mark(method), markerfacecolor="white"),
+    ]

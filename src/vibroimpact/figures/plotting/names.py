@@ -1,0 +1,113 @@
+"""Names of curves, placed where they cover no line, marker or other name."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from vibroimpact.figures.plotting.style import GREY, HALO
+
+STEP, GAP = 4.0, 1.6
+"""Distance of neighbouring places that are tried, and least distance of a name from a line or marker, in points."""
+LEADER = 5.0
+"""Distance in points from which a name needs a leader to its curve."""
+FAR = 50.0
+"""Distance in points beyond which a place must only be free."""
+APART = 3.0
+"""By how many points a name without leader is nearer to its own curve than to another that has a name."""
+
+UNCLEAR, COVERS = 1, 2
+"""What is wrong with a place, taken where there is no better one: its curve is not obvious; it covers something."""
+
+
+def name_curves(figure, panels: dict, **style) -> None:
+    """Write the name of each curve next to it, in its colour, over no line, marker, text or inset of its axes.
+
+    Call this last: it fixes the limits and the layout of the figure. A halo hides what is no line, as a shade.
+
+    Args:
+        panels: by axes the names with the Line2D that show each curve, as pairs. style: of the texts.
+    """
+    figure.draw_without_rendering()
+    for axes, curves in panels.items():
+        _Names(axes, figure.dpi / 72.0).write(curves, style)
+
+
+class _Names:
+    """The names of one set of axes; lengths are pixels."""
+
+    def __init__(self, axes, point):
+        self.axes, self.point = axes, point
+        self.to_data = axes.transData.inverted().transform
+        self.avoided = {line: _outline(line, point) for line in axes.lines}
+        self.boxes = [text.get_window_extent() for text in axes.texts]
+        self.boxes += [inset.get_tightbbox() for inset in axes.child_axes]
+
+    def write(self, curves, style):
+        curves = [(name, lines) for name, lines in curves if any(len(self.avoided[line]) for line in lines)]
+        outlines = [np.concatenate([self.avoided[line] for line in lines]) for _, lines in curves]
+        for n, (name, lines) in enumerate(curves):
+            own, others = outlines[n], outlines[:n] + outlines[n + 1 :]
+            look = {"color": lines[0].get_color(), "ha": "center", "va": "center"}
+            text = self.axes.text(0, 0, name, **HALO | look | style)
+            size = text.get_window_extent()
+            place, start, end = self._place(
+                np.array([size.width, size.height]) / 2, own, np.concatenate([own[:0], *others])
+            )
+            text.set_position(self.to_data(place))
+            self.boxes.append(text.get_window_extent())
+            if np.hypot(*(end - start)) > LEADER * self.point:
+                ends = self.to_data([start, end]).T
+                (leader,) = self.axes.plot(*ends, color=GREY, linewidth=0.5, scalex=False, scaley=False)
+                self.avoided[leader] = _outline(leader, self.point)
+
+    def _place(self, half, own, others):
+        """Return the nearest free place for a box of half a size, and both ends of its leader."""
+        frame, margin = self.axes.get_window_extent(), half + GAP * self.point
+        x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
+        y = np.arange(frame.y0 + margin[1], frame.y1 - margin[1], STEP * self.point)
+        places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        gaps = _gaps(places[:, None], half, own).min(axis=1)
+        avoided, found = np.concatenate(list(self.avoided.values())), {}
+        for n in np.argsort(gaps.round(3), kind="stable"):
+            if gaps[n] > FAR * self.point and UNCLEAR in found:
+                break
+            place = places[n]
+            end = own[_gaps(place, half, own).argmin(), :2]
+            start = np.clip(end, place - half, place + half)
+            led = np.hypot(*(end - start)) > LEADER * self.point
+            leader = start + np.linspace(0.05, 1.0, 25)[:, None] * (end - start)
+            covers = _gaps(place, half, avoided).min() < GAP * self.point or any(
+                _meet(place, half + self.point, box) or (led and any(box.contains(*one) for one in leader))
+                for box in self.boxes
+            )
+            if led:
+                unclear = _gaps(leader[:, None], self.point, others).min(initial=np.inf) < 0
+            else:
+                unclear = _gaps(place, half, others).min(initial=np.inf) < gaps[n] + APART * self.point
+            if not covers and not unclear:
+                return place, start, end
+            found.setdefault(COVERS if covers else UNCLEAR, (place, start, end))
+        return found[min(found)]
+
+
+def _outline(line, point):
+    """Points along a line and the radius of its marker, or of what lies between, (n, 3) pixels."""
+    corners = line.get_transform().transform(line.get_xydata())
+    corners = corners[np.isfinite(corners).all(axis=1)]
+    marked = line.get_marker() not in ("", "None", None)
+    parts = [np.column_stack([corners, np.full(len(corners), marked * line.get_markersize() / 2 * point)])]
+    for start, end in pairwise(corners) if line.get_linestyle() != "None" else ():
+        steps = 1 + int(np.hypot(*(end - start)) / (GAP * point))
+        between = start + np.linspace(0.0, 1.0, steps)[:, None] * (end - start)
+        parts.append(np.column_stack([between, np.full(steps, line.get_linewidth() / 2 * point)]))
+    return np.concatenate(parts)
+
+
+def _gaps(place, half, points):
+    """Distances of a box from discs (n, 3)."""
+    apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
+    return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]
+
+
+def _meet(place, half, box):
+    return (np.abs(place - np.mean(box.get_points(), axis=0)) < half + np.array(box.size) / 2).all()
