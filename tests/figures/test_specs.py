@@ -13,7 +13,7 @@ from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.specs import spec_of
 
 DRAWN = drawn("figures")
-OWN = {"notebook": "theoretical_response", "case": "weak", "fixed_point": "a", "periods": 1}
+OWN = {"like": "fig10_07", "case": "weak", "fixed_point": "a", "periods": 1}
 
 
 @pytest.fixture(scope="module")

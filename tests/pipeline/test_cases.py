@@ -14,7 +14,7 @@ CONFIG = checked(
     edited(
         "cases.soft = {f10_hat: 1, f20_hat: 0.9, kappa: 0.5, epsilon: 0.05, "
         "simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], transient_cycles: 9, window_cycles: 6, "
-        "samples_per_cycle: 8}} & figures.soft_motion = {notebook: simulation, model: float64, case: soft}"
+        "samples_per_cycle: 8}} & figures.soft_motion = {like: fig10_08, model: float64, case: soft}"
     )
 )
 SOFT = PARAMETERS | {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5, "epsilon": 0.05}

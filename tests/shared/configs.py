@@ -39,14 +39,14 @@ UNUSUAL = [
     f"cases.all = {{f10_hat: 1, f20_hat: -1, simulation: {{{SMALL}}}}}",
     "cases.weak.simulation.digits = ... & figures.fig10_10.C_max = ...",
     "figures.fig10_10 = ... & figures.fig10_11 = ...",
-    "figures = {mine: {notebook: simulation, model: float64, case: equal}}",
+    "figures = {mine: {like: fig10_08, model: float64, case: equal}}",
     "cases.weak = ... & default_case = unequal",
     "cases = {my-own: {f10_hat: 0.7, f20_hat: 0.4, simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], "
     "transient_cycles: 9, window_cycles: 1, samples_per_cycle: 8}}} "
-    "& figures.mine = {notebook: simulation, model: float64}",
+    "& figures.mine = {like: fig10_08, model: float64}",
     "cases.weak.epsilon = 0.05 & cases.weak.kappa = '0.5'",
-    "figures.case = {notebook: simulation, model: float64, case: weak}",
-    "figures.conditions = {notebook: simulation, model: float64}",
+    "figures.case = {like: fig10_08, model: float64, case: weak}",
+    "figures.conditions = {like: fig10_08, model: float64}",
 ]
 """Configs as `edited` makes them: refused with the keys that are told, and accepted."""
 

@@ -9,15 +9,15 @@ from pipeline_trees import Tree
 SIMULATION = {"initial_state": [0.0] * 8, "transient_cycles": 300, "window_cycles": 6, "samples_per_cycle": 64}
 OWN_FIGURES = {
     "strong_response": {
-        "notebook": "theoretical_response",
+        "like": "fig10_07",
         "model": "slow_flow",
         "case": "strong",
         "fixed_point": "b",
         "periods": 3,
     },
-    "strong_motion": {"notebook": "simulation", "model": "float64", "case": "strong"},
-    "still_planes": {"notebook": "fixed_points", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
-    "still_motion": {"notebook": "simulation", "model": "float64", "case": "still"},
+    "strong_motion": {"like": "fig10_08", "model": "float64", "case": "strong"},
+    "still_planes": {"like": "fig10_06", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
+    "still_motion": {"like": "fig10_08", "model": "float64", "case": "still"},
 }
 """Each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
 

@@ -201,10 +201,10 @@ NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "n
 
 # What the notebook of a page reads beside the files of its figure.
 READ = {
-    "fixed_points": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
-    "theoretical_response": {"points": "results/fixed_points.csv", "orbits": "results/orbits.csv"},
+    "fixed_points": {"points": "results/fixed_points/{case}.csv", "orbits": "results/orbits/{case}.csv"},
+    "theoretical_response": {"points": "results/fixed_points/{case}.csv", "orbits": "results/orbits/{case}.csv"},
     "simulation": {
-        "points": "results/fixed_points.csv",
+        "points": "results/fixed_points/{case}.csv",
         "samples": "results/simulations/{case}/{model}/samples.csv",
         "events": "results/simulations/{case}/{model}/events.csv",
         "summary": "results/simulations/{case}/{model}/summary.json",
@@ -212,17 +212,25 @@ READ = {
 }
 
 
-def page_inputs(wildcards):
+def by_notebook(figures):
+    """The notebooks of some figures, each with the figures whose pages it makes."""
+    found = {}
+    for figure in figures:
+        found.setdefault(spec(figure)["notebook"], []).append(figure)
+    return found
+
+
+def page_inputs(figure):
     """Files that the notebook of a page reads, by name: tables and picture of its figure, and results beside them."""
-    figure = wildcards.figure
-    if figure not in SCENES:
-        absent(figure)(wildcards)
     tables = {name: table["file"] for name, table in spec(figure)["tables"].items()}
     return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
 
 
-def notebook_of(figure):
-    return NOTEBOOKS[spec(figure)["notebook"]]
+def page_params(figure):
+    """What the script of pages takes for a figure: its entry in the config, and the parameters of its notebook."""
+    params = getattr(rules, figure).params
+    given = {name: params.get(name) for name in ("case", "system", "config")}
+    return given | {"scene": titled(figure), "inputs": page_inputs(figure)}
 
 
 def titled(figure):

@@ -4,7 +4,7 @@
 # Settings of each figure by its name; those of the studies join.
 SCENES = dict(config["figures"])
 
-POINTS = {"points": "results/fixed_points.csv"}
+POINTS = {"points": "results/fixed_points/{case}.csv"}
 MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
@@ -63,7 +63,7 @@ use rule fig10_01 as fig10_05 with:
 
 use rule fig10_01 as fig10_06 with:
     input:
-        **POINTS,
+        **of_case("fig10_06", POINTS),
     output:
         **files("fig10_06"),
     params:
@@ -74,7 +74,7 @@ use rule fig10_01 as fig10_06 with:
 
 use rule fig10_01 as fig10_07 with:
     input:
-        **POINTS,
+        **of_case("fig10_07", POINTS),
     output:
         **files("fig10_07"),
     params:
@@ -96,7 +96,7 @@ use rule fig10_01 as fig10_08 with:
 
 use rule fig10_01 as fig10_09 with:
     input:
-        **POINTS,
+        **of_case("fig10_09", POINTS),
     output:
         **files("fig10_09"),
     params:
@@ -107,7 +107,7 @@ use rule fig10_01 as fig10_09 with:
 
 use rule fig10_01 as fig10_10 with:
     input:
-        **POINTS,
+        **of_case("fig10_10", POINTS),
     output:
         **files("fig10_10"),
     params:
@@ -148,32 +148,34 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
             "../scripts/figure.py"
 
 
-# The page of a figure: its notebook, which reads the finished tables and picture and what these are computed from.
-rule page:
-    input:
-        lambda wildcards: page_inputs(wildcards).values(),
-        notebook=lambda wildcards: own(notebook_of(wildcards.figure)),
-    output:
-        html="results/notebooks/{figure}.html",
-    params:
-        inputs=page_inputs,
-        scene=lambda wildcards: titled(wildcards.figure),
-        case=lambda wildcards: SCENES[wildcards.figure].get("case"),
-        system=lambda wildcards: getattr(rules, wildcards.figure).params.get("system", {}),
-        config=lambda wildcards: getattr(rules, wildcards.figure).params.config,
-        code=lambda wildcards: code("notebook", notebook_of(wildcards.figure), spec(wildcards.figure)["module"]),
-    log:
-        "results/logs/notebooks/{figure}.log",
-    conda:
-        "../envs/vibroimpact.yaml"
-    script:
-        "../scripts/notebook.py"
+# The page of each figure: its notebook, which reads the finished tables and picture, and what these are computed from.
+PAGES = by_notebook(config["figures"])
+
+for notebook, shown in PAGES.items():
+
+    rule:
+        name:
+            f"pages_{notebook}"
+        input:
+            sorted({path for figure in shown for path in page_inputs(figure).values()}),
+            notebook=own(NOTEBOOKS[notebook]),
+        output:
+            **{figure: f"results/notebooks/{figure}.html" for figure in shown},
+        params:
+            pages={figure: page_params(figure) for figure in shown},
+            code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
+        log:
+            f"results/logs/notebooks/{notebook}.log",
+        conda:
+            "../envs/vibroimpact.yaml"
+        script:
+            "../scripts/notebook.py"
 
 
 rule figures:
     input:
         [getattr(rules, figure).output for figure in config["figures"]],
-        expand("results/notebooks/{figure}.html", figure=config["figures"]),
+        [getattr(rules, f"pages_{notebook}").output for notebook in PAGES],
 
 
 # The figures that are compared with a reference set and that captions are for; those of the studies join.

@@ -1,18 +1,36 @@
-# Fixed points of the slow flow (10.23), exact 1:1 responses, and the verdicts of every criterion on both.
+# Fixed points of the slow flow (10.23) and exact 1:1 responses of each case, with the verdicts of every criterion on both.
 
 
 rule fixed_points:
     output:
-        **in_report({"csv": "results/fixed_points.csv"}, "Tables"),
-        orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
-        search="results/orbits.search.json",
+        points="results/fixed_points/{case}.csv",
+        orbits="results/orbits/{case}.csv",
+        search="results/orbits/{case}.search.json",
     params:
-        systems=all_systems(),
+        system=lambda wildcards: system_of(wildcards.case),
         code=code("fixed_points"),
     priority: 20
     log:
-        "results/logs/fixed_points.log",
+        "results/logs/fixed_points/{case}.log",
     conda:
         "../envs/vibroimpact.yaml"
     script:
         "../scripts/fixed_points.py"
+
+
+# The tables of all cases.
+rule gather:
+    input:
+        points=expand("results/fixed_points/{case}.csv", case=all_systems()),
+        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
+    output:
+        **in_report({"csv": "results/fixed_points.csv"}, "Tables"),
+        orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
+    params:
+        code=code("gather"),
+    log:
+        "results/logs/gather.log",
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/gather.py"

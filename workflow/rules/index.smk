@@ -4,7 +4,7 @@
 rule index:
     input:
         rules.figures.input,
-        rules.fixed_points.output,
+        rules.gather.output,
         rules.accuracy.input,
     output:
         html="results/index.html",

@@ -17,12 +17,7 @@ def arguments(params, inputs) -> dict:
         given["system"] = System(**params.system)
     if params.get("systems"):
         given["systems"] = {case: System(**parameters) for case, parameters in params.systems.items()}
-    return given | {name: rows_of(params.get("case"), tables.read(path)) for name, path in inputs.items()}
-
-
-def rows_of(case, table):
-    """Return the rows of the figure's case, if it has one and the table is one of several cases."""
-    return table[table["case"] == case].reset_index(drop=True) if case and "case" in table else table
+    return given | {name: tables.read(path) for name, path in inputs.items()}
 
 
 with running(snakemake) as out:

@@ -1,11 +1,9 @@
-"""Fixed points and exact 1:1 responses of all cases, with the verdict of each criterion and with proofs.
+"""Fixed points and exact 1:1 responses of one case -> CSV, a row each, with the verdicts of all criteria and proofs.
 
-fixed_points.csv and orbits.csv have a row each; orbits.search.json gives by case the number of Newton starts with which
-asymmetric orbits were searched.
+search.json holds the number of Newton starts with which asymmetric orbits were searched.
 """
 
 import json
-import sys
 from pathlib import Path
 
 from vibroimpact_pipeline.jobs import running
@@ -19,28 +17,14 @@ from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
-
-def judged_points(case: str, system, orbits: pd.DataFrame) -> pd.DataFrame:
-    """Return the fixed points of a case with the verdict of each criterion, by label."""
-    points = fixed_point_table(case, system).drop(columns="multiple")
+with running(snakemake) as out:
+    case, system = snakemake.wildcards.case, System(**snakemake.params.system)
+    points, found = fixed_point_table(case, system).drop(columns="multiple"), search(system)
+    orbits = orbit_rows(case, found.orbits)
     labelled = [(point.label, point) for point in labelled_points(points)]
     verdicts = fixed_point_rows(case, system, labelled, orbits)[["label", "admissible", "orbit", *CRITERIA, *FORMER]]
-    return points.merge(verdicts, on="label", validate="one_to_one")
-
-
-with running(snakemake) as out:
-    points, orbits, searches = [], [], {}
-    for case, parameters in snakemake.params.systems.items():
-        try:
-            system = System(**parameters)
-            found = search(system)
-            orbits.append(orbit_rows(case, found.orbits))
-            points.append(judged_points(case, system, orbits[-1]))
-            orbits[-1] = pd.concat([orbits[-1], proof_rows(found.orbits)], axis="columns")
-        except ValueError as error:
-            sys.exit(f"cases.{case}: {error}")
-        listed = sum(not orbit.symmetric for orbit in found.orbits)
-        searches[case] = {"listed": listed, "starts": found.starts, "fewest_hits": found.fewest_hits}
-    tables.write(pd.concat(points, ignore_index=True), out.csv)
-    tables.write(pd.concat(orbits, ignore_index=True), out.orbits)
-    Path(out.search).write_text(json.dumps(searches, indent=1) + "\n", encoding="utf-8")
+    tables.write(points.merge(verdicts, on="label", validate="one_to_one"), out.points)
+    tables.write(pd.concat([orbits, proof_rows(found.orbits)], axis="columns"), out.orbits)
+    listed = sum(not orbit.symmetric for orbit in found.orbits)
+    effort = {"listed": listed, "starts": found.starts, "fewest_hits": found.fewest_hits}
+    Path(out.search).write_text(json.dumps(effort) + "\n", encoding="utf-8")

@@ -1,6 +1,6 @@
-"""The page of a figure: its notebook executed with the figure's parameters, on the finished tables and picture.
+"""Pages of figures: their notebook executed with the parameters of each, on its finished tables and picture.
 
-The executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
+An executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
 """
 
 from pathlib import Path
@@ -76,13 +76,13 @@ def parameters_of(config: dict) -> dict:
 
 
 with running(snakemake) as out:
-    figure, params = snakemake.wildcards.figure, snakemake.params
-    texts = words(figure, params.scene, params.system)
-    case = {"case": params.case} if params.case else {}
-    given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(params.config), "inputs": params.inputs}
-    executed = Path(snakemake.log[0]).with_suffix(".ipynb")
-    print(f"{snakemake.input.notebook} as it was executed: {executed}")
-    done = execute(snakemake.input.notebook, executed, given)
-    injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
-    injected.id = "injected-parameters"  # random else, and the page of each build another
-    Path(out.html).write_text(page(done, texts["title"]), encoding="utf-8")
+    for figure, shown in snakemake.params.pages.items():
+        texts = words(figure, shown["scene"], shown["system"] or {})
+        case = {"case": shown["case"]} if shown["case"] else {}
+        given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(shown["config"])}
+        executed = Path(snakemake.log[0]).with_name(f"{figure}.ipynb")
+        print(f"{snakemake.input.notebook} as it was executed: {executed}")
+        done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
+        injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
+        injected.id = "injected-parameters"  # random else, and the page of each build another
+        Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

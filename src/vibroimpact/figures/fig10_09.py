@@ -33,6 +33,6 @@ PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute` as figure 10.6; at the chapter's parameters with its verdicts where (10.26) differs."""
+    """Draw the table of `compute` as figure 10.6; at the chapter's parameters with its verdicts, where others."""
     found = [abs(select(table, plane, f"P_{plane[1]}")["C"] - C) < 1e-3 for plane, C in PLACE_OF_B.items()]
     return fig10_06.draw(table, CHAPTER if all(len(near) and near.all() for near in found) else {})

@@ -28,7 +28,7 @@ def config() -> dict:
     made["cases"] = {HOSTILE: made["cases"]["weak"], "equal": made["cases"]["equal"]}
     made["figures"] = {
         "fig10_06": made["figures"]["fig10_06"],
-        "mine": {"notebook": "theoretical_response", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
+        "mine": {"like": "fig10_07", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
     }
     made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
     made["regimes"]["branches"]["case"] = "equal"

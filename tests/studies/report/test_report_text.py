@@ -63,7 +63,7 @@ def test_captions_fill_from_the_config():
 
 
 def test_titles_of_cases_go_into_the_words_of_figures():
-    own = {"notebook": "simulation", "model": "float64", "case": "weak"}
+    own = {"like": "fig10_08", "model": "float64", "case": "weak"}
     cases = CONFIG["cases"] | {"weak": CONFIG["cases"]["weak"] | {"title": "A b (c)"}}
     said = figure_texts(ROOT, CONFIG | {"cases": cases, "figures": CONFIG["figures"] | {"mine": own}})["mine"]
     assert all("A b" in said[name] and "weak" not in said[name] for name in ("title", "caption", "alt"))

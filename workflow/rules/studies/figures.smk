@@ -8,7 +8,7 @@ COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",
         "inputs": {
-            "points": "results/fixed_points.csv",
+            "points": "results/fixed_points/{case}.csv",
             "samples": "results/simulations/{case}/float64/samples.csv",
             "events": "results/simulations/{case}/float64/events.csv",
         },
@@ -110,6 +110,25 @@ for figure in config["machines"]:
             "../../scripts/figure.py"
 
 
+if config["machines"]:
+
+    rule pages_physical_units:
+        input:
+            [path for figure in config["machines"] for path in page_inputs(figure).values()],
+            notebook=own(NOTEBOOKS["physical_units"]),
+        output:
+            **{figure: f"results/notebooks/{figure}.html" for figure in config["machines"]},
+        params:
+            pages={figure: page_params(figure) for figure in config["machines"]},
+            code=code("notebook", NOTEBOOKS["physical_units"], module_of("machines")),
+        log:
+            "results/logs/notebooks/physical_units.log",
+        conda:
+            "../../envs/vibroimpact.yaml"
+        script:
+            "../../scripts/notebook.py"
+
+
 STUDY_DRAWINGS = [*MADE, *config["machines"]]
 ALL_FIGURES += STUDY_DRAWINGS
 config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
@@ -118,4 +137,4 @@ config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
 rule companions:
     input:
         [getattr(rules, figure).output for figure in STUDY_DRAWINGS],
-        expand("results/notebooks/{figure}.html", figure=config["machines"]),
+        rules.pages_physical_units.output if config["machines"] else [],

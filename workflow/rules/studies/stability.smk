@@ -3,8 +3,8 @@
 
 rule proofs:
     input:
-        orbits="results/orbits.csv",
-        search="results/orbits.search.json",
+        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
+        searches=expand("results/orbits/{case}.search.json", case=all_systems()),
     output:
         json="results/proofs.json",
     params:

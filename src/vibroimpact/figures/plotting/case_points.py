@@ -27,7 +27,7 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
     computed = fixed_point_table(case, system)
     if not inputs:
         return computed
-    given = _of_case(case, inputs["points"])
+    given = tables.read(inputs["points"])
     _expect_same_points(given, computed, inputs["points"])
     return given[computed.columns.intersection(given.columns)]
 
@@ -42,7 +42,7 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
         ValueError: the file holds another case, or other points.
     """
     if inputs:
-        orbits, given = _of_case(case, inputs["orbits"]), _of_case(case, inputs["points"])
+        orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
     else:
         labelled = [(point.label, point) for point in labelled_points(points)]
         orbits = orbit_rows(case, search(system).orbits)
@@ -82,12 +82,6 @@ def exact(verdicts: pd.DataFrame) -> str:
             with_orbits = (f"{name} (orbit {plain(orbit)})" for name, orbit in zip(names, rows["orbit"], strict=True))
             said.append(f"{', '.join(with_orbits)}: **{verdict}** by Floquet multipliers")
     return f"{EXACTLY} {'; '.join(said)}."
-
-
-def _of_case(case, path):
-    """Return the rows of a case of a table."""
-    table = tables.read(path)
-    return table[table["case"] == case].reset_index(drop=True)
 
 
 def _expect_same_points(given, expected, path):
