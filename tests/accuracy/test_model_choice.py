@@ -20,9 +20,14 @@ def by(model, system):
 
 
 def test_the_config_offers_the_models_that_there_are():
-    for section in (figures.FixedPoints, figures.Response, figures.SimulatedMotion):
-        notebook, model = (section.model_fields[name] for name in ("notebook", "model"))
-        assert get_args(model.annotation) == CHOICES[get_args(notebook.annotation)[0]]
+    sections = {
+        "fixed_points": figures.FixedPoints,
+        "theoretical_response": figures.Response,
+        "simulation": figures.SimulatedMotion,
+    }
+    for notebook, section in sections.items():
+        model = section.model_fields["model"]
+        assert get_args(model.annotation) == CHOICES[notebook]
         assert all(name in model.description for name in get_args(model.annotation))
     assert {model for models in CHOICES.values() for model in models} == set(MODELS)
 

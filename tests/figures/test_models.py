@@ -10,7 +10,9 @@ from pipeline_trees import ROOT
 from vibroimpact.accuracy.model_choice import CHOICES
 from vibroimpact.figures import models
 from vibroimpact.tables import curve, join
+from vibroimpact_pipeline.specs import specs
 
+SPECS = specs()
 CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 
 
@@ -18,13 +20,13 @@ def scene(figure):
     """An entry of the chart as its rule gives it."""
     entry = CONFIG["figures"][figure]
     case = CONFIG["cases"][entry["case"]]
-    settings = {name: value for name, value in entry.items() if name not in ("notebook", "model", "case")}
+    settings = {name: value for name, value in entry.items() if name not in ("model", "case")}
     return {
         "module": f"vibroimpact.figures.{figure}",
-        "notebook": entry["notebook"],
+        "notebook": SPECS[figure]["notebook"],
         "model": entry["model"],
         "system": CONFIG["system"] | {name: value for name, value in case.items() if name != "simulation"},
-        "settings": case["simulation"] if entry["notebook"] == "simulation" else settings,
+        "settings": case["simulation"] if SPECS[figure]["notebook"] == "simulation" else settings,
     }
 
 
@@ -39,7 +41,7 @@ def test_each_figure_has_the_cheapest_model_within_its_tolerance(table):
     """By the order of the models; their measured times are no part of it."""
     assert table["figure"].unique().tolist() == [f"fig10_{n:02d}" for n in range(6, 12)]
     for figure, rows in table.groupby("figure"):
-        assert rows["model"].tolist() == [*CHOICES[CONFIG["figures"][figure]["notebook"]]]
+        assert rows["model"].tolist() == [*CHOICES[SPECS[figure]["notebook"]]]
         enough = rows.loc[rows["error"] <= rows["tolerance"], "model"]
         assert enough.iloc[0] == CONFIG["figures"][figure]["model"] == rows.loc[rows["in_use"], "model"].item()
 

@@ -14,6 +14,8 @@ from vibroimpact_pipeline.specs import spec_of
 
 DRAWN = drawn("figures")
 OWN = {"like": "fig10_07", "case": "weak", "fixed_point": "a", "periods": 1}
+PAGES = {notebook: [one for one in GOOD["figures"] if SPECS[one]["notebook"] == notebook]
+    for notebook in sorted({SPECS[one]["notebook"] for one in GOOD["figures"]})}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -37,15 +39,16 @@ def test_compute_takes_what_its_rule_gives(figure, of_the_chapter):
     assert_compute_takes(figure, of_the_chapter[figure])
 
 
-@pytest.mark.parametrize("notebook", sorted({scene["notebook"] for scene in GOOD["figures"].values()}))
+@pytest.mark.parametrize("notebook", PAGES)
 def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the_chapter):
     """All of them, or the rest stays at None or is of another figure of the notebook."""
     known = papermill.inspect_notebook(str(ROOT / f"notebooks/{notebook}.ipynb"))
     given = {}
-    for figure in (figure for figure, scene in GOOD["figures"].items() if scene["notebook"] == notebook):
-        params = of_the_chapter[figure].params
-        system = {"case": params.case, **params.system} if params.case else {}
-        given[figure] = {"figure", "alt", "inputs", "outputs", *system, *params.settings}
+    for figure, page in of_the_chapter[f"pages_{notebook}"].params.pages.items():
+        system = {"case": page["case"], **page["system"]} if page["case"] else {}
+        settings = {path.rpartition(".")[2] for path in page["config"]} - {page["case"]}
+        given[figure] = {"figure", "alt", "inputs", *system, *settings}
+    assert [*given] == PAGES[notebook]
     assert set().union(*given.values()) == known.keys()
     if notebook != "closed_form":
         for names in given.values():
@@ -72,7 +75,7 @@ def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp
 
 
 def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
-    planes = spec_of("mine", OWN | {"C_max": 2.0}, SPECS)
+    planes = spec_of("mine", OWN | {"like": "fig10_10", "C_max": 2.0}, SPECS)
     modules = [one["module"].rpartition(".")[2] for one in (planes, spec_of("mine", OWN, SPECS))]
     assert modules == ["fig10_10", "fig10_07"]
     assert planes["tables"]["csv"]["file"] == "results/figures/mine.csv"
@@ -93,6 +96,7 @@ def test_a_caption_names_a_model_that_is_not_the_chapter_s():
 def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_chapter):
     params, run = of_the_chapter["fig10_11"].params, GOOD["cases"]["weak"]["simulation"]
     assert of_the_chapter["fig10_11"].input.samples == "results/simulations/weak/reference/samples.csv"
-    assert params.settings == run | {"model": "reference"}
+    assert params.settings == {}
+    assert params.config["figures.fig10_11.model"] == "reference"
     assert params.config["cases.weak.simulation.transient_cycles"] == run["transient_cycles"]
     assert params.config["cases.weak"] == params.system

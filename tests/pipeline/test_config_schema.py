@@ -71,8 +71,8 @@ def test_the_cases_of_the_chapter_are_known_without_the_library():
 
 def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are_left_out():
     made = checked(
-        edited("cases.equal = ... & default_case = weak & accuracy.benchmark.case = ... & figures.mine = {notebook: "
-        "simulation, model: float64}")
+        edited("cases.equal = ... & default_case = weak & accuracy.benchmark.case = ... & figures.mine = {like: "
+        "fig10_08, model: float64}")
     )  # fmt: skip
     assert made["accuracy"]["benchmark"]["case"] == made["accuracy"]["problems"]["transient"]["case"] == "weak"
     assert made["figures"]["mine"]["case"] == "weak"

@@ -37,7 +37,7 @@ UNUSUAL = [
     UNFORCED,
     f"{UNFORCED} & system.alpha12_hat = 0 & system.gamma12_hat = 0 & cases.weak.f10_hat = 1",
     f"cases.all = {{f10_hat: 1, f20_hat: -1, simulation: {{{SMALL}}}}}",
-    "cases.weak.simulation.digits = ... & figures.fig10_10.C_max = ...",
+    "cases.weak.simulation.digits = ... & figures.fig10_10.periods = 3",
     "figures.fig10_10 = ... & figures.fig10_11 = ...",
     "figures = {mine: {like: fig10_08, model: float64, case: equal}}",
     "cases.weak = ... & default_case = unequal",

@@ -57,8 +57,7 @@ def assert_compute_takes(figure: str, rule) -> None:
         *(name for name in ("system", "systems") if rule.params.get(name)),
     }
     assert {name for name, entry in arguments.items() if entry.default is entry.empty} <= given
-    if not rule.input.get("notebook"):  # which shows more than the figure does
-        assert given - {"system"} <= set(arguments)
+    assert given - {"system"} <= set(arguments)
 
 
 def assert_declared(folder: str, figure: str, file: str) -> None:

@@ -81,7 +81,7 @@ vi.System, vi.orbits, vi.ensemble
 def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_found(chapter_alone):
     assert chapter_alone.planned() == set()  # results of the same code are up to date
     made = "results/orbits/weak.csv", "fig10_04"
-    chapter_alone.snakemake("--forcerun", "orbits", "fig10_04", "--", *made)
+    chapter_alone.snakemake("--forcerun", "fixed_points", "fig10_04", "--", *made)
     assert re.search(r"\b(\d+) figures: \1 passed", chapter_alone.snakemake("figure_check"))
     assert_tests_pass(chapter_alone, "--collect-only")
     assert_tests_pass(chapter_alone, *(f"tests/{name}.py" for name in QUICK))

@@ -13,7 +13,7 @@ def rules():
         for rule in re.split(r"\n+ *(?:use )?rule\b.*", file.read_text(encoding="utf-8"))[1:]:
             if script := re.search(r'"(?:\.\./)+scripts/([\w/]+)\.py"', rule):
                 params = re.search(r'code=code\(\s*"([\w/]+)"', rule) or re.search(r"\*\*scene\(()", rule)
-                yield script[1], params and (params[1] or "notebook")
+                yield script[1], params and (params[1] or "figure")
 
 
 @pytest.mark.parametrize(("script", "named"), sorted(set(rules())))

@@ -48,6 +48,7 @@ rule stress_tests:
         settings={"full": FULL},
         config={"accuracy.effort": ACCURACY["effort"]},
         code=code("figure", module_of("stress_tests")),
+    priority: 30
     log:
         "results/logs/accuracy/stress_tests.log",
     benchmark:
@@ -67,6 +68,7 @@ rule grazing:
         settings={},
         config={},
         code=code("figure", module_of("grazing")),
+    priority: 30
     log:
         "results/logs/accuracy/grazing.log",
     benchmark:

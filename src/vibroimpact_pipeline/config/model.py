@@ -13,13 +13,13 @@ from vibroimpact_pipeline.config.section import Place, Section
 
 SLOWEST = 1e-3
 """Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
-PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_"
-"""Prefixes reserved for companions, sweeps, the chapter's figures and texts of own figures."""
+PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_", "pages_"
+"""Prefixes reserved for companions, sweeps, the chapter's figures, texts of own figures and pages."""
 RULES = {
     *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check", "figures"),
     *("figure_check_strict", "fixed_points", "force_sweep", "gather", "grazing", "index", "method_comparison"),
-    *("models", "modulation", "nudge", "orbits", "proofs", "report", "simulation", "stability", "studies"),
-    *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts", "verdicts_by_epsilon"),
+    *("models", "modulation", "nudge", "proofs", "report", "simulation", "stability", "studies"),
+    *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts_by_epsilon"),
     *("stress_tests", "work_precision"),
 }
 """Rules whose names figures and other entries, which become rules as well, cannot have."""

@@ -43,6 +43,7 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
+        _expect_same_points(given, points, inputs["points"])
     else:
         labelled = [(point.label, point) for point in labelled_points(points)]
         orbits = orbit_rows(case, search(system).orbits)
