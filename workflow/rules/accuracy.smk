@@ -71,8 +71,6 @@ rule grazing:
     priority: 30
     log:
         "results/logs/accuracy/grazing.log",
-    benchmark:
-        "results/benchmarks/accuracy/grazing.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:
@@ -100,8 +98,6 @@ rule models:
     threads: ALL_CORES
     log:
         "results/logs/accuracy/models.log",
-    benchmark:
-        "results/benchmarks/accuracy/models.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:
@@ -119,8 +115,6 @@ rule method_comparison:
         code=code("method_comparison"),
     log:
         "results/logs/accuracy/method_comparison.log",
-    benchmark:
-        "results/benchmarks/accuracy/method_comparison.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

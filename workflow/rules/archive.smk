@@ -21,8 +21,6 @@ rule archive:
         code=code("archive", "development.lock"),
     log:
         "results/logs/archive.log",
-    benchmark:
-        "results/benchmarks/archive.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

@@ -14,8 +14,6 @@ rule index:
         code=code("index", "report/data.yaml", *map(module_of, SPECS)),
     log:
         "results/logs/index.log",
-    benchmark:
-        "results/benchmarks/index.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

@@ -14,8 +14,6 @@ rule simulation:
     priority: 10
     log:
         "results/logs/simulations/{case}/{model}.log",
-    benchmark:
-        "results/benchmarks/simulations/{case}/{model}.tsv"
     conda:
         "../envs/vibroimpact.yaml"
     script:

@@ -41,8 +41,6 @@ rule claims:
         code=code("studies/claims", "docs/studies/claims.yaml"),
     log:
         "results/logs/claims.log",
-    benchmark:
-        "results/benchmarks/claims.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:

@@ -12,8 +12,6 @@ rule field:
         code=code("studies/field"),
     log:
         "results/logs/field.log",
-    benchmark:
-        "results/benchmarks/field.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:

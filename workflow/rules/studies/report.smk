@@ -22,8 +22,6 @@ for name, scene in MOVING["animations"].items():
             code=code("studies/animation"),
         log:
             f"results/logs/report/{name}.log",
-        benchmark:
-            f"results/benchmarks/report/{name}.tsv"
         conda:
             "../../envs/vibroimpact.yaml"
         script:
@@ -39,8 +37,6 @@ rule force_sweep:
         code=code("studies/force_sweep"),
     log:
         "results/logs/report/force_sweep.log",
-    benchmark:
-        "results/benchmarks/report/force_sweep.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:
@@ -55,8 +51,6 @@ rule nudge:
         code=code("studies/nudge"),
     log:
         "results/logs/report/nudge.log",
-    benchmark:
-        "results/benchmarks/report/nudge.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:
@@ -86,8 +80,6 @@ rule report:
         ),
     log:
         "results/logs/report/report.log",
-    benchmark:
-        "results/benchmarks/report/report.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:

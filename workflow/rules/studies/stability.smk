@@ -12,8 +12,6 @@ rule proofs:
         code=code("studies/proofs"),
     log:
         "results/logs/proofs.log",
-    benchmark:
-        "results/benchmarks/proofs.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:
@@ -50,8 +48,6 @@ rule modulation:
         code=code("studies/modulation"),
     log:
         "results/logs/modulation.log",
-    benchmark:
-        "results/benchmarks/modulation.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:
@@ -68,8 +64,6 @@ rule verdicts_by_epsilon:
         code=code("studies/verdicts_by_epsilon"),
     log:
         "results/logs/verdicts_by_epsilon.log",
-    benchmark:
-        "results/benchmarks/verdicts_by_epsilon.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:

@@ -32,8 +32,6 @@ rule datapackage:
         code=code("studies/datapackage", "report/data.yaml", "CITATION.cff", *map(module_of, SPECS)),
     log:
         "results/logs/datapackage.log",
-    benchmark:
-        "results/benchmarks/datapackage.tsv"
     conda:
         "../../envs/vibroimpact.yaml"
     script:

@@ -44,8 +44,6 @@ for name, sweep in SWEEPS.items():
             code=code("studies/sweep_table"),
         log:
             f"results/logs/sweeps/{name}/table.log",
-        benchmark:
-            f"results/benchmarks/sweeps/{name}/table.tsv"
         conda:
             "../../envs/vibroimpact.yaml"
         script:
@@ -60,13 +58,12 @@ for name, sweep in SWEEPS.items():
             **figure_files(f"results/sweeps/{name}/figure", {"csv": {"file": f"results/sweeps/{name}/figure.csv"}}),
         params:
             figure="sweep",
+            module=module_of("sweep"),
             settings={"axes": sweep["axes"]},
             config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
             code=code("figure", module_of("sweep")),
         log:
             f"results/logs/sweeps/{name}/figure.log",
-        benchmark:
-            f"results/benchmarks/sweeps/{name}/figure.tsv"
         conda:
             "../../envs/vibroimpact.yaml"
         script:
