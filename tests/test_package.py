@@ -30,6 +30,7 @@ def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_mat
     assert run.stdout.strip() == "[]"
 
 
+@pytest.mark.thorough
 def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
     """Each of the scripts that there are."""
     scripts = sorted((ROOT / "tests/shared").rglob("users_script*.py"))

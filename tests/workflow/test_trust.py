@@ -15,6 +15,7 @@ from pipeline_trees import run_module, whole_copy
 FIXED_POINTS = "results/fixed_points/equal.csv"
 SCRIPT = "workflow/scripts/fixed_points.py"
 CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 1.0", "f20_hat: 0.97"
+THOROUGH = pytest.mark.thorough
 FIGURE, DRAWING = "fig10_08", "fig10_04"
 """One that reads tables of jobs before it, and one that reads none."""
 
@@ -27,7 +28,9 @@ def remove_one_record_of_snakemake(tree):
     (tree / ".snakemake/metadata" / base64.urlsafe_b64encode(FIXED_POINTS.encode()).decode()).unlink()
 
 
-@pytest.mark.parametrize("remove", [remove_all_that_snakemake_knows, remove_one_record_of_snakemake])
+@pytest.mark.parametrize(
+    "remove", [pytest.param(remove_all_that_snakemake_knows, marks=THOROUGH), remove_one_record_of_snakemake]
+)
 def test_another_config_is_seen_without_what_snakemake_has_recorded(rebuilt, remove):
     before = pd.read_csv(rebuilt / FIXED_POINTS)["C2"].max()
     remove(rebuilt)
@@ -68,7 +71,14 @@ def without_record(tree):
 
 @pytest.mark.parametrize(
     "damage",
-    [edited, edited_under_an_old_date, cut_off, of_another_figure, without_record, with_a_record_without_entries],
+    [
+        edited_under_an_old_date,
+        of_another_figure,
+        *(
+            pytest.param(one, marks=THOROUGH)
+            for one in (edited, cut_off, without_record, with_a_record_without_entries)
+        ),
+    ],
 )
 def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
     right = (rebuilt / FIXED_POINTS).read_bytes()
@@ -81,7 +91,7 @@ def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
     assert (rebuilt / FIXED_POINTS).read_bytes() == right
 
 
-@pytest.mark.parametrize("first", ["this", "the other"])
+@pytest.mark.parametrize("first", ["this", pytest.param("the other", marks=THOROUGH)])
 def test_results_of_another_config_that_are_copied_in_are_made_anew(rebuilt, tmp_path, first):
     """With their dates, older or newer ones, and with all that lies below results/."""
     other = whole_copy(rebuilt, tmp_path / "other")
@@ -99,13 +109,15 @@ def test_results_of_another_config_that_are_copied_in_are_made_anew(rebuilt, tmp
 
 
 CHECKOUT = {
-    "notebooks/drawings.ipynb": "fig10_01",
+    "notebooks/drawings.ipynb": "pages_drawings",
     "environment.lock": DRAWING,
     "src/vibroimpact/figures/plotting/vibroimpact.mplstyle": DRAWING,
 }
 
 
-@pytest.mark.parametrize("name", CHECKOUT)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=THOROUGH if name == "environment.lock" else ()) for name in CHECKOUT]
+)
 def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuilt, name):
     """As rsync, tar and cp -p leave it."""
     rule = CHECKOUT[name]
@@ -119,7 +131,7 @@ def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuil
 def test_a_page_is_the_same_in_each_build(rebuilt):
     page = rebuilt / "results/notebooks/fig10_01.html"
     before = page.read_text()
-    rebuilt.snakemake("--forcerun", "fig10_01", "--", "fig10_01")
+    rebuilt.snakemake("--forcerun", "pages_drawings", "--", "pages_drawings")
     assert page.read_text() == before
     assert "results/figures/fig10_01.png" in before
     assert ".partial-" not in before
@@ -178,7 +190,9 @@ def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
     assert "Nothing to be done" in held.dry_run(FIXED_POINTS)
 
 
-@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGKILL], ids=lambda stop: stop.name)
+@pytest.mark.parametrize(
+    "stop", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=THOROUGH)], ids=lambda stop: stop.name
+)
 def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, built, stop):
     build = held.start(FIXED_POINTS)
     wait_for(held / "started", build)

@@ -85,6 +85,7 @@ def test_every_block_of_a_recipe_is_a_step_that_a_test_follows(recipe):
     assert f'follow("{recipe}"' in Path(__file__).read_text(encoding="utf-8")
 
 
+@pytest.mark.thorough
 def test_a_figure_can_be_added(project):
     follow("Add a figure", project)
     table = pd.read_csv(project / "results/figures/companion_mine.csv")

@@ -171,6 +171,7 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     assert len(drawn) > 1000  # pictures are vectors
 
 
+@pytest.mark.thorough
 def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):
     reported.snakemake("--report", str(tmp_path / "all.zip"), "report")
     with ZipFile(tmp_path / "all.zip") as archive:

@@ -19,6 +19,10 @@ PROSE = """[...document.querySelectorAll('article p, article li, article td, art
 ).join('\\n')"""
 
 
+LOOKED_AT = "index", "figures", "accuracy", "claims", "play"
+"""Pages that each run of the tests opens; all with `make test-all`."""
+
+
 def address(site, page):
     return (site / f"{page}.html").as_uri()
 
@@ -27,7 +31,13 @@ def focus(browser, name):
     browser.run(f"document.querySelector('{name}').focus()")
 
 
-@pytest.mark.parametrize("page", [*PAGES, "api/vibroimpact"])
+@pytest.mark.parametrize(
+    "page",
+    [
+        page if page in LOOKED_AT else pytest.param(page, marks=pytest.mark.thorough)
+        for page in (*PAGES, "api/vibroimpact")
+    ],
+)
 def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site, page):
     """It asks nobody else; axe finds no barrier, in the dark and on a phone, which it fits; formulas are set."""
     browser.open(address(site, page))
