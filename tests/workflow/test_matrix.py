@@ -14,9 +14,9 @@ set-up:
 	mkdir -p .venv/bin results/figures
 	cp tool .venv/bin/snakemake && cp tool .venv/bin/python
 	test ! -e no-set-up
-figures studies: set-up
+figures studies:
 	.venv/bin/snakemake $@
-check-figures: set-up
+check-figures:
 	.venv/bin/snakemake figure_check
 test-quick:
 	@echo tested

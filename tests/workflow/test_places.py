@@ -147,7 +147,7 @@ def test_a_whole_file_on_the_command_line_is_the_config_alone(rebuilt, tmp_path)
     given.write_text(text.replace("fixed_point: c, periods: 2", "fixed_point: c, periods: 3"))
     rebuilt.edit("config/config.yaml", "kappa: 0.65", "kappa: 0.5")
     planned = rebuilt.planned("figures", "--configfile", str(given), "--replace-workflow-config")
-    assert planned == {"fig10_07"}
+    assert planned == {"fig10_07", "pages_theoretical_response"}
 
 
 def test_a_directory_with_a_config_of_its_own_follows_it(tree, tmp_path):
@@ -190,7 +190,7 @@ def test_jobs_use_the_library_beside_the_rules_and_the_interpreter_of_snakemake(
     startup.write_text("raise SystemExit('run at the start')")
     jupyter = {"JUPYTER_PATH": str(tmp_path / "data"), "JUPYTER_DATA_DIR": str(tmp_path / "data")}
     of_user = jupyter | {"MPLBACKEND": "none", "PYTHONSTARTUP": str(startup), "PYTHONPATH": "/nowhere"}
-    tree.snakemake(FIGURE, **of_user)
-    executed = (tree / f"results/logs/figures/{FIGURE}.ipynb").read_text()
+    tree.snakemake(f"results/notebooks/{FIGURE}.html", **of_user)
+    executed = (tree / f"results/logs/notebooks/{FIGURE}.ipynb").read_text()
     assert f"by {sys.executable} {tree / module}" in executed
     assert "run at the start" not in executed

@@ -16,7 +16,7 @@ FIXED_POINTS = "results/fixed_points/equal.csv"
 SCRIPT = "workflow/scripts/fixed_points.py"
 CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 1.0", "f20_hat: 0.97"
 THOROUGH = pytest.mark.thorough
-FIGURE, DRAWING = "fig10_08", "fig10_04"
+FIGURE, DRAWING = "fig10_06", "fig10_04"
 """One that reads tables of jobs before it, and one that reads none."""
 
 
