@@ -54,19 +54,22 @@ attack: development  ## attack what the certificates of runs say, 20 000 runs of
 	.venv/bin/pytest -s tests/exact/engine/test_attack.py --attack=$(RUNS)
 
 # Tests that need no build of the figures: formulas, orbits, the core of the engine, the config, the map of the repository.
-QUICK = system theory exact/orbits $(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) \
-	integrators/test_contact_laws.py figures/test_specs.py figures/test_notebooks.py pipeline/test_config_reading.py docs/test_map.py \
-	$(addprefix studies/,sweeps absorbers regimes/test_classification.py report/test_report_text.py)
+QUICK = $(addprefix tests/,system theory exact/orbits \
+	$(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) integrators/test_contact_laws.py \
+	figures/test_specs.py figures/test_notebooks.py pipeline/test_config_reading.py docs/test_map.py) \
+	$(wildcard $(addprefix tests/studies/,sweeps absorbers regimes/test_classification.py report/test_report_text.py))
+# Import contracts of the chapter, and of the studies if they are there.
+CONTRACTS = for config in pyproject.toml $(wildcard tests/studies/importlinter.toml); do .venv/bin/lint-imports --config $$config || exit; done
 
 test-quick: development  ## lint, import contracts, tests of formulas, orbits, engine and config (under a minute)
 	.venv/bin/ruff check
-	.venv/bin/lint-imports
-	.venv/bin/pytest --numprocesses 2 --dist worksteal $(addprefix tests/,$(QUICK))
+	@$(CONTRACTS)
+	.venv/bin/pytest --numprocesses 2 --dist worksteal $(QUICK)
 
 test: development  ## lint, import contracts, the test suite, one run of the real pipeline
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
-	.venv/bin/lint-imports
+	@$(CONTRACTS)
 	.venv/bin/snakefmt --check Snakefile workflow
 	.venv/bin/python -m vibroimpact.compile
 	.venv/bin/pytest --numprocesses 2 --dist worksteal

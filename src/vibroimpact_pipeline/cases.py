@@ -4,8 +4,7 @@ import copy
 
 CHAPTER = ("equal", "unequal", "weak")
 """Cases of the chapter. A config may do without them: see `with_cases`."""
-STUDIES = ("accuracy.benchmark", "report.force_sweep", *(f"regimes.{name}" for name in
-    ("branches", "basins")))  # fmt: skip
+SINGLE = ("accuracy.benchmark", "report.force_sweep", "regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
 
@@ -29,7 +28,7 @@ def with_cases(config: dict) -> dict:
     for shown in (figures, _at(config, "report.animations"), _at(config, "regimes.epsilon")):
         for name in [name for name, entry in shown.items() if isinstance(entry, dict) and entry.get("case") in missing]:
             del shown[name]
-    entries = [_at(config, study) for study in STUDIES]
+    entries = [_at(config, entry) for entry in SINGLE]
     entries += [entry for name in COLLECTIONS for entry in _at(config, name).values()]
     entries += [entry for name, entry in figures.items() if not str(name).startswith("fig10_")]
     for entry in entries:

@@ -47,7 +47,9 @@ def test_the_choices_are_the_two_cheapest_tested_methods_that_are_accurate_enoug
         run("p", "d", 1e-13, 0.1, setting="1", missed=1),
     ]
     verdicts = [("a", "right"), ("a", "silently wrong"), ("b", "right"), ("c", "right"), ("d", "right")]
-    found = choices(pd.DataFrame(runs), pd.DataFrame(verdicts, columns=["method", "verdict"]))
+    work_precision = pd.DataFrame(runs)
+    compared = compare(work_precision, pd.DataFrame(verdicts, columns=["method", "verdict"]))
+    found = choices(work_precision, compared)
     assert found[["error", "choice", "method", "setting", "seconds_per_cycle"]].to_numpy().tolist() == [
         [1e-6, 1, "b", "2", 1.0],
         [1e-6, 2, "a", "coarse", 3.0],

@@ -23,7 +23,7 @@ BAD = {
     "a number to base 60": ("a: {cycles: 3:20}\n", "line 1, column 13: 3:20 is 200 in YAML"),
     "a fraction to base 60": ("a: 1:30.5\n", "line 1, column 4: 1:30.5 is 90.5 in YAML"),
     "a zero byte": ("a: 1\0\n", ""),
-    "deep nesting": (f"a: {'[' * 9000}\n", "maximum recursion depth"),
+    "deep nesting": (f"a: {'[' * 4000}\n", "maximum recursion depth"),
     "a list": ("- 1\n", "[1] is not a mapping"),
     "nothing": ("", "nothing is not a mapping"),
     "too much": ("# \n" * 40_000, "has more than 100000 bytes"),
@@ -42,12 +42,12 @@ UNFIT = {
 
 
 def said(path, content) -> str:
-    """What is said of a file; what expands without end would take hours."""
+    """What is said of a file, in a second at most."""
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     started = time.process_time()
     with pytest.raises(ConfigError) as refusal:
         checked(content := read(path), [(path, content)])
-    assert time.process_time() - started < 20
+    assert time.process_time() - started < 2
     return str(refusal.value)
 
 

@@ -64,7 +64,7 @@ def made(tmp_path, monkeypatch):
     """A table and a picture of it, and what their rules make them with."""
     monkeypatch.chdir(tmp_path)
     Path("results").mkdir()
-    now = {"solve": ({"system": {"kappa": 0.65}, "code": {"library": "a"}}, []), "draw": ({"config": {}}, [TABLE])}
+    now = {"solve": ({"system": {"kappa": 0.65}, "code": {"fingerprint": "a"}}, []), "draw": ({"config": {}}, [TABLE])}
     for path, rule in ((TABLE, "solve"), (PICTURE, "draw")):
         Path(path).write_text(path)
         params, inputs = now[rule]
@@ -81,8 +81,8 @@ def another_parameter(now):
     now["solve"][0]["system"]["kappa"] = 0.5
 
 
-def another_library(now):
-    now["solve"][0]["code"]["library"] = "b"
+def another_code(now):
+    now["solve"][0]["code"]["fingerprint"] = "b"
 
 
 def a_setting_that_is_new(now):
@@ -113,7 +113,7 @@ def a_record_without_params(now):
 
 CHANGES = {
     another_parameter: f"{TABLE}: made with system.kappa 0.65, now 0.5",
-    another_library: f"{TABLE}: made with code.library a, now b",
+    another_code: f"{TABLE}: made with code.fingerprint a, now b",
     a_setting_that_is_new: f"{PICTURE}: made with config.figures.figure.C_max None, now 2.0",
     an_input_that_is_new: f"{PICTURE}: made from other inputs",
     a_table_made_again: f"{PICTURE}: made from another {TABLE}",

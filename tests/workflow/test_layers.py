@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -85,6 +86,11 @@ def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_
     assert re.search(r"\b(\d+) figures: \1 passed", chapter_alone.snakemake("figure_check"))
     assert_tests_pass(chapter_alone, "--collect-only")
     assert_tests_pass(chapter_alone, *(f"tests/{name}.py" for name in QUICK))
+    contracts = run(chapter_alone, str(Path(sys.executable).with_name("lint-imports")))
+    assert contracts.returncode == 0, contracts.stdout
+    listed = subprocess.run(["make", "-n", "test-quick"], cwd=chapter_alone.path, capture_output=True, text=True).stdout
+    assert all((chapter_alone / path).exists() for path in re.findall(r"tests/\S+", listed))
+    assert "tests/system" in listed
     assert "vibroimpact.branches belongs to the studies" in run(chapter_alone, "-c", SAID).stdout
     machine = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9"
     ended = run(chapter_alone, "-m", "vibroimpact", *machine.split())

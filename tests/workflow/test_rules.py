@@ -1,5 +1,6 @@
 """Each rule names the code that its results depend on, so that a change of it makes them anew."""
 
+import ast
 import re
 
 import pytest
@@ -12,13 +13,21 @@ def rules():
     for file in sorted((ROOT / "workflow/rules").rglob("*.smk")):
         for rule in re.split(r"\n+ *(?:use )?rule\b.*", file.read_text(encoding="utf-8"))[1:]:
             if script := re.search(r'"(?:\.\./)+scripts/([\w/]+)\.py"', rule):
-                params = re.search(r'code=code\(\s*"([\w/]+)"', rule) or re.search(r"\*\*scene\(()", rule)
+                params = re.search(r'code=code\(\s*"([\w/]+)"', rule) or re.search(r"\*\*(?:scene|chart)\(()", rule)
                 yield script[1], params and (params[1] or "figure")
 
 
 @pytest.mark.parametrize(("script", "named"), sorted(set(rules())))
 def test_a_rule_names_the_code_of_its_script(script, named):
     assert script == named
+
+
+@pytest.mark.parametrize("script", sorted({script for script, _ in rules()}))
+def test_nothing_follows_the_work_of_a_job(script):
+    """A job ends with `running`: a line after it, such as the exit status of a check, would not run."""
+    last = ast.parse((ROOT / f"workflow/scripts/{script}.py").read_text(encoding="utf-8")).body[-1]
+    assert isinstance(last, ast.With)
+    assert ast.unparse(last.items[0].context_expr) == "running(snakemake)"
 
 
 def test_all_scripts_of_the_workflow_were_read():

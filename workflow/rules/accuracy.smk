@@ -7,70 +7,53 @@ FULL = ACCURACY["effort"] == "full"
 ALL_CORES = workflow.resource_settings.cores or 1
 
 
+rule grazing:
+    output:
+        **files("grazing", "Accuracy and speed", folder="accuracy"),
+    params:
+        **chart("grazing"),
+    priority: 30
+    log:
+        "results/logs/accuracy/grazing.log",
+    conda:
+        "../envs/vibroimpact.yaml"
+    script:
+        "../scripts/figure.py"
+
+
+use rule grazing as stress_tests with:
+    output:
+        **files("stress_tests", "Accuracy and speed", folder="accuracy"),
+    params:
+        **chart("stress_tests", {"full": FULL}, {"accuracy.effort": ACCURACY["effort"]}),
+    log:
+        "results/logs/accuracy/stress_tests.log",
+    benchmark:
+        "results/benchmarks/accuracy/stress_tests.tsv"
+
+
 rule work_precision:
     output:
-        **in_report(
-            figure_files("results/accuracy/work_precision", SPECS["work_precision"]["tables"]), "Accuracy and speed"
-        ),
+        **files("work_precision", "Accuracy and speed", folder="accuracy"),
     params:
-        figure="work_precision",
-        module=module_of("work_precision"),
-        settings={
-            "problems": {
-                name: {"system": system_of(problem["case"]), **problem}
-                for name, problem in ACCURACY["problems"].items()
+        **chart(
+            "work_precision",
+            {
+                "problems": {
+                    name: {"system": system_of(problem["case"]), **problem}
+                    for name, problem in ACCURACY["problems"].items()
+                },
+                "seconds": ACCURACY["full_seconds" if FULL else "short_seconds"],
+                "short": not FULL,
             },
-            "seconds": ACCURACY["full_seconds" if FULL else "short_seconds"],
-            "short": not FULL,
-        },
-        config={f"accuracy.{name}": ACCURACY[name] for name in ("problems", "effort", "short_seconds", "full_seconds")}
-        | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
-        code=code("figure", module_of("work_precision")),
+            {f"accuracy.{name}": ACCURACY[name] for name in ("problems", "effort", "short_seconds", "full_seconds")}
+            | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
+        ),
     threads: ALL_CORES
     log:
         "results/logs/accuracy/work_precision.log",
     benchmark:
         "results/benchmarks/accuracy/work_precision.tsv"
-    conda:
-        "../envs/vibroimpact.yaml"
-    script:
-        "../scripts/figure.py"
-
-
-rule stress_tests:
-    output:
-        **in_report(
-            figure_files("results/accuracy/stress_tests", SPECS["stress_tests"]["tables"]), "Accuracy and speed"
-        ),
-    params:
-        figure="stress_tests",
-        module=module_of("stress_tests"),
-        settings={"full": FULL},
-        config={"accuracy.effort": ACCURACY["effort"]},
-        code=code("figure", module_of("stress_tests")),
-    priority: 30
-    log:
-        "results/logs/accuracy/stress_tests.log",
-    benchmark:
-        "results/benchmarks/accuracy/stress_tests.tsv"
-    conda:
-        "../envs/vibroimpact.yaml"
-    script:
-        "../scripts/figure.py"
-
-
-rule grazing:
-    output:
-        **in_report(figure_files("results/accuracy/grazing", SPECS["grazing"]["tables"]), "Accuracy and speed"),
-    params:
-        figure="grazing",
-        module=module_of("grazing"),
-        settings={},
-        config={},
-        code=code("figure", module_of("grazing")),
-    priority: 30
-    log:
-        "results/logs/accuracy/grazing.log",
     conda:
         "../envs/vibroimpact.yaml"
     script:
@@ -83,18 +66,19 @@ MODELLED = {figure: entry for figure, entry in config["figures"].items() if "mod
 
 rule models:
     output:
-        **in_report(figure_files("results/accuracy/models", SPECS["models"]["tables"]), "Accuracy and speed"),
+        **files("models", "Accuracy and speed", folder="accuracy"),
     params:
-        figure="models",
-        module=module_of("models"),
-        settings={
-            "scenes": {figure: modelled(figure, entry) for figure, entry in MODELLED.items()},
-            "seconds": ACCURACY["short_seconds"],
-        },
-        config={f"figures.{figure}": entry for figure, entry in MODELLED.items()}
-        | {f"cases.{entry['case']}": config["cases"][entry["case"]] for entry in MODELLED.values()}
-        | {"system": config["system"]},
-        code=code("figure", module_of("models"), *(spec(figure)["module"] for figure in MODELLED)),
+        **chart(
+            "models",
+            {
+                "scenes": {figure: modelled(figure, entry) for figure, entry in MODELLED.items()},
+                "seconds": ACCURACY["short_seconds"],
+            },
+            {f"figures.{figure}": entry for figure, entry in MODELLED.items()}
+            | {f"cases.{entry['case']}": config["cases"][entry["case"]] for entry in MODELLED.values()}
+            | {"system": config["system"]},
+            *(spec(figure)["module"] for figure in MODELLED),
+        ),
     threads: ALL_CORES
     log:
         "results/logs/accuracy/models.log",
@@ -121,12 +105,12 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# The charts that are compared with a reference set: their errors, orders and failures, not their seconds.
+# The charts that are compared with a reference set: their errors, orders and failures, not their seconds. Then all.
 CHARTS = "work_precision", "stress_tests", "grazing"
+ALL_CHARTS = *CHARTS, "models"
 
 
 rule accuracy:
     input:
-        [getattr(rules, name).output for name in CHARTS],
-        rules.models.output,
+        [getattr(rules, name).output for name in ALL_CHARTS],
         rules.method_comparison.output,

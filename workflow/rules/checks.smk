@@ -23,11 +23,7 @@ rule figure_check:
 # The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
 use rule figure_check as figure_check_strict with:
     params:
-        figures=config["figures"] | {name: {} for name in CHARTS},
-        reference="figures",
-        page="results/figure_check",
         strict=True,
-        code=code("figure_check"),
     log:
         "results/logs/figure_check_strict.log",
 

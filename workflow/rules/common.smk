@@ -168,10 +168,16 @@ def figure_params(figure, paths, case=None, systems=False, decides=()):
     return params
 
 
-def files(figure, *marks):
+def files(figure, *marks, folder="figures"):
     """Outputs of a figure: <figure>.png, .pdf, .svg, .csv, .provenance.json and further tables; marks: of `in_report`."""
-    tables = spec(figure)["tables"]
-    return in_report(figure_files(f"results/figures/{figure}", tables), *(marks or ("Figures of the chapter",)))
+    made = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
+    return in_report(made, *(marks or ("Figures of the chapter",)))
+
+
+def chart(figure, settings={}, decides={}, *shown):
+    """Params of a chart of accuracy: settings, the entries of the config that decide on it, modules that it draws."""
+    known = {"figure": figure, "module": module_of(figure), "settings": settings, "config": decides}
+    return known | {"code": code("figure", module_of(figure), *shown)}
 
 
 def of_case(figure, paths):
@@ -199,18 +205,6 @@ def scene(figure, *others, section="figures"):
 # The notebooks by name.
 NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
 
-# What the notebook of a page reads beside the files of its figure.
-READ = {
-    "fixed_points": {"points": "results/fixed_points/{case}.csv", "orbits": "results/orbits/{case}.csv"},
-    "theoretical_response": {"points": "results/fixed_points/{case}.csv", "orbits": "results/orbits/{case}.csv"},
-    "simulation": {
-        "points": "results/fixed_points/{case}.csv",
-        "samples": "results/simulations/{case}/{model}/samples.csv",
-        "events": "results/simulations/{case}/{model}/events.csv",
-        "summary": "results/simulations/{case}/{model}/summary.json",
-    },
-}
-
 
 def by_notebook(figures):
     """The notebooks of some figures, each with the figures whose pages it makes."""
@@ -226,11 +220,21 @@ def page_inputs(figure):
     return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
 
 
-def page_params(figure):
-    """What the script of pages takes for a figure: its entry in the config, and the parameters of its notebook."""
-    params = getattr(rules, figure).params
-    given = {name: params.get(name) for name in ("case", "system", "config")}
-    return given | {"scene": titled(figure), "inputs": page_inputs(figure)}
+def read_by(notebook, figures):
+    """Inputs of the rule for the pages of some figures: their notebook, and what it reads for each."""
+    figures_files = sorted({path for figure in figures for path in page_inputs(figure).values()})
+    return {"notebook": own(NOTEBOOKS[notebook]), "read": figures_files}
+
+
+def pages(figures):
+    """Outputs of that rule by figure, and for its script the entry of each in the config and its notebook's parameters."""
+    outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
+    given = {}
+    for figure in figures:
+        params = getattr(rules, figure).params
+        given[figure] = {name: params.get(name) for name in ("case", "system", "config")}
+        given[figure] |= {"scene": titled(figure), "inputs": page_inputs(figure)}
+    return outputs, given
 
 
 def titled(figure):
@@ -283,8 +287,7 @@ def made_with_now(name, wildcards):
         raise LookupError(name)
     made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
     params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
-    inputs = [path for item in made_by.input for path in (item(given) if callable(item) else [item])]
-    return params, [path for path in expand(inputs, **wildcards) if is_result(path)]
+    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
 
 
 def results_of_a_commit(wildcards):

@@ -9,6 +9,13 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
+# What a notebook reads beside the files of its figure.
+ORBITS = {"orbits": "results/orbits/{case}.csv"}
+READ = {
+    "fixed_points": POINTS | ORBITS,
+    "theoretical_response": POINTS | ORBITS,
+    "simulation": POINTS | MOTION | {"summary": "results/simulations/{case}/{model}/summary.json"},
+}
 
 
 rule fig10_01:
@@ -152,17 +159,17 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
 PAGES = by_notebook(config["figures"])
 
 for notebook, shown in PAGES.items():
+    pages_of, given = pages(shown)
 
     rule:
         name:
             f"pages_{notebook}"
         input:
-            sorted({path for figure in shown for path in page_inputs(figure).values()}),
-            notebook=own(NOTEBOOKS[notebook]),
+            **read_by(notebook, shown),
         output:
-            **{figure: f"results/notebooks/{figure}.html" for figure in shown},
+            **pages_of,
         params:
-            pages={figure: page_params(figure) for figure in shown},
+            pages=given,
             code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
         log:
             f"results/logs/notebooks/{notebook}.log",

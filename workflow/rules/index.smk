@@ -10,6 +10,7 @@ rule index:
         html="results/index.html",
     params:
         config={name: config[name] for name in ("system", "cases", "figures")},
+        charts=ALL_CHARTS,
         studies=study_titles,
         code=code("index", "report/data.yaml", *map(module_of, SPECS)),
     log:

@@ -1,4 +1,4 @@
-"""The checkout and all results of the default build -> one archive."""
+"""The checkout and the results of both builds -> one archive."""
 
 import sys
 

@@ -7,14 +7,12 @@ from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results_page import page
 
-ACCURACY = "work_precision", "stress_tests", "grazing", "models"
-
 with running(snakemake) as out:
     texts = figure_texts(ROOT, snakemake.params.config)
     chapter, results = snakemake.params.config["figures"], Path(snakemake.output.html).parent
     groups = {
         "The chapter": {name: texts[name]["title"] for name in chapter},
-        "Speed and accuracy": {name: texts[name]["title"] for name in ACCURACY},
+        "Speed and accuracy": {name: texts[name]["title"] for name in snakemake.params.charts},
         "Studies": snakemake.params.studies,
     }
     Path(out.html).write_text(page(results, groups), encoding="utf-8")

@@ -6,6 +6,7 @@ from vibroimpact import tables
 from vibroimpact.accuracy.comparison import choices, compare
 
 with running(snakemake) as out:
-    measured = tables.read(snakemake.input.work_precision), tables.read(snakemake.input.stress_tests)
-    tables.write(compare(*measured), out.csv)
-    tables.write(choices(*measured), out.choices)
+    work_precision = tables.read(snakemake.input.work_precision)
+    compared = compare(work_precision, tables.read(snakemake.input.stress_tests))
+    tables.write(compared, out.csv)
+    tables.write(choices(work_precision, compared), out.choices)

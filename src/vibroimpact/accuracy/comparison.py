@@ -34,16 +34,16 @@ def compare(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.Data
     return table.reset_index()
 
 
-def choices(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
+def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
     """Return the cheapest and the second cheapest of the stress-tested methods for each problem and error.
+
+    Args:
+        work_precision: the table of that name. compared: what `compare` returns of it.
 
     Columns problem, error (largest allowed, no impact missed or spurious), choice (1, 2), method, setting,
     seconds_per_cycle, wrong (stress tests that the method gets silently wrong), tests.
     """
-    verdicts = stress_tests.groupby("method")["verdict"]
-    counts = pd.DataFrame(
-        {"wrong": verdicts.agg(lambda found: (found == SILENTLY_WRONG).sum()), "tests": verdicts.size()}
-    )
+    counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]
     rows = [
         {"problem": problem, "error": goal, "choice": place, "method": run.method, "setting": run.setting}

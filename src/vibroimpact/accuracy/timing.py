@@ -26,11 +26,6 @@ def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
     return list(zip(given, best, strict=True))
 
 
-def shortest_time(work, seconds: float, most: int = 5000) -> float:
-    """The seconds of the fastest of several calls (see `interleaved`)."""
-    return interleaved([work], seconds, most)[0][1]
-
-
 def versions() -> dict[str, str]:
     """Versions behind a measurement: Python, the processor's architecture, and the packages installed."""
     found = {"python": platform.python_version(), "machine": platform.machine()}

@@ -110,7 +110,7 @@ class Accuracy(Section):
 
     effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
     short_seconds: fields.real("Repeat a timing for so long, in the default build [s]", 1e-3, 1)
-    full_seconds: fields.real("The same in the full form [s]", 1e-3, 60)
+    full_seconds: fields.real("The same with effort: full [s]", 1e-3, 60)
     problems: fields.named(Problem, 1, 3, fields.TITLE) = Field(description="Test problems by free titles")
     benchmark: Benchmark
 

@@ -39,7 +39,7 @@ def reference_sums(reference) -> dict[str, dict]:
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Return verdicts on all figures that a config makes (`specs.made`) or that have a reference, by name."""
+    """Return verdicts on all given figures and those that have a reference, by name."""
     known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
     figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:

@@ -21,10 +21,6 @@ rule study_check:
 
 use rule study_check as study_check_strict with:
     params:
-        figures=rules.study_check.params.figures,
-        reference="figures/studies",
-        page="results/study_check",
         strict=True,
-        code=code("figure_check"),
     log:
         "results/logs/study_check_strict.log",

@@ -76,7 +76,7 @@ for figure, found in MADE.items():
         input:
             **found.inputs,
         output:
-            **in_report(figure_files(f"results/figures/{figure}", spec(figure)["tables"]), "Companion figures", CAPTION),
+            **files(figure, "Companion figures", CAPTION),
         params:
             **found.params,
             code=code("figure", module_of(figure)),
@@ -110,19 +110,23 @@ for figure in config["machines"]:
             "../../scripts/figure.py"
 
 
-if config["machines"]:
+STUDY_PAGES = by_notebook(config["machines"])
 
-    rule pages_physical_units:
+for notebook, shown in STUDY_PAGES.items():
+    pages_of, given = pages(shown)
+
+    rule:
+        name:
+            f"pages_{notebook}"
         input:
-            [path for figure in config["machines"] for path in page_inputs(figure).values()],
-            notebook=own(NOTEBOOKS["physical_units"]),
+            **read_by(notebook, shown),
         output:
-            **{figure: f"results/notebooks/{figure}.html" for figure in config["machines"]},
+            **pages_of,
         params:
-            pages={figure: page_params(figure) for figure in config["machines"]},
-            code=code("notebook", NOTEBOOKS["physical_units"], module_of("machines")),
+            pages=given,
+            code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
         log:
-            "results/logs/notebooks/physical_units.log",
+            f"results/logs/notebooks/{notebook}.log",
         conda:
             "../../envs/vibroimpact.yaml"
         script:
@@ -137,4 +141,4 @@ config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
 rule companions:
     input:
         [getattr(rules, figure).output for figure in STUDY_DRAWINGS],
-        rules.pages_physical_units.output if config["machines"] else [],
+        [getattr(rules, f"pages_{notebook}").output for notebook in STUDY_PAGES],

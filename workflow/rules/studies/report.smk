@@ -71,6 +71,7 @@ rule report:
         site=directory("results/report"),
     params:
         figures=ALL_FIGURES,
+        charts=ALL_CHARTS,
         tables=sorted(
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),

@@ -41,7 +41,7 @@ def version(root) -> str:
     return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 
-def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
+def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, list[str]]:
     """Return the figures of the report in groups, in the order of display."""
     chapter = [figure for figure in figures if figure.startswith("fig10_")]
     companions = [figure for figure in figures if figure.startswith("companion_")]
@@ -49,7 +49,7 @@ def groups(figures: list[str], config: dict) -> dict[str, list[str]]:
         "chapter": chapter,
         "own": [figure for figure in figures if figure not in chapter + companions],
         "companions": companions,
-        "accuracy": ["work_precision", "stress_tests", "grazing", "models"],
+        "accuracy": list(charts),
         "animations": list(config["report"]["animations"]),
         "force_sweep": ["force_sweep"],
         "nudge": ["nudge"],
@@ -60,7 +60,10 @@ with running(snakemake) as out:
     params, folder = snakemake.params, Path(out.site)
     claims = json.loads((Path(snakemake.output.site).parent / "claims.json").read_text(encoding="utf-8"))
     judged = all(claim["verdict"] != NOT_JUDGED for claim in claims)
-    results, shown = Results(Path(snakemake.output.site).parent, judged), groups(params.figures, params.config)
+    results, shown = (
+        Results(Path(snakemake.output.site).parent, judged),
+        groups(params.figures, params.charts, params.config),
+    )
     tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
     pages = Pages(ROOT, results, params.config, shown, [Path(table).name for table in tables])
     collect(results, pages.pictures, tables, folder)

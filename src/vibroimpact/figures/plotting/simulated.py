@@ -43,7 +43,7 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
     Returns columns displacement ("X1", "X2"), smallest and largest amplitude, amplitude variation (standard deviation
     over mean), modulation periods (how many distances there are between swells), mean length in cycles (of these; blank
-    without any); see `regimes.modulation`.
+    without any); see `exact.measures.modulation`.
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
