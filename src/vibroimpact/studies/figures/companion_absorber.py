@@ -104,7 +104,8 @@ SPEC = {
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
 """Quantities of the summary, beside those of `_held_against`."""
-LIGHT, STAR = "#D55E00", {"marker": "*", "markersize": 10, "markeredgecolor": "white", "linestyle": "none"}
+LIGHT = "#D55E00"
+STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
 """Colour of the best restitution coefficient, and mark of the lowest peaks."""
 NEARLY = 1.25
 """The margin of a clearance: where the peak is at most so many times the lowest."""

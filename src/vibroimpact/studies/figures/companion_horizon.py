@@ -56,7 +56,7 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.semilogy(expected["cycle"], expected["error"], color=GREY, linestyle="--", linewidth=1.6, label="expected")
     ((cycle, error),) = select(table, "error", "horizon")[["cycle", "error"]].to_numpy()
     axes.plot(cycle, error, marker="o", color=BLACK, linestyle="none", markersize=4)
-    axes.annotate("horizon", (cycle, error), xytext=(6, -3), textcoords="offset points")
+    axes.annotate("horizon", (cycle, error), xytext=(-7, -3), textcoords="offset points", ha="right")
     axes.set(xlim=(0, measured["cycle"].max()), ylim=(1e-17, 30), xlabel="forcing cycle", ylabel="error of float64")
     axes.legend(loc="lower right")
     return figure
