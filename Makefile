@@ -59,7 +59,7 @@ QUICK = $(addprefix tests/,system theory exact/orbits \
 	figures/test_specs.py figures/test_notebooks.py pipeline/test_config_reading.py docs/test_map.py) \
 	$(wildcard $(addprefix tests/studies/,sweeps absorbers regimes/test_classification.py report/test_report_text.py))
 # Import contracts of the chapter, and of the studies if they are there.
-CONTRACTS = for config in pyproject.toml $(wildcard tests/studies/importlinter.toml); do .venv/bin/lint-imports --config $$config || exit; done
+CONTRACTS = for config in pyproject.toml $(wildcard tests/studies/importlinter.toml) ; do .venv/bin/lint-imports --config $$config || exit; done
 
 test-quick: development  ## lint, import contracts, tests of formulas, orbits, engine and config (under a minute)
 	.venv/bin/ruff check

@@ -221,13 +221,13 @@ def page_inputs(figure):
 
 
 def read_by(notebook, figures):
-    """Inputs of the rule for the pages of some figures: their notebook, and what it reads for each."""
-    figures_files = sorted({path for figure in figures for path in page_inputs(figure).values()})
-    return {"notebook": own(NOTEBOOKS[notebook]), "read": figures_files}
+    """Inputs of the job that makes the pages of some figures: their notebook, and what it reads for each."""
+    read = sorted({path for figure in figures for path in page_inputs(figure).values()})
+    return {"notebook": own(NOTEBOOKS[notebook]), "read": read}
 
 
 def pages(figures):
-    """Outputs of that rule by figure, and for its script the entry of each in the config and its notebook's parameters."""
+    """Outputs of that job by figure, and for its script the entry of each in the config and its notebook's parameters."""
     outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
     given = {}
     for figure in figures:
