@@ -6,5 +6,5 @@ from vibroimpact_pipeline.code import INSTALLED, ROOT
 from vibroimpact_pipeline.environment import set_environment
 
 set_environment(None if INSTALLED else ROOT)
-# Of the time that imports take, a fifth would go into searching the objects of libraries for garbage.
+# With the default threshold, garbage collection takes a fifth of the import time.
 gc.set_threshold(100_000, 50, 50)

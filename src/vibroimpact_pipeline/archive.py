@@ -1,4 +1,4 @@
-"""The archive of a build, to cite and to run elsewhere: committed sources, results, an RO-Crate with their sums."""
+"""Archive of a build: committed sources, results, and an RO-Crate with their checksums."""
 
 import gzip
 import io
@@ -17,16 +17,16 @@ from vibroimpact_pipeline.result_records import digest_of, records
 
 need("archive", "rocrate")
 
-from rocrate.model import ContextEntity  # noqa: E402 (after the word on what is missing)
+from rocrate.model import ContextEntity  # noqa: E402 (after the dependency check)
 from rocrate.rocrate import ROCrate  # noqa: E402
 
 WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return all results of the jobs that made the targets, and their inputs, as the records say.
+    """Return all results of the jobs that made the targets, and the inputs of these jobs, according to the records.
 
-    What was made on demand and is not behind them stays out: it may be of an older commit.
+    Results that were made on demand are excluded unless a target depends on them: they may be from an older commit.
     """
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
@@ -44,13 +44,14 @@ def _job(record):
 
 
 def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
-    """Yield a line for each result behind the targets, as far as it exists, that was made with something else than now.
+    """Yield a line for each existing result behind the targets that the current rules would make differently.
 
-    Those that were only made from another input come last, as that may follow from one of the others.
+    Results for which only an input has changed come last, since this may be a consequence of another line.
 
     Args:
         targets: paths of results.
-        now: params and inputs of a rule with wildcards; raises LookupError if there is no such rule any more.
+        now: function that returns the current params and inputs of a rule with wildcards; it raises LookupError if the
+            rule no longer exists.
     """
     known, seen, pending, following = records(), set(), list(targets), []
     while pending:
@@ -62,23 +63,23 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
         try:
             params, paths = now(record["rule"], record["wildcards"])
         except LookupError:
-            yield f"{path}: no record of what it was made with"
+            yield f"{path}: its record has no rule or params"
             continue
         if inputs.keys() != {*paths}:
-            yield f"{path}: made from other inputs"
+            yield f"{path}: the inputs of its rule have changed"
             continue
         if other := [one for one in inputs if one in known and known[one].get("sha256") != inputs[one]]:
-            following.append(f"{path}: made from another {other[0]}")
+            following.append(f"{path}: its input {other[0]} has changed")
         else:
             for place, was, is_now in differences(record["params"], json.loads(json.dumps(params))):
-                yield f"{path}: made with {place} {was}, now {is_now}"
+                yield f"{path}: {place} was {was}, is now {is_now}"
                 break
         pending += inputs
     yield from following
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:
-    """Yield place, value and other value where two trees of mappings differ; a value that is not there is None."""
+    """Yield key path, value and other value where two nested mappings differ; a missing value is None."""
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
             yield from differences(one.get(name), other.get(name), f"{place}.{name}".removeprefix("."))
@@ -91,12 +92,12 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
 
     Args:
         root: the checkout.
-        results: paths of the results from the working directory.
-        titles: of the figures, by their names.
-        path: of the archive, a .tar.gz.
+        results: paths of the results, relative to the working directory.
+        titles: titles of the figures by name.
+        path: path of the archive, a .tar.gz file.
 
     Raises:
-        ValueError: the checkout is no git checkout, or differs from its commit.
+        ValueError: if the checkout is not a git checkout or has uncommitted changes.
     """
     commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
@@ -105,7 +106,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
         with tarfile.open(fileobj=io.BytesIO(output("archive", commit, root=root))) as sources:
-            sources.extraction_filter = getattr(tarfile, "data_filter", None)  # Python 3.11.4 brought it
+            sources.extraction_filter = getattr(tarfile, "data_filter", None)  # available since Python 3.11.4
             sources.extractall(staged)
         for result in results:
             (staged / result).parent.mkdir(parents=True, exist_ok=True)
@@ -129,7 +130,7 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
     ]
     described.add(*authors)
     described.name = cited["title"]
-    described.description = f"Sources of commit {commit} and what the default build made of them."
+    described.description = f"Sources of commit {commit} and the results of the default build."
     described.license = f"https://spdx.org/licenses/{cited['license']}"
     described.root_dataset["author"] = workflow["author"] = authors
     described.datePublished = date
@@ -144,7 +145,7 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
 
 
 def _plain(member: tarfile.TarInfo, time: int) -> tarfile.TarInfo:
-    """Strip owner and time from an archive entry, so that the same files give the same bytes."""
+    """Normalise owner, time and mode of an archive entry, so that equal files give equal bytes."""
     member.uid = member.gid = 0
     member.uname = member.gname = ""
     member.mtime, member.mode = time, 0o755 if member.isdir() or member.mode & 0o100 else 0o644

@@ -1,20 +1,20 @@
-"""The case of every entry of a config: named by the entry, or else `default_case`. Standard library only."""
+"""Assign a case to every entry of a config: the one that it names, or `default_case`. Standard library only."""
 
 import copy
 
 CHAPTER = ("equal", "unequal", "weak")
-"""Cases of the chapter. A config may do without them: see `with_cases`."""
+"""Cases of the chapter. A config may omit them: see `with_cases`."""
 SINGLE = ("accuracy.benchmark", "report.force_sweep", "regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
-    """Return a copy of a config in which every entry that is about a case names it.
+    """Return a copy of a config in which every entry that needs a case names one.
 
-    An entry without a case takes `default_case`, which is the first case unless the config says otherwise; figures of
-    the chapter have to name theirs. If a case of the chapter is not among the cases, what shows it is left out
-    (figures, animations, the mixed point of `regimes.epsilon`), and all other entries about it take the default.
-    Anything malformed is left for the check of the config.
+    An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
+    must name their case. If a case of the chapter is missing, the figures, the animations and the mixed point of
+    `regimes.epsilon` that show it are removed; all other entries that name it get the default case. Malformed entries
+    are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")
@@ -37,19 +37,21 @@ def with_cases(config: dict) -> dict:
     return config
 
 
-def own_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of a case's own entry: its forcing amplitudes, and what differs from `system`."""
+def case_overrides(config: dict, case: str) -> dict:
+    """Return the parameters in the entry of a case: forcing amplitudes and values that override `system`."""
     return {name: value for name, value in config["cases"][case].items() if name not in ("title", "simulation")}
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return the name of a case in titles and captions: its title, or else its name with what differs from `system`."""
-    own = [f"{name} = {value}" for name, value in own_parameters(config, case).items() if name in config["system"]]
-    return config["cases"][case].get("title") or case + (f" ({', '.join(own)})" if own else "")
+    """Return the text for a case in titles and captions: its title, or its name and values overriding `system`."""
+    overrides = [
+        f"{name} = {value}" for name, value in case_overrides(config, case).items() if name in config["system"]
+    ]
+    return config["cases"][case].get("title") or case + (f" ({', '.join(overrides)})" if overrides else "")
 
 
 def _at(config, path):
-    """Return the mapping at "section.key", an empty one if there is none."""
+    """Return the mapping at "section.key", or an empty mapping if it does not exist."""
     for key in path.split("."):
         config = config.get(key) if isinstance(config, dict) else None
     return config if isinstance(config, dict) else {}

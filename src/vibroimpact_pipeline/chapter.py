@@ -1,7 +1,7 @@
-"""The parameters and cases of the chapter, compared with those of a config."""
+"""Compare the parameters and cases of a config with those of the chapter."""
 
 from vibroimpact.system.chapter import CASES, PARAMETERS
-from vibroimpact_pipeline.cases import own_parameters
+from vibroimpact_pipeline.cases import case_overrides
 
 CASE_OF = {
     "fig10_06": "equal",
@@ -15,15 +15,17 @@ CASE_OF = {
 
 
 def departures(config: dict) -> list[str]:
-    """Return one line per difference between a config and section 10.4; additional cases are not differences."""
+    """Return one line for each difference between a config and section 10.4, ignoring additional cases."""
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:
-            found += _differences(f"cases.{case}", PARAMETERS | own_parameters(config, case), PARAMETERS | forces)
+            found += _differences(f"cases.{case}", PARAMETERS | case_overrides(config, case), PARAMETERS | forces)
         else:
-            found.append(f"there is no case {case}")
+            found.append(f"cases.{case} is missing")
     return found
 
 
 def _differences(place, given, printed):
-    return [f"{place}.{name} is {given[name]}, not {value}" for name, value in printed.items() if given[name] != value]
+    return [
+        f"{place}.{name} is {given[name]} instead of {value}" for name, value in printed.items() if given[name] != value
+    ]

@@ -1,7 +1,8 @@
-"""The code behind a job, for the `params` of its rule: the modules that its script imports, and files that they read.
+"""Fingerprints of the code behind a job: the modules that its script imports, and the files that these read.
 
-A fingerprint is of parsed code without comments and docstrings: a comment schedules nothing, a formula
-schedules the jobs that use it, two imports away as well. Standard library only.
+The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings, so that
+editing a comment reruns nothing, and editing a formula reruns every job that imports it, directly or indirectly.
+Standard library only.
 """
 
 import ast
@@ -11,12 +12,12 @@ from functools import cache
 from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[1]
-"""The folder of the packages: `src` of a checkout, or where they are installed."""
+"""Folder that contains the packages: `src` of a checkout, or the installation folder."""
 SHIPPED = Path(__file__).resolve().with_name("checkout")
-"""Files of the checkout in a wheel, besides the packages (pyproject.toml lists them)."""
+"""Folder of the other files of the checkout in a wheel (listed in pyproject.toml)."""
 INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
-"""The checkout, or the files of it in an installed pipeline."""
+"""The checkout, or in an installed pipeline the folder with its files."""
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
 CODE = ".py", ".pyi", ".typed"
 DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
@@ -26,9 +27,9 @@ def behind(*roots: str) -> list[Path]:
     """Return all files behind a job, sorted.
 
     Args:
-        roots: modules by name, as vibroimpact.figures.fig10_06; files and folders by their path from the checkout.
-            Modules, scripts and notebooks bring what they import, directly or not. A module brings the files beside it
-            that are no modules, such as styles and templates.
+        roots: names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout.
+            Modules, scripts and notebooks include everything that they import, directly or indirectly. A module also
+            includes the other files in its folder, such as styles and templates.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:
@@ -42,7 +43,7 @@ def behind(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files behind a job; of folders every byte counts, comments as well."""
+    """Return the fingerprint of the files behind a job; for folders it covers every byte, including comments."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for name, path in sorted((_name(path), path) for path in behind(*roots)):
         content = path.read_bytes() if path in listed else _content(path)
@@ -51,13 +52,13 @@ def fingerprint(*roots: str) -> str:
 
 
 def _name(path: Path) -> str:
-    """Return the path of a file from the checkout or, of a module, from its `src`: the same in a wheel."""
+    """Return the path of a file relative to the checkout, or to `src` for a module; a wheel gives the same path."""
     top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
     return path.relative_to(top).as_posix()
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime (ns) of every file behind a job: putting an old version back changes it, too."""
+    """Return the ctime (ns) of every file behind a job; unlike the mtime it also changes when a file is restored."""
     return {path: path.stat().st_ctime_ns for path in behind(*roots)}
 
 
@@ -67,7 +68,7 @@ def _paths(root: str) -> list[Path]:
         return module_files(root)
     top = ROOT / root
     if not top.exists():
-        raise FileNotFoundError(f"{root}: neither a module nor a file of the checkout")
+        raise FileNotFoundError(f"{root}: expected a module of this project, or a file or folder of the checkout")
     found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
     return [
         path for path in found if path.is_file() and (not path.is_relative_to(SHIPPED) or top.is_relative_to(SHIPPED))
@@ -75,7 +76,7 @@ def _paths(root: str) -> list[Path]:
 
 
 def is_source(path: Path) -> bool:
-    """Return True for a path below a folder of sources that is neither hidden nor bytecode."""
+    """Return True if a path within a source folder is neither hidden nor bytecode."""
     return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
@@ -95,7 +96,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module: it, the packages around it, and what lies beside it; none for another's module."""
+    """Return a module, its parent packages and the other files in its folder; an empty list for other projects."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -105,13 +106,13 @@ def module_files(name: str) -> list[Path]:
 
 
 def _imported(path: Path) -> set[str]:
-    """Return the names of this project's modules that a file imports, anywhere in it."""
+    """Return the names of the modules of this project that a file imports anywhere."""
     return _parsed(path, path.stat().st_ctime_ns)[1]
 
 
 @cache
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
-    """Return the code of a module, script or notebook without comments and docstrings, and what it imports."""
+    """Return the code of a module, script or notebook without comments and docstrings, and the names of its imports."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
         cells = json.loads(text)["cells"]
@@ -128,15 +129,15 @@ def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
 
 
 def _content(path: Path) -> bytes:
-    """Return what counts of a file: of a module its code, of any other all bytes."""
+    """Return the content that the fingerprint covers: the parsed code of a module, all bytes of any other file."""
     return _parsed(path, path.stat().st_ctime_ns)[0].encode() if path.suffix == ".py" else path.read_bytes()
 
 
 def changed(code: dict) -> bool:
-    """Return True if the code behind a job, as `code_of` gives it, is another one now."""
+    """Return True if the code behind a job has changed since `code_of` returned this value."""
     return fingerprint(*code["of"]) != code["fingerprint"]
 
 
 def code_of(*roots: str) -> dict:
-    """Return the code behind a job for the params of its rule: the roots of `behind`, and their fingerprint."""
+    """Return the value of `params.code` for a rule: the roots of `behind` and their fingerprint."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

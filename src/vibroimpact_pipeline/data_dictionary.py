@@ -1,4 +1,4 @@
-"""The data dictionary: contents of every results file, from the figures' SPECs and report/data.yaml."""
+"""Data dictionary: the contents of every results file, from the SPECs of the figures and report/data.yaml."""
 
 import re
 from dataclasses import dataclass, field
@@ -12,32 +12,36 @@ from vibroimpact_pipeline.specs import columns, each, specs
 DATA = "report/data.yaml"
 DRAWN = "results/figures/"
 LABEL = "data-"
-"""Begins the name of a table's place on the pages of data."""
+"""Prefix of the anchors of tables on the data pages."""
 
 
 @dataclass(frozen=True)
 class File:
     """One kind of results file.
 
-    paths: where such files are; {case} and the like stand for a word. about: what they hold. columns: meaning, unit and
-    maybe values of each column, by name; own: names of those whose meaning is not shared. keys: meaning by the path of
-    the key, with * for every entry. on_demand: the command by path, for what a plain build leaves alone.
+    Args:
+        paths: paths of the files; a placeholder such as {case} stands for one word.
+        about: description of the content.
+        columns: meaning, unit and, optionally, allowed values of each column by name.
+        specific: names of the columns whose meaning is specific to this file.
+        keys: meaning of each key by its path; * stands for every entry.
+        on_demand: command that makes the file, by path, if the default build does not.
     """
 
     paths: list[str]
     about: str
     columns: dict[str, dict] = field(default_factory=dict)
-    own: list[str] = field(default_factory=list)
+    specific: list[str] = field(default_factory=list)
     keys: dict[str, str] = field(default_factory=dict)
     on_demand: dict[str, str] = field(default_factory=dict)
 
     def has(self, path: str) -> bool:
-        """Return True if a path relative to the checkout is one of these files."""
+        """Return True if a path relative to the checkout matches one of `paths`."""
         return any(stands_for(pattern, path) for pattern in self.paths)
 
 
 def stands_for(pattern: str, path: str) -> bool:
-    """Return True if a pattern with {words} matches a path."""
+    """Return True if a pattern with placeholders such as {case} matches a path."""
     return re.fullmatch(r"[\w-]+".join(map(re.escape, re.split(r"\{\w+\}", pattern))), path) is not None
 
 
@@ -48,24 +52,26 @@ def read(root) -> tuple[dict, dict]:
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """Return all kinds of files, those of figures first; `known` is the SPEC of each figure."""
+    """Return all kinds of files, tables of figures first; `known` maps figures to their SPEC."""
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
     found = []
     for entry in [{**table, "files": [table["file"]]} for table in tables] + data["files"]:
         listed = each(entry.get("columns", {}))
-        own = [name for name, entry in listed.items() if name not in shared or entry.keys() - {"compared", "infinite"}]
+        specific = [
+            name for name, entry in listed.items() if name not in shared or entry.keys() - {"compared", "infinite"}
+        ]
         known_columns, keys = columns({"columns": listed}, shared), each(entry.get("keys", {}))
-        found.append(File(entry["files"], entry["about"], known_columns, own, keys, entry.get("on_demand", {})))
+        found.append(File(entry["files"], entry["about"], known_columns, specific, keys, entry.get("on_demand", {})))
     return found
 
 
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
-    """Return the data dictionary as Markdown, without its heading; by `of_figures` one part of its files only."""
+    """Return the data dictionary as Markdown without heading; `of_figures` selects tables of figures or other files."""
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),
-        "## Names that mean the same in every file",
+        "## Columns with the same meaning in every file",
         _columns(each(data["shared"])),
     ]
     listed = [file for file in files(known, data) if of_figures in (None, file.paths[0].startswith(DRAWN))]
@@ -74,18 +80,18 @@ def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
 
 
 def _section(file):
-    """Return one section: heading, path and content of the file, names of the shared columns, table of the others."""
+    """Yield the parts of a section: heading, paths and description, names of shared columns, tables of others."""
     on_demand = {path: f" (made by `{command}`)" for path, command in file.on_demand.items()}
     places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
-    common = [f"`{name}`" for name in file.columns if name not in file.own]
+    common = [f"`{name}`" for name in file.columns if name not in file.specific]
     path = file.paths[0]
     place = f"({LABEL}{Path(path).stem.replace('_', '-')})=\n" if path.endswith(".csv") and "{" not in path else ""
     yield f"{place}### {path.removeprefix('results/')}"
     yield f"{', '.join(places)}: {file.about}"
     if common:
-        yield f"Shared names: {', '.join(common)}."
-    if file.own:
-        yield _columns({name: file.columns[name] for name in file.own})
+        yield f"Shared columns: {', '.join(common)}."
+    if file.specific:
+        yield _columns({name: file.columns[name] for name in file.specific})
     if file.keys:
         yield _table(["key", "meaning"], ((f"`{key}`", meaning) for key, meaning in file.keys.items()))
 
@@ -96,13 +102,13 @@ def _columns(listed):
 
 
 def _meaning(entry):
-    """Return the meaning of a column, with its allowed values unless the meaning names them."""
+    """Return the meaning of a column, followed by its allowed values unless the meaning lists them."""
     meaning, values = entry["meaning"], entry.get("values", [])
     return meaning if all(value in meaning for value in values) else f"{meaning}: {'; '.join(values)}"
 
 
 def _table(heads, rows):
-    """Return a pipe table with one row for all names of the same meaning."""
+    """Return a pipe table in which consecutive names with the same meaning share a row."""
     merged = ((", ".join(name for name, *_ in same), *rest) for rest, same in groupby(rows, lambda row: row[1:]))
     lines = [heads, ["---"] * len(heads), *merged]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)

@@ -1,4 +1,4 @@
-"""The data package (Frictionless Table Schema) of a build's tables, from the data dictionary."""
+"""Data package (Frictionless Table Schema) of the tables of a build, from the data dictionary."""
 
 from pathlib import Path
 
@@ -9,18 +9,18 @@ TYPES = {
     "text": {"type": "string"},
     "true or false": {"type": "boolean", "trueValues": ["True"], "falseValues": ["False"]},
 }
-"""Type of a column by its unit; all others are numbers."""
+"""Type of a column by its unit; columns with any other unit are numbers."""
 
 
 def data_package(headers: dict[str, list[str]], known: list[File], units: dict[str, str], cited: dict) -> dict:
     """Return the data package of CSV files as JSON data.
 
     Args:
-        headers: names of the columns by path of the table: below results/, where the package is to lie.
+        headers: names of the columns by path of the table; the package is written to results/.
         known: kinds of files. units: meaning of each unit. cited: content of CITATION.cff.
 
     Raises:
-        LookupError: a table or column that the dictionary lacks.
+        LookupError: if the dictionary lacks a table or column.
     """
     return {
         "profile": "tabular-data-package",
@@ -38,7 +38,7 @@ def data_package(headers: dict[str, list[str]], known: list[File], units: dict[s
 def _resource(path, header, known, units):
     about, columns = next(((file.about, file.columns) for file in known if file.has(path)), ("", {}))
     if missing := [name for name in header if name not in columns]:
-        raise LookupError(f"{path}: {', '.join(missing)}: not in the data dictionary")
+        raise LookupError(f"{path}: columns {', '.join(missing)} are missing in the data dictionary")
     below = path.removeprefix("results/")
     return {
         "profile": "tabular-data-resource",

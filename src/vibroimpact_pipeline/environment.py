@@ -1,4 +1,4 @@
-"""The environment variables of every command of the pipeline and of its jobs."""
+"""Environment variables of all commands and jobs of the pipeline."""
 
 import getpass
 import importlib.util
@@ -12,25 +12,24 @@ CACHES = {
     "IPYTHONDIR": "ipython",
     "HEYOKA_CACHE_DIR": "heyoka",
 }
-"""Folders below `.cache` by the variable that names each to its library; by default they lie in the home directory."""
+"""Cache folders below `.cache` by environment variable; by default libraries use the home directory."""
 
-OF_THE_USER = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
-"""Beginnings of variables that would bring kernels, page templates, a backend of Matplotlib or code from elsewhere."""
+REMOVED = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
+"""Prefixes of user variables that would change kernels, page templates, the Matplotlib backend or start-up code."""
 
-NEEDED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
-"""Modules without which jobs fail; Snakemake alone parses, lints and lists the workflow."""
+REQUIRED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
+"""Modules that jobs need; parsing, linting and listing the workflow needs only Snakemake."""
 
 
 def missing_libraries() -> list[str]:
     """Return the names of required modules that are not installed."""
-    return [name for name in NEEDED if importlib.util.find_spec(name) is None]
+    return [name for name in REQUIRED if importlib.util.find_spec(name) is None]
 
 
 def set_environment(checkout: Path | None) -> None:
-    """Set the variables of this process and of its jobs: the library of the
-    checkout, caches there, one thread each.
+    """Set the variables of this process and its jobs: library path, cache folders, one thread per job.
 
-    Without a checkout, or where it cannot be written to, caches lie in the working directory.
+    Caches are stored in the working directory if there is no checkout or if the checkout is not writable.
     """
     cache_folder = (checkout if checkout and os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():
@@ -39,11 +38,14 @@ def set_environment(checkout: Path | None) -> None:
     if checkout:
         paths = [str(checkout / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
         os.environ["PYTHONPATH"] = os.pathsep.join(dict.fromkeys(paths))
-    for variable in [name for name in os.environ if name.startswith(OF_THE_USER)]:
+    for variable in [name for name in os.environ if name.startswith(REMOVED)]:
         del os.environ[variable]
     os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         getpass.getuser()
-    except (KeyError, OSError):  # in a container, say, where Snakemake would end in a traceback
+    except (
+        KeyError,
+        OSError,
+    ):  # in a container without a user name, for example, where Snakemake fails with a traceback
         os.environ["LOGNAME"] = str(os.getuid())

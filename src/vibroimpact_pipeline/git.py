@@ -1,4 +1,4 @@
-"""Every call of git, with the same answer whatever the settings and variables of the user are."""
+"""Run git so that its output does not depend on settings and environment variables of the user."""
 
 import os
 import subprocess
@@ -13,25 +13,25 @@ SETTINGS = {
     "log.showSignature": "false",
     "tar.umask": "0002",
 }
-"""Settings that change the output of git or the bytes of a checkout. Others of the user count, as safe.directory."""
+"""Settings that affect the output of git or the bytes of a checkout. Other settings, such as safe.directory, apply."""
 ABSENT = "not a git repository"
-"""What git prints outside a repository."""
-SHOWN = 4
-"""Changed paths in a message."""
+"""Part of the message that git prints outside a repository."""
+MAX_PATHS = 4
+"""Maximum number of changed paths in a message."""
 
 
 class GitRefused(ValueError):
-    """There is a repository, and git does not read it: its directory belongs to somebody else, for instance."""
+    """Raised if git does not read a repository, for example because another user owns its directory."""
 
 
 def call(*arguments, root=".", **variables) -> subprocess.CompletedProcess:
-    """Run a git command in a directory, in English, without variables that name another repository.
+    """Run a git command in a directory, with English output and without variables that select another repository.
 
     Args:
-        variables: further variables of its environment.
+        arguments: arguments of git. root: directory. variables: additional environment variables.
 
     Raises:
-        OSError: there is no git.
+        OSError: if git is not installed.
     """
     kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
     neutral = [word for setting in SETTINGS.items() for word in ("-c", "=".join(setting))]
@@ -43,22 +43,22 @@ def output(*arguments, root=".") -> bytes:
     """Return the output of a git command in a repository.
 
     Raises:
-        GitRefused: the command failed; the message is git's, in one line.
+        GitRefused: if the command fails; the message is that of git in one line.
     """
     run = call(*arguments, root=root)
     if run.returncode:
-        raise GitRefused(f"git refuses: {' '.join(run.stderr.decode('utf-8', 'replace').split())}")
+        raise GitRefused(f"git failed: {' '.join(run.stderr.decode('utf-8', 'replace').split())}")
     return run.stdout
 
 
 def git(*arguments, root=".") -> str | None:
-    """Return the output of a git command in a directory, or None if git does not track that directory.
+    """Return the output of a git command in a directory, or None if git does not track the directory.
 
-    That is so without git, without a repository, and in a copy of the pipeline that lies inside another repository,
-    whose commit and changes say nothing about it.
+    Git tracks no file of the directory if git is not installed, if there is no repository, or if the directory is an
+    untracked copy inside another repository.
 
     Raises:
-        GitRefused: git does not read the repository.
+        GitRefused: if git does not read the repository.
     """
     try:
         tracked = output("ls-files", "-z", ".", root=root)
@@ -72,7 +72,7 @@ def git(*arguments, root=".") -> str | None:
 
 
 def changes(root=".") -> list[str] | None:
-    """Return the paths of a checkout that differ from its commit, untracked ones too, or None (see `git`)."""
+    """Return the modified and untracked paths of a checkout, or None if git does not track it (see `git`)."""
     listed = git("status", "--porcelain", "--untracked-files=normal", "--ignore-submodules=none", ".", root=root)
     return None if listed is None else [line[3:] for line in listed.splitlines()]
 
@@ -91,12 +91,14 @@ def committed(root) -> str:
     """Return the commit of a clean git checkout.
 
     Raises:
-        ValueError: there is no git checkout, git does not read it, or it differs from its commit.
+        ValueError: if there is no git checkout, git does not read it, or it has uncommitted changes.
     """
     commit, changed = git("rev-parse", "HEAD", root=root), changes(root)
     if changed is None:
-        raise ValueError("there is no git, or no git repository of the pipeline: the archive holds a commit")
+        raise ValueError("the pipeline is not a git checkout, or git is not installed; an archive needs a commit")
     if changed:
-        more = f" and {len(changed) - SHOWN} more" if len(changed) > SHOWN else ""
-        raise ValueError(f"not committed: {', '.join(changed[:SHOWN])}{more}. Commit, ignore or remove them first")
+        more = f" and {len(changed) - MAX_PATHS} more" if len(changed) > MAX_PATHS else ""
+        raise ValueError(
+            f"uncommitted changes in {', '.join(changed[:MAX_PATHS])}{more}; commit, ignore or remove them first"
+        )
     return commit

@@ -1,4 +1,4 @@
-"""The frame of every job: its log, checks of code and inputs before and after, outputs moved into place at the end."""
+"""Context of every job: write its log, check code and inputs before and after, move outputs into place at the end."""
 
 import ctypes
 import os
@@ -23,16 +23,16 @@ PR_SET_PDEATHSIG = 1
 
 
 class Refused(RuntimeError):
-    """Something changed while the job ran, so that its outputs cannot be used."""
+    """Raised if code or inputs changed, so that the outputs of the job cannot be used."""
 
 
 @contextmanager
 def running(job) -> Iterator[SimpleNamespace]:
-    """Run the script of a Snakemake job, whose outputs are named; give their temporary paths by name.
+    """Run the script of a Snakemake job with named outputs; yield their temporary paths by name.
 
-    What the script prints goes to the job's log. The job fails, with one line there, and replaces nothing, if its code
-    is not the code that the rules saw (`params.code`, see `code.code_of`), if an input is not what its job wrote, or
-    if either changes meanwhile. An error in an argument from the config is one line, too.
+    Output of the script is written to the log of the job. The job fails with one line and replaces no output if its
+    code differs from `params.code` (see `code.code_of`), if an input differs from its record, or if either changes
+    while the job runs. An invalid value from the config is reported in one line, too.
     """
     end_with_parent()
     with ExitStack() as stack:
@@ -42,7 +42,7 @@ def running(job) -> Iterator[SimpleNamespace]:
             behind = job.params.get("code", {"of": ()})
             before = code.change_times(*behind["of"])
             if behind["of"] and code.changed(behind):
-                raise Refused("the code has changed since the build began. Build again.")
+                raise Refused("the code has changed since the build began; rerun the build")
             inputs = checked_digests(job.input)
             made_with = {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": dict(job.params.items())}
             partial = {name: partial_path(path) for name, path in job.output.items()}
@@ -50,9 +50,9 @@ def running(job) -> Iterator[SimpleNamespace]:
                 stack.callback(shutil.rmtree, path.parent)
             yield SimpleNamespace(**{name: str(path) for name, path in partial.items()})
             if code.change_times(*behind["of"]) != before:
-                raise Refused("the code has changed while this job ran. Build again.")
+                raise Refused("the code has changed while this job ran; rerun the build")
             if checked_digests(job.input) != inputs:
-                raise Refused("an input has changed while this job ran. Build again.")
+                raise Refused("an input has changed while this job ran; rerun the build")
             for name, path in job.output.items():
                 put_in_place(partial[name], Path(path))
                 write_record(path, made_with | {"inputs": inputs})
@@ -62,17 +62,17 @@ def running(job) -> Iterator[SimpleNamespace]:
             if line := with_key(error, job.params.get("config") or {}):
                 sys.exit(line)
             raise
-    if type(job).__module__.startswith("snakemake."):  # nothing follows; to take the interpreter apart costs 0.3 s
+    if type(job).__module__.startswith("snakemake."):  # skip the shutdown of the interpreter, which takes 0.3 s
         sys.stdout.flush()
         os._exit(0)
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return an error of the library with the config key of its argument; None if the argument is not from the config.
+    """Return the text of an error with the config key of its argument, or None if the config lacks the argument.
 
     Args:
-        error: an error or its text, which begins with the name of an argument and a colon.
-        decided: entries of the config by their whole key.
+        error: error or text that begins with the name of an argument and a colon.
+        decided: entries of the config by their full key.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")
@@ -94,11 +94,11 @@ def logging_to(path) -> Iterator[None]:
             yield
         except BaseException as error:
             message = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
-            os.write(terminal, f"{message}\nThe whole log is {path}\n".encode())
+            os.write(terminal, f"{message}\nFull log: {path}\n".encode())
             raise
 
 
 def end_with_parent() -> None:
-    """Make the kernel end this process together with its parent (Linux)."""
+    """Make the kernel terminate this process when its parent ends (Linux only)."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

@@ -1,4 +1,4 @@
-"""Provenance of a figure: a record beside it, and a command that compares it with the checkout.
+"""Provenance of a figure: write its record, and compare the record with the checkout.
 
 python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
@@ -17,15 +17,15 @@ from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
 CONFIG = "config"
-"""Folder of the config files, in a build or in the checkout."""
+"""Folder of the config files, relative to a build or to the checkout."""
 
 
 def write(job, out) -> None:
-    """Write the record of a figure: config, code, inputs, and its files, which must be there.
+    """Write the record of a figure: config, code, inputs and files, which must exist.
 
     Args:
         job: the Snakemake job.
-        out: temporary paths of its outputs. Its drawing has left the versions of packages at `out.provenance`.
+        out: temporary paths of its outputs; `out.provenance` already contains the versions of packages.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
@@ -44,42 +44,42 @@ def write(job, out) -> None:
 
 
 def read(path) -> dict:
-    """Return the record beside a file of a figure.
+    """Return the provenance record of a figure, given one of its files.
 
     Raises:
-        ValueError: there is none.
+        ValueError: if there is no readable record.
     """
     path = Path(path)
     try:
         return json.loads(path.with_name(path.name.split(".")[0] + ".provenance.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        raise ValueError(f"{path} has no record of where it comes from") from None
+        raise ValueError(f"{path}: no provenance record found") from None
 
 
 def differences(path, record: dict, config: dict) -> Iterator[str]:
-    """Yield one line per change since the figure was made.
+    """Yield one line for each change since the figure was made.
 
     Args:
-        path: of the figure's file.
-        record: of the figure.
-        config: the config of today, checked.
+        path: path of a file of the figure.
+        record: provenance record of the figure.
+        config: the current config, validated.
     """
     for place, value in record["config"].items():
         if (now := _at(config, place)) != value:
-            yield f"config, {place}: is {now}, was {value}"
+            yield f"config, {place}: was {value}, is now {now}"
     python = platform.python_version_tuple()[:2]
     if (then := tuple(record["versions"]["python"].split(".")[:2])) != python:
-        yield f"Python: is {'.'.join(python)}, was {'.'.join(then)}; the code is compared on the same version only"
+        yield f"Python: was {'.'.join(then)}, is now {'.'.join(python)}; code cannot be compared across versions"
     elif code.changed(record["code"]):
-        yield f"the code behind {', '.join(record['code']['of'])}: has changed"
+        yield f"code of {', '.join(record['code']['of'])}: has changed since"
     for name, digest in {**record["inputs"], **record["files"]}.items():
         file = Path(os.path.normpath(Path(path).parent / name))
         if not file.is_file() or digest_of(file) != digest:
-            yield f"{file}: is not the one of then"
+            yield f"{file}: has changed since"
 
 
 def _at(config, place):
-    """Return the config entry at "section.key"; for a case, the parameters of its System."""
+    """Return the config entry at "section.key", or for a case the parameters of its System."""
     section, _, name = place.partition(".")
     if place == "cases":
         return {case: case_parameters(config, case) for case in config["cases"]}
@@ -92,14 +92,14 @@ def _at(config, place):
 
 
 def main() -> int:
-    """Return the exit status: 0 the file matches, 1 it does not, 2 it has no record."""
+    """Compare a figure with the checkout; return 0 if nothing changed, 1 if something did, 2 if it has no record."""
     from vibroimpact_pipeline.config import checked, merged
     from vibroimpact_pipeline.config import read as read_config
 
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
-    parser.add_argument("file", type=Path, help="a figure's file, such as results/figures/fig10_06.png")
+    parser.add_argument("file", type=Path, help="file of a figure, such as results/figures/fig10_06.png")
     file = parser.parse_args().file
-    # Not resolved: `results` may be a link to another disk.
+    # Symbolic links are not resolved because `results` may be a link to another disk.
     parents = Path(os.path.abspath(file)).parents
     build = next((folder.parent for folder in parents if folder.name == RESULTS), code.ROOT)
     of_checkout = sorted((code.ROOT / CONFIG).glob("*.yaml"))
@@ -110,9 +110,13 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     found = list(differences(file, record, config))
-    commit, tree = record.get("commit") or "not known", record.get("tree") or "without git"
+    commit, tree = record.get("commit") or "unknown", record.get("tree") or "without git"
     print(f"{file}: {record['figure']}, made from commit {commit} ({tree})")
-    print(*found, f"{len(found)} difference(s)." if found else "It is what this checkout makes.", sep="\n")
+    print(
+        *found,
+        f"{len(found)} difference(s)." if found else "No differences: this checkout makes the same figure.",
+        sep="\n",
+    )
     return int(bool(found))
 
 

@@ -1,8 +1,8 @@
-"""Results on disk: written whole or not at all, each with a record of its content and origin.
+"""Write results atomically, each with a record of its content and origin.
 
 The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule with its
-wildcards and params, and the SHA-256 of every input. It lies beside Snakemake's own records, so that nobody copies it
-in together with results of another config.
+wildcards and params, and the SHA-256 of every input. Records are stored next to those of Snakemake, so that copying
+results from another build does not copy their records.
 """
 
 import base64
@@ -17,17 +17,17 @@ from pathlib import Path
 RESULTS = "results"
 RECORDS = Path(".snakemake/sums")
 PARTIAL = ".partial-"
-"""Prefix of the folders that hold outputs until their job has ended well."""
+"""Prefix of the folders that contain outputs until their job has succeeded."""
 OF_SNAKEMAKE = ".snakemake_timestamp"
-"""A file that Snakemake adds to directories."""
+"""File that Snakemake adds to output directories."""
 
 
 class ModifiedResult(RuntimeError):
-    """A result differs from what its job wrote, or has no record."""
+    """Raised if a result has been modified since its job wrote it, or has no record."""
 
 
 def digest_of(path) -> str:
-    """Return the SHA-256 of a file, or for a directory that of the names and digests of all files below it."""
+    """Return the SHA-256 of a file, or of the names and digests of all files in a directory."""
     path = Path(path)
     if path.is_dir():
         below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
@@ -38,7 +38,7 @@ def digest_of(path) -> str:
 
 
 def to_disk(path) -> None:
-    """Flush a file, or the names in a directory, to disk; a power cut loses a rename without it."""
+    """Flush a file or a directory to disk, so that a power failure does not undo a rename."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
@@ -47,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Return the path of the same name in a new folder beside `path`, without leftovers of a killed job."""
+    """Return a path with the same name in a new, empty folder next to `path`."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -57,7 +57,7 @@ def partial_path(path) -> Path:
 
 @contextmanager
 def replacing(path) -> Iterator[Path]:
-    """Yield a temporary path of the same name; move it to `path` at the end unless an exception is raised."""
+    """Yield a temporary path with the same name, and move it to `path` unless an exception is raised."""
     partial = partial_path(path)
     try:
         yield partial
@@ -67,7 +67,7 @@ def replacing(path) -> Iterator[Path]:
 
 
 def put_in_place(partial: Path, path: Path) -> None:
-    """Move a complete file or directory to its path and flush both to disk."""
+    """Move a complete file or directory to its final path and flush it to disk."""
     for each in [partial, *partial.rglob("*")] if partial.is_dir() else [partial]:
         to_disk(each)
     if path.is_dir() and not path.is_symlink():
@@ -91,7 +91,7 @@ def write_record(path, origin: Mapping) -> None:
 
 
 def read_record(path) -> dict:
-    """Return the record of a result, empty if there is none that can be read."""
+    """Return the record of a result, or an empty mapping if there is no readable record."""
     try:
         return dict(json.loads(record_of(path).read_text(encoding="utf-8")))
     except (OSError, TypeError, ValueError):
@@ -99,36 +99,36 @@ def read_record(path) -> dict:
 
 
 def records() -> dict[str, dict]:
-    """Return the records of all results in this directory by their paths."""
+    """Return the records of all existing results of the working directory by path."""
     paths = (str(path.relative_to(RECORDS)).removesuffix(".json") for path in sorted(RECORDS.rglob("*.json")))
     return {path: read_record(path) for path in paths if os.path.exists(path)}
 
 
 def is_result(path) -> bool:
-    """Return True for a path that jobs write to, False for a file of the checkout."""
+    """Return True if jobs write to a path, False if it is a file of the checkout."""
     return not Path(path).is_absolute() and RESULTS in Path(path).parts
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """Return the SHA-256 of those inputs of a job that are results, after comparing them with their records.
+    """Compare the inputs of a job that are results with their records, and return their SHA-256.
 
     Raises:
-        ModifiedResult: one has no record, or is not what its job wrote.
+        ModifiedResult: if an input has no record or has been modified.
     """
     digests = {path: digest_of(path) for path in map(str, paths) if is_result(path)}
     for path, digest in digests.items():
         if read_record(path).get("sha256") != digest:
             _mark(path)
-            raise ModifiedResult(f"{path}: not what its job wrote. Build again: it is made anew.")
+            raise ModifiedResult(f"{path}: modified since it was built; rerun to rebuild")
     return digests
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark results that Snakemake has no record of, or that their jobs did not write, as incomplete; return those.
+    """Mark results that have no Snakemake record or have been modified as incomplete; return their paths.
 
-    Snakemake itself takes a file without a record for up to date. One that is marked it makes anew where it is needed.
+    Snakemake treats a file without record as up to date. It rebuilds a file that is marked as incomplete when needed.
     """
-    # In this order: results of a job that ends meanwhile are still marked by Snakemake itself, or already recorded.
+    # The order matters: while a job ends, its results are either still marked by Snakemake or already recorded.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
@@ -145,9 +145,9 @@ def _mark(path: str) -> None:
 
 
 def _as_recorded(path: str) -> bool:
-    """Return True for a result with both records, as far as date and size tell; only one with others is read."""
+    """Return True if a result matches its records; its content is read only if times or size differ."""
     try:
-        # A job writes its record, then Snakemake touches the result, then it writes its own record.
+        # The job writes its record, Snakemake then touches the result, and finally writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
     except OSError:
         return False
@@ -158,7 +158,7 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return the path of Snakemake's own record of a path: by its name in Base64, cut where names get too long."""
+    """Return the path of Snakemake's record of a result: its name in Base64, split to respect the name length limit."""
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))
     return Path(".snakemake", folder, *(f"@{part}" for part in cut), last)

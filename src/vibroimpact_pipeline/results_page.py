@@ -1,4 +1,4 @@
-"""The first page after a build: the exact system's verdict on each figure, methods to choose, links to all results."""
+"""Index page of a build: verdict of the exact system on each figure, recommended methods, links to all results."""
 
 import csv
 import json
@@ -16,7 +16,7 @@ from vibroimpact_pipeline.html.policy import guarded
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
 LARGE = "Speed and accuracy"
-"""Heading of the figures that the page shows as wide as its text."""
+"""Heading of the figures that the page shows at full text width."""
 KINDS = {"PNG": ".png", "SVG": ".svg", "PDF": ".pdf", "numbers (CSV)": ".csv"}
 TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*.csv"
 
@@ -25,13 +25,13 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     """Return the index of the results of a build as offline HTML.
 
     Args:
-        results: the directory.
-        groups: titles of the figures by name, by heading, in the order in which they are listed.
+        results: the results directory.
+        groups: for each heading, the titles of its figures by name, in the order of display.
     """
     listed = {heading: _listed(results, titles) for heading, titles in groups.items()}
     claims = results / "claims.json"
     verdicts = [claim["verdict"] for claim in json.loads(claims.read_text("utf-8"))] if claims.is_file() else []
-    counts = sorted(Counter(verdicts).most_common(), key=lambda one: one[0] == "misprint")  # these come last
+    counts = sorted(Counter(verdicts).most_common(), key=lambda one: one[0] == "misprint")  # misprints come last
     tables = sorted(str(path.relative_to(results)) for pattern in TABLES for path in results.glob(pattern))
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
@@ -41,7 +41,7 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return a row per problem and error of accuracy/choices.csv: both, then the methods with their costs."""
+    """Return one row per problem and error of accuracy/choices.csv: problem, exponent of the error, methods."""
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
     found = []
@@ -57,7 +57,7 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return the figures that are there: title, links, the sentence on the exact system, and the picture."""
+    """Return title, links, sentence on the exact system and picture of each existing figure."""
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

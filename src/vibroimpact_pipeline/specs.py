@@ -1,34 +1,35 @@
-"""The SPEC of every figure, read from the source without importing it. Standard library only.
+"""Read the SPEC of every figure from the source without importing it. Standard library only.
 
-A SPEC is a literal with these entries; what the figure is computed from says its rule, in workflow/rules/.
+A SPEC is a literal with these entries. The rule of the figure in workflow/rules/ lists the inputs and settings.
 
-- title, caption, alt, equations: what is written of the figure; own: the same words for a figure of the config that is
-  drawn likewise. method: how it is computed. notebook: the one that explains it, if it has a page.
-- sweeps: of sweeps that it draws what they move along each axis, and observe.
-- columns: of the table that is plotted: meaning, unit, values, how the figure check compares them (kinds of
-  figure_check/tolerances.yaml, by series where they differ), infinite if they may be. file: that table, if elsewhere;
-  on_demand: the command that makes it, if a plain build does not.
-- tables: what else `compute` returns, by name its file, what it is about, and its columns.
+- title, caption, alt, equations: texts of the figure. own: the same texts for figures of your own that use its drawing
+  code. method: how it is computed. notebook: name of the notebook that explains it, if it has a page.
+- sweeps: sweeps that the figure draws: their axes, and the observations that it needs.
+- columns: columns of the plotted table: meaning, unit, allowed values, `compared` (a kind of
+  figure_check/tolerances.yaml, or kinds by series) and `infinite` if infinite values are allowed. file: path of the
+  table, if not the default. on_demand: command that makes the table, if the default build does not.
+- tables: further tables that `compute` returns, by name: file, description and columns.
 
-Equations, columns or own words may be the name of a figure that has the same. A column may stand for several, "C1, C2".
+The entries equations, columns and own may be the name of a figure with the same entry. The key "C1, C2" describes both
+columns.
 """
 
 import ast
 from functools import cache
 from pathlib import Path
 
-from vibroimpact_pipeline.cases import own_parameters
+from vibroimpact_pipeline.cases import case_overrides
 from vibroimpact_pipeline.code import SOURCES, modules
 
 SHARED = "own", "equations", "columns"
-"""Entries of a SPEC that may name a figure which has the same."""
+"""Entries of a SPEC that may be the name of a figure with the same entry."""
 PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
-"""Packages of figures; a checkout may lack the second."""
+"""Packages of figures; the second may be missing."""
 
 
 @cache
 def specs(root=None) -> dict[str, dict]:
-    """Return SPEC by figure for all modules of figures, of a checkout if given; the plotted table is "csv"."""
+    """Return the SPEC of every figure, of the checkout `root` if given; the plotted table is named "csv"."""
     found = {}
     top = Path(root, "src") if root else SOURCES
     for path in sorted(path for package in PACKAGES for path in (top / package.replace(".", "/")).glob("*.py")):
@@ -45,9 +46,9 @@ def specs(root=None) -> dict[str, dict]:
         if "on_demand" in spec:
             plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
-        own = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
-        own["shares"] = sorted({spec[name] for name in SHARED if isinstance(spec.get(name), str)})
-        complete[figure] = own | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
+        entries = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
+        entries["shares"] = sorted({spec[name] for name in SHARED if isinstance(spec.get(name), str)})
+        complete[figure] = entries | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
     return complete
 
 
@@ -57,7 +58,7 @@ def module_of(figure: str) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure and its "module" in full; where that is another figure's, the own words and files."""
+    """Return the SPEC of a figure with its full "module"; a figure of your own gets its own texts and files."""
     module = scene.get("like", figure)
     if module == figure:
         return known[figure] | {"module": module_of(module)}
@@ -71,7 +72,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return the caption of a figure, and behind it the name of the model of its scene if that is not the chapter's."""
+    """Return the caption of a figure, followed by the name of its model unless this is the default of the chapter."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 
@@ -80,7 +81,7 @@ def at(config: dict, path: str):
     """Return the entry of a config at "section.key".
 
     Raises:
-        LookupError: there is none.
+        LookupError: if there is no such entry.
     """
     for key in path.split("."):
         config = config[key]
@@ -88,15 +89,15 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for one case: those of `system`, and over them the case's own."""
-    return config["system"] | own_parameters(config, case)
+    """Return the parameters of System for a case: those of `system`, overridden by those of the case."""
+    return config["system"] | case_overrides(config, case)
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return the columns of a table one by one, with the meaning and unit shared by all tables filled in."""
+    """Return the columns of a table by single name, with shared meanings and units filled in."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 
 def each(listed: dict) -> dict:
-    """Return entries by single name; the key "C1, C2" stands for both."""
+    """Return entries by single name; the key "C1, C2" is split into two."""
     return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}

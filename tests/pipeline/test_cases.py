@@ -37,7 +37,7 @@ def test_its_words_say_in_what_it_differs():
 def test_a_case_of_the_chapter_with_a_parameter_of_its_own_is_a_departure():
     changed = checked(edited("cases.weak.kappa = 0.5"))
     assert departures(checked(GOOD)) == departures(CONFIG) == []
-    assert departures(changed) == ["cases.weak.kappa is 0.5, not 0.65"]
+    assert departures(changed) == ["cases.weak.kappa is 0.5 instead of 0.65"]
     title = figure_texts(ROOT, changed)["fig10_11"]["title"]
     assert title.startswith("Figure 10.11 for other parameters. ")
 

@@ -110,7 +110,7 @@ def test_what_is_not_committed_is_named(repository, settings_of_a_user):
     (repository / LETTERS).unlink()
     assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", LETTERS]
     assert origin(repository)[1] == "modified"
-    with pytest.raises(ValueError, match=r"^not committed: .*Makefile.*\. Commit, ignore or remove them first$"):
+    with pytest.raises(ValueError, match=r"^uncommitted changes in .*Makefile.*; commit, ignore or remove them first$"):
         committed(repository)
 
 
@@ -139,7 +139,7 @@ def test_a_copy_without_git_is_told(repository, monkeypatch, place):
     root = place(repository, monkeypatch)
     assert origin(root) == (None, "without git")
     assert changes(root) is None
-    with pytest.raises(ValueError, match="there is no git"):
+    with pytest.raises(ValueError, match="not a git checkout"):
         committed(root)
 
 
@@ -159,7 +159,7 @@ def of_another_owner(repository, tmp_path, monkeypatch):
 def test_a_refusal_is_told_in_one_line_with_what_allows_it(of_another_owner, tmp_path, capsys):
     allow = f"git config --global --add safe.directory {of_another_owner}"
     for ask in (committed, changes, lambda root: git("rev-parse", "HEAD", root=root)):
-        with pytest.raises(GitRefused, match=f"^git refuses: fatal: .*{re.escape(str(of_another_owner))}.*") as refused:
+        with pytest.raises(GitRefused, match=f"^git failed: fatal: .*{re.escape(str(of_another_owner))}.*") as refused:
             ask(of_another_owner)
         assert str(refused.value).endswith(allow)
         assert "\n" not in str(refused.value)

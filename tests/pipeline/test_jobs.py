@@ -130,7 +130,7 @@ def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
 )
 def test_a_job_does_not_start_with_other_code_or_inputs(job, change):
     change()
-    with pytest.raises(SystemExit, match="Build again"), jobs.running(job):
+    with pytest.raises(SystemExit, match="rerun"), jobs.running(job):
         pytest.fail("the job has started")
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline_trees import ROOT
 from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check.check import compared_files
-from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHERS, compare
+from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHERS, table_differences
 from vibroimpact_pipeline.specs import each, specs
 
 FOLDERS = {path.name.removesuffix(".csv"): path.parent for path in sorted((ROOT / "figures").rglob("*.csv"))}
@@ -33,8 +33,8 @@ def published(name):
 def differs(name, change):
     """True if the check tells a published table from what `change` makes of it, and not from itself."""
     old, columns = published(name)
-    assert compare(old, old.copy(), columns)[0] == []
-    return compare(old, change(old.copy()), columns)[0] != []
+    assert table_differences(old, old.copy(), columns)[0] == []
+    return table_differences(old, change(old.copy()), columns)[0] != []
 
 
 def by_kind(name):
@@ -62,14 +62,14 @@ def numbers(name):
 def unnoticed(name, without=()):
     """The numbers of a published table, of the largest and the middle one of each column, that may be 1 % off."""
     old, columns = published(name)
-    assert compare(old, old.copy(), columns)[0] == []
+    assert table_differences(old, old.copy(), columns)[0] == []
     found = []
     for column, rows in numbers(name):
         sizes = old.loc[rows, column].abs().replace([0, np.inf], np.nan).dropna().sort_values()
         for row in {sizes.index[-1], sizes.index[len(sizes) // 2]} if len(sizes) and column not in without else ():
             new = old.astype({column: float})
             new.loc[row, column] *= 1.01
-            if compare(old, new, columns)[0] == []:
+            if table_differences(old, new, columns)[0] == []:
                 found.append((column, row))
     return found
 

@@ -112,14 +112,14 @@ def a_record_without_params(now):
 
 
 CHANGES = {
-    another_parameter: f"{TABLE}: made with system.kappa 0.65, now 0.5",
-    another_code: f"{TABLE}: made with code.fingerprint a, now b",
-    a_setting_that_is_new: f"{PICTURE}: made with config.figures.figure.C_max None, now 2.0",
-    an_input_that_is_new: f"{PICTURE}: made from other inputs",
-    a_table_made_again: f"{PICTURE}: made from another {TABLE}",
-    both: f"{TABLE}: made with system.kappa 0.65, now 0.5",
-    a_rule_that_is_gone: f"{TABLE}: no record of what it was made with",
-    a_record_without_params: f"{TABLE}: no record of what it was made with",
+    another_parameter: f"{TABLE}: system.kappa was 0.65, is now 0.5",
+    another_code: f"{TABLE}: code.fingerprint was a, is now b",
+    a_setting_that_is_new: f"{PICTURE}: config.figures.figure.C_max was None, is now 2.0",
+    an_input_that_is_new: f"{PICTURE}: the inputs of its rule have changed",
+    a_table_made_again: f"{PICTURE}: its input {TABLE} has changed",
+    both: f"{TABLE}: system.kappa was 0.65, is now 0.5",
+    a_rule_that_is_gone: f"{TABLE}: its record has no rule or params",
+    a_record_without_params: f"{TABLE}: its record has no rule or params",
 }
 
 
@@ -142,8 +142,13 @@ def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
 @pytest.mark.parametrize(
     ("file", "old", "new", "told"),
     [
-        ("config/config.yaml", "C_range: [0.5, 1.1]", "C_range: [0.5, 1.2]", "C_range [0.5, 1.1], now [0.5, 1.2]"),
-        ("src/vibroimpact/theory/manifold.py", "def rho(", "ANOTHER = 0\n\n\ndef rho(", "made with code.fingerprint"),
+        (
+            "config/config.yaml",
+            "C_range: [0.5, 1.1]",
+            "C_range: [0.5, 1.2]",
+            "C_range was [0.5, 1.1], is now [0.5, 1.2]",
+        ),
+        ("src/vibroimpact/theory/manifold.py", "def rho(", "ANOTHER = 0\n\n\ndef rho(", "code.fingerprint was"),
     ],
     ids=["config", "code"],
 )
@@ -188,8 +193,8 @@ def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
     made = {path for path in before if path.read_bytes() != before[path]}
     assert made <= {elsewhere / f"{FIGURE}.provenance.json"}  # which tells the commit, if there was one
     assert (elsewhere / f"{FIGURE}.png").stat().st_mtime > (elsewhere / "README.md").stat().st_mtime
-    assert "made from commit not known (without git)" in done.stdout
-    assert done.stdout.endswith("It is what this checkout makes.\n")
+    assert "made from commit unknown (without git)" in done.stdout
+    assert done.stdout.endswith("No differences: this checkout makes the same figure.\n")
 
 
 def test_elsewhere_results_are_there_to_read_and_do_not_count_as_made(elsewhere):

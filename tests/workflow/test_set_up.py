@@ -364,7 +364,7 @@ def test_the_conda_environment_has_what_jobs_import():
 def test_the_extra_pipeline_brings_what_a_build_asks_for():
     brought = {Requirement(one).name for one in requirements("pipeline")}
     distributions = {"flint": "python-flint", "yaml": "pyyaml"}
-    assert {distributions.get(name, name) for name in environment.NEEDED} <= brought
+    assert {distributions.get(name, name) for name in environment.REQUIRED} <= brought
 
 
 def compiled_files(tree) -> dict[str, int]:

@@ -35,7 +35,7 @@ def test_another_config_is_seen_without_what_snakemake_has_recorded(rebuilt, rem
     before = pd.read_csv(rebuilt / FIXED_POINTS)["C2"].max()
     remove(rebuilt)
     rebuilt.edit(CONFIG, LINE, OTHER)
-    assert "made anew where it is needed: results/" in rebuilt.snakemake(FIGURE)
+    assert "will be rebuilt: results/" in rebuilt.snakemake(FIGURE)
     assert abs(pd.read_csv(rebuilt / FIXED_POINTS)["C2"].max() - before) > 0.01
     record = json.loads((rebuilt / f"results/figures/{FIGURE}.provenance.json").read_text())
     assert record["config"]["cases.equal"]["f20_hat"] == 0.97
@@ -218,7 +218,7 @@ def test_code_that_changes_while_a_build_goes_on_fails_the_job(held):
     (held / "go").touch()
     said = build.communicate()[0]
     assert build.returncode != 0
-    assert "the code has changed while this job ran. Build again." in said
+    assert "the code has changed while this job ran; rerun the build" in said
 
 
 def test_a_second_build_is_refused_while_the_first_goes_on(held):
@@ -238,16 +238,16 @@ def origin(tree, figure):
 def test_a_figure_tells_where_it_comes_from(rebuilt):
     figure = f"results/figures/{FIGURE}.png"
     status, said = origin(rebuilt.path, figure)
-    assert (status, said.splitlines()[-1]) == (0, "It is what this checkout makes.")
+    assert (status, said.splitlines()[-1]) == (0, "No differences: this checkout makes the same figure.")
     rebuilt.edit(CONFIG, LINE, OTHER)
     edited(rebuilt)
     status, said = origin(rebuilt.path, figure)
     assert status == 1
     assert "0.97" in said
-    assert f"{FIXED_POINTS}: is not the one of then" in said
+    assert f"{FIXED_POINTS}: has changed since" in said
     shutil.copy(rebuilt / figure, rebuilt / "alone.png")
     for file in ("alone.png", "figures/CHANGES.md"):
-        assert origin(rebuilt.path, file) == (2, f"{file} has no record of where it comes from\n")
+        assert origin(rebuilt.path, file) == (2, f"{file}: no provenance record found\n")
 
 
 @pytest.mark.parametrize("name", [f"{FIGURE}.png", f"{FIGURE}.csv"])
@@ -259,4 +259,4 @@ def test_a_figure_that_was_built_elsewhere_tells_where_it_comes_from(rebuilt, tm
     with open(figure, "a") as file:
         file.write("\n")
     status, said = origin(rebuilt.path, figure)
-    assert (status, said.splitlines()[1:]) == (1, [f"{figure}: is not the one of then", "1 difference(s)."])
+    assert (status, said.splitlines()[1:]) == (1, [f"{figure}: has changed since", "1 difference(s)."])

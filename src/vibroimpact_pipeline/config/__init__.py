@@ -1,6 +1,6 @@
-"""The config of the pipeline, config/config.yaml: read and checked before anything runs.
+"""Read and validate the config of the pipeline, config/config.yaml, before any job runs.
 
-Limits and conditions stand beside the fields they are about. The rules get plain values.
+Each field declares its limits and conditions. The rules receive plain values.
 """
 
 from vibroimpact_pipeline.config.reading import ConfigError, checked, merged, read

@@ -1,4 +1,4 @@
-"""Types of fields that several sections have, with their limits."""
+"""Types of fields that several sections share, with their limits."""
 
 from typing import Annotated
 
@@ -6,14 +6,14 @@ from pydantic import AfterValidator, Field, ValidationInfo
 
 NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
 TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
-HIGHEST = 1.69
-"""Beyond the derived limits of the companions, the highest of which is pi^2 / (pi^2 - 4) = 1.68."""
-MOST = 1000
-"""Values along an axis."""
+BEYOND_LIMITS = 1.69
+"""Value of C above all stability limits derived in the companions; the highest is pi^2 / (pi^2 - 4) = 1.68."""
+MAX_VALUES = 1000
+"""Maximum number of values along an axis."""
 
 
 def needs(fits, what: str) -> AfterValidator:
-    """Return a validator that accepts values for which `fits` is true, with a message for others."""
+    """Return a validator that raises ValueError(what) unless `fits` returns True."""
 
     def check(value):
         if not fits(value):
@@ -24,62 +24,66 @@ def needs(fits, what: str) -> AfterValidator:
 
 
 def _known(case: str, info: ValidationInfo):
-    """Return a case that is in the context of the validation, the cases of the config; without one, any."""
+    """Return a case if it is among the cases in the validation context, or if there is no context."""
     if case not in (info.context or [case]):
-        raise ValueError(f"should be a case: {', '.join(map(repr, info.context))}")
+        raise ValueError(f"should be one of the cases {', '.join(map(repr, info.context))}")
     return case
 
 
-ASCENDING = needs(lambda ends: ends[0] < ends[1], "should be a range, its first end below its second")
-DIFFERENT = needs(lambda values: all(one not in values[:n] for n, one in enumerate(values)), "should repeat no value")
+ASCENDING = needs(lambda ends: ends[0] < ends[1], "should be a range [low, high] with low < high")
+DIFFERENT = needs(
+    lambda values: all(one not in values[:n] for n, one in enumerate(values)), "should contain no value twice"
+)
 WITHIN_WALLS = needs(
     lambda at: abs(at[0] - at[1]) <= 1 and abs(at[2] - at[3]) <= 1,
-    "should start no ball beyond a wall: X1 - Y1 and X2 - Y2 are between -1 and 1",
+    "should have X1 - Y1 and X2 - Y2 between -1 and 1, so that both balls start between their walls",
 )
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list, with distinct values unless another check is given."""
+    """Return the type of a list; its values must be distinct unless another check is given."""
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
-def span(kind, about: str = "Where it begins and ends"):
-    """Return the type of a list of a lower and an upper end."""
+def span(kind, about: str = "Lower and upper end"):
+    """Return the type of a range [low, high]."""
     return items(kind, 2, 2, about, ASCENDING)
 
 
 def around(low: float, high: float):
-    """Return the type of a list of two ends, the first at most `low`, the second at least `high`."""
+    """Return the type of a range that contains [low, high]."""
     return tuple[Annotated[float, Field(ge=0, le=low)], Annotated[float, Field(ge=high, le=100)]]
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping with free names; a null entry removes the default one (see `reading`)."""
+    """Return the type of a mapping with names of your choice; a null entry removes a default (see `reading`)."""
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
 
 def count(about: str, least: int = 1, most: int = 1_000_000):
-    """Return the type of a number of things, from `least` to `most`."""
+    """Return the type of an integer from `least` to `most`."""
     return Annotated[int, Field(ge=least, le=most, description=about)]
 
 
 def real(about: str, least: float = 0.0, most: float = 10_000.0):
-    """Return the type of a number from `least` to `most`."""
+    """Return the type of a real number from `least` to `most`."""
     return Annotated[float, Field(ge=least, le=most, description=about)]
 
 
-Title = Annotated[str, Field(pattern=TITLE, description="What titles and captions call the case; absent: its name")]
-CaseName = Annotated[str, AfterValidator(_known), Field(description="Name of a case; absent: default_case")]
-Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case, from a on")]
+Title = Annotated[str, Field(pattern=TITLE, description="Name of the case in titles and captions; default: its key")]
+CaseName = Annotated[str, AfterValidator(_known), Field(description="Name of a case; default: default_case")]
+Label = Annotated[str, Field(pattern=LETTER, description="Label of a fixed point of the case: a, b, c, ...")]
 Force = Annotated[float, Field(ge=-1000, le=1000)]
-Forces = span(Force, "Lower and upper end of the forces")
+Forces = span(Force, "Lower and upper end of the forcing amplitude")
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
-Epsilon = real("Mass of a ball over that of its box", 1e-6, 10)
+Epsilon = real("Mass ratio of ball and box, m / M", 1e-6, 10)
 Amplitude = Annotated[float, Field(gt=1, le=100)]
-Planes = items(Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), beyond the fold", None)
-START = "Start [X1, Y1, X2, Y2, X1', Y1', X2', Y2']; the balls between their walls"
+Planes = items(
+    Amplitude, 2, 2, "Right ends of the planes (C_1, B_1) and (C_2, B_2), above the fold of the manifold", None
+)
+START = "Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], with both balls between their walls"
 State = items(Force, 8, 8, START, WITHIN_WALLS)
-Starts = count("Starts, spread evenly; the first is rest", 1, 10_000)
-Seed = count("Scrambles the starts", 0, 2**32 - 1)
-Points = count("Cells or starts along each axis of a plane", 2, 200)
+Starts = count("Number of initial states, evenly spread; the first is the state of rest", 1, 10_000)
+Seed = count("Seed for scrambling the initial states", 0, 2**32 - 1)
+Points = count("Number of cells or initial states along each axis of a plane", 2, 200)

@@ -1,4 +1,4 @@
-"""Section `figures`: those of the chapter to build, and under other names your own, each like one of them."""
+"""Section `figures`: figures of the chapter, and figures of your own that are drawn like one of them."""
 
 from typing import Annotated, Literal
 
@@ -7,12 +7,12 @@ from pydantic import ConfigDict, Field
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 
-MOST = 100
-"""Figures of a build, a job each."""
-LIKE = Field(description="The figure of the chapter that it is drawn like")
-MODEL = "What it is computed with: "
-"""A figure has a choice of models where there is more than one, see results/accuracy/models.csv."""
-THEORY = f"{MODEL}slow_flow, leading order; exact_orbit, the exact orbits next to its fixed points"
+MAX_FIGURES = 100
+"""Maximum number of figures of a build; each is one job."""
+LIKE = Field(description="Figure of the chapter whose drawing code is used")
+MODEL = "Model: "
+"""Begins the description of `model`; results/accuracy/models.csv compares the models of each figure."""
+THEORY = f"{MODEL}slow_flow (leading order) or exact_orbit (the exact orbits next to the fixed points)"
 
 
 class Drawing(Section):
@@ -22,21 +22,21 @@ class Drawing(Section):
 class Sawtooth(Section):
     """Figure 10.3."""
 
-    amplitude: fields.real("C of the saw-tooth", 1e-3, 1000)
+    amplitude: fields.real("Amplitude C of the saw-tooth", 1e-3, 1000)
     theta: fields.real("Phase of the impacts [rad]", -100, 100)
-    tau0_max: fields.real("Right end of the axis; there is an impact within pi [rad]", 3.15, 100)
+    tau0_max: fields.real("Right end of the axis, above pi so that it contains an impact [rad]", 3.15, 100)
 
 
 class Manifold(Section):
     """Figure 10.4."""
 
-    C_max: fields.Amplitude = Field(description="Right end of the axis; the fold of the manifold lies below 1")
+    C_max: fields.Amplitude = Field(description="Right end of the axis, above the fold of the manifold (below 1)")
 
 
 class Regions(Section):
     """Figure 10.5."""
 
-    C_range: fields.around(0.6, 1.01) = Field(description="Ends of the axis, which holds the limit of (10.26)")
+    C_range: fields.around(0.6, 1.01) = Field(description="Ends of the axis; it must contain the limit of (10.26)")
 
 
 class FixedPoints(Section):
@@ -51,7 +51,7 @@ class Response(Section):
     """The theoretical response at a fixed point, as in figure 10.7."""
 
     model: Literal["slow_flow", "exact_orbit", "second_term"] = Field(
-        "slow_flow", description=f"{THEORY}; second_term, the slow flow with the second term of (10.7)"
+        "slow_flow", description=f"{THEORY} or second_term (slow flow with the second term of (10.7))"
     )
     case: fields.CaseName
     fixed_point: fields.Label
@@ -59,16 +59,17 @@ class Response(Section):
 
 
 class ResponseOnPlanes(Response):
-    """The same with its place on the manifold, as in figure 10.10."""
+    """The theoretical response at a fixed point and the fixed point on the manifold, as in figure 10.10."""
 
     C_max: fields.Planes
 
 
 class SimulatedMotion(Section):
-    """The second module's motion by direct integration of a case, as in figures 10.8 and 10.11."""
+    """The motion of module 2 by direct integration, as in figures 10.8 and 10.11."""
 
     model: Literal["float64", "reference"] = Field(
-        "float64", description=f"{MODEL}float64, double precision; reference, arithmetic of many digits, for chaos"
+        "float64",
+        description=f"{MODEL}float64 (double precision) or reference (arbitrary precision, for chaotic motions)",
     )
     case: fields.CaseName
 
@@ -92,7 +93,7 @@ class OwnSimulatedMotion(SimulatedMotion):
 
 
 class OwnResponseOnPlanes(ResponseOnPlanes):
-    """Your own figure of a response and its place on the manifold."""
+    """Your own figure of a response and its fixed point on the manifold."""
 
     like: Literal["fig10_10"] = LIKE
 
@@ -103,7 +104,7 @@ OwnFigure = Annotated[
 
 
 class Figures(Section):
-    """The figures to build: those of the chapter, each optional, and your own under other names."""
+    """The figures to build: those of the chapter, each optional, and figures of your own with other names."""
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[Annotated[str, Field(pattern=fields.NAME)], OwnFigure | None]
@@ -121,5 +122,5 @@ class Figures(Section):
     fig10_11: SimulatedMotion | None = None
 
     def conditions(self):
-        if not 1 <= (number := sum(scene is not None for _, scene in self)) <= MOST:
-            yield (), f"has {number} entries, not 1 to {MOST}"
+        if not 1 <= (number := sum(scene is not None for _, scene in self)) <= MAX_FIGURES:
+            yield (), f"has {number} entries, should have 1 to {MAX_FIGURES}"

@@ -10,7 +10,7 @@ from vibroimpact_pipeline.config.section import Place, Section
 
 
 def problems_of(error: ValidationError) -> dict[Place, dict]:
-    """Return Pydantic's errors by place in the config; a key is not told as missing beside an unknown one."""
+    """Return Pydantic's errors by key path; a missing key is not reported next to an unknown key."""
     errors = error.errors(include_url=False)
     misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
     found = {}
@@ -19,7 +19,7 @@ def problems_of(error: ValidationError) -> dict[Place, dict]:
         if details["type"] == "missing" and place[:-1] in misspelt:
             continue
         if place[:1] == ("figures",) and len(place) > 2 and str(place[2]).startswith("fig10_"):
-            place = place[:2] + place[3:]  # without the figure that this one is like
+            place = place[:2] + place[3:]  # without the figure that `like` names
         place = place[:-1] if place[-1:] == ("[key]",) else place
         place += ("like",) if "discriminator" in details.get("ctx", {}) else ()
         found.setdefault(place, details)
@@ -27,11 +27,11 @@ def problems_of(error: ValidationError) -> dict[Place, dict]:
 
 
 def described(details: dict) -> str:
-    """Return an error of Pydantic in words: "1.2 should be less than 1"."""
+    """Return the text of a Pydantic error, such as "1.2 should be less than 1"."""
     kind, what, given = details["type"], details["msg"].removeprefix("Value error, "), details["input"]
     if kind == "extra_forbidden":
         key, keys = str(details["loc"][-1]), _keys(Section)
-        colon = "; a space belongs after a colon" if ":" in key else ""
+        colon = "; YAML needs a space after the colon" if ":" in key else ""
         return f"unknown key{hint(key, () if key in keys else keys)}{colon}"
     if kind in ("missing", "union_tag_not_found"):
         return "missing"
@@ -40,27 +40,27 @@ def described(details: dict) -> str:
     if kind == "union_tag_invalid":
         given, what = details["ctx"]["tag"], f"should be {details['ctx']['expected_tags'].replace(', ', ' or ')}"
     known = re.findall(r"'([^']+)'", what) if kind in ("literal_error", "union_tag_invalid", "value_error") else []
-    return f"{shown(given)} {re.sub('^[A-Z][a-z]+ (?=should )', '', what)}{hint(given, known)}"
+    return f"{short_repr(given)} {re.sub('^[A-Z][a-z]+ (?=should )', '', what)}{hint(given, known)}"
 
 
 def _keys(part) -> set[str]:
-    """Return the keys of a section and of all derived from it."""
+    """Return the keys of a section and of all its subclasses."""
     return {*part.model_fields}.union(*map(_keys, part.__subclasses__()))
 
 
 def hint(name, known: Iterable[str]) -> str:
-    """Return "did you mean ...?" with the most similar known name, or nothing if none is similar."""
+    """Return "did you mean ...?" with the most similar known name, or an empty string if no name is similar."""
     meant = difflib.get_close_matches(str(name), list(known), n=1)
     return f", did you mean {meant[0]!r}?" if meant else ""
 
 
-def written(place: Place) -> str:
-    """Return a place in the config as text: system.kappa, regimes.branches.paths[0]."""
-    names = (f"[{part}]" if isinstance(part, int) else f".{shown(part, plain=True)}" for part in place)
+def key_path(place: Place) -> str:
+    """Return the path of a key as text, such as system.kappa or regimes.branches.paths[0]."""
+    names = (f"[{part}]" if isinstance(part, int) else f".{short_repr(part, plain=True)}" for part in place)
     return "".join(names).removeprefix(".")
 
 
-def shown(value, plain: bool = False) -> str:
-    """Return a value as text for an error message: one line, shortened in the middle if long."""
-    text = "nothing" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
+def short_repr(value, plain: bool = False) -> str:
+    """Return a value as one line for an error message, shortened in the middle if it is long."""
+    text = "null" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
     return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

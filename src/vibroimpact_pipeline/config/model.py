@@ -1,4 +1,4 @@
-"""The config of the chapter, config/config.yaml: its smaller sections, and the conditions across sections."""
+"""Model of the chapter's config, config/config.yaml: smaller sections and conditions across sections."""
 
 from collections.abc import Iterable, Iterator
 from typing import Annotated, Literal
@@ -11,10 +11,10 @@ from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import described, problems_of
 from vibroimpact_pipeline.config.section import Place, Section
 
-SLOWEST = 1e-3
-"""Least forcing frequency: the forcing period, and with it the work of a cycle, grows as one over it."""
+MIN_FREQUENCY = 1e-3
+"""Lowest forcing frequency; the cost of simulating one cycle is inversely proportional to it."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_", "pages_"
-"""Prefixes reserved for companions, sweeps, the chapter's figures, texts of own figures and pages."""
+"""Reserved prefixes: rules of companions, sweeps and pages, the chapter's figures, texts of your own figures."""
 RULES = {
     *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check", "figures"),
     *("figure_check_strict", "fixed_points", "force_sweep", "gather", "grazing", "index", "method_comparison"),
@@ -22,12 +22,12 @@ RULES = {
     *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts_by_epsilon"),
     *("stress_tests", "work_precision"),
 }
-"""Rules whose names figures and other entries, which become rules as well, cannot have."""
+"""Names of rules; figures and other entries that become rules cannot have these names."""
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
 class SystemSection(Section):
-    """Dimensionless parameters of all cases that say no other, hatted as in (10.4) and (10.6)."""
+    """Default parameters of all cases, dimensionless and hatted as in (10.4) and (10.6)."""
 
     epsilon: fields.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
@@ -35,8 +35,12 @@ class SystemSection(Section):
     gamma1_hat: fields.real("Damping of box 1 to ground")
     gamma2_hat: fields.real("Damping of box 2 to ground")
     gamma12_hat: fields.real("Damping of the coupling")
-    sigma20_hat: Detuning = Field(description="Detuning of box 2; 1 + epsilon sigma20_hat, its stiffness, is above 0")
-    sigma_e_hat: Detuning = Field(description="Detuning of the forcing; 1 + epsilon sigma_e_hat is at least 0.001")
+    sigma20_hat: Detuning = Field(
+        description="Detuning of box 2; its stiffness 1 + epsilon sigma20_hat must be above 0"
+    )
+    sigma_e_hat: Detuning = Field(
+        description="Detuning of the forcing; its frequency 1 + epsilon sigma_e_hat must be at least 0.001"
+    )
 
 
 class Parameters(SystemSection):
@@ -48,8 +52,10 @@ class Parameters(SystemSection):
     def conditions(self):
         try:
             system = System(**dict(self))
-            if system.Omega < SLOWEST:
-                raise ValueError(f"sigma_e_hat: 1 + epsilon sigma_e_hat = {system.Omega} is below {SLOWEST}")
+            if system.Omega < MIN_FREQUENCY:
+                raise ValueError(
+                    f"sigma_e_hat: 1 + epsilon sigma_e_hat = {system.Omega} should be at least {MIN_FREQUENCY}"
+                )
             _refuse_resonance(system)
         except ValueError as error:
             name, _, what = str(error).partition(": ")
@@ -57,10 +63,10 @@ class Parameters(SystemSection):
 
 
 def _refuse_resonance(system):
-    """Refuse an undamped system whose periodic responses are not isolated or not bounded."""
+    """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # Here, because SciPy takes longer to load than all else that a build with nothing to do needs.
+    # Imported here because loading SciPy takes longer than the rest of a build that is up to date.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -73,26 +79,32 @@ class Simulation(Section):
     """The direct integration of a case: a discarded transient, and a window."""
 
     initial_state: fields.State
-    transient_cycles: fields.count("Cycles before the window [forcing periods]", 0)
-    window_cycles: fields.count("Cycles that are kept [forcing periods]", 1, 1000)
-    samples_per_cycle: int = Field(ge=8, le=1000, multiple_of=2, description="Samples in a cycle, an even number")
-    digits: fields.count("Decimal digits that model: reference begins with; absent: 40", 20, 2000) | None = None
+    transient_cycles: fields.count("Length of the transient before the window [forcing periods]", 0)
+    window_cycles: fields.count("Length of the window [forcing periods]", 1, 1000)
+    samples_per_cycle: int = Field(
+        ge=8, le=1000, multiple_of=2, description="Samples per forcing period, an even number"
+    )
+    digits: fields.count("Initial number of decimal digits for the model reference; default: 40", 20, 2000) | None = (
+        None
+    )
 
 
-OWN = {name: (Annotated[field.annotation, field] | None, None) for name, field in SystemSection.model_fields.items()}
+OVERRIDES = {
+    name: (Annotated[field.annotation, field] | None, None) for name, field in SystemSection.model_fields.items()
+}
 
 
-class Case(create_model("OwnParameters", __base__=Section, **OWN)):
-    """A system, by its forcing amplitudes and whatever differs from `system`, and its direct integration."""
+class Case(create_model("Overrides", __base__=Section, **OVERRIDES)):
+    """A case: forcing amplitudes, parameters that override `system`, and settings of the direct integration."""
 
     title: fields.Title | None = None
-    f10_hat: fields.Force = Field(description="Excitation amplitude of box 1, in anti-phase if negative")
-    f20_hat: fields.Force = Field(description="Excitation amplitude of box 2")
+    f10_hat: fields.Force = Field(description="Forcing amplitude of box 1; negative values reverse the phase")
+    f20_hat: fields.Force = Field(description="Forcing amplitude of box 2")
     simulation: Simulation
 
 
 class Problem(Section):
-    """A test problem of the work-precision chart; every method and the reference run it many times."""
+    """A test problem of the work-precision chart, solved many times by every method and by the reference."""
 
     case: fields.CaseName
     initial_state: fields.State
@@ -106,24 +118,28 @@ class Benchmark(Problem):
 
 
 class Accuracy(Section):
-    """The motions for measuring methods, and the duration of each timing."""
+    """Test problems for the integration methods, and durations of the timings."""
 
-    effort: Literal["quick", "full"] = Field("quick", description="full: longer timings, all stress tests [minutes]")
-    short_seconds: fields.real("Repeat a timing for so long, in the default build [s]", 1e-3, 1)
-    full_seconds: fields.real("The same with effort: full [s]", 1e-3, 60)
-    problems: fields.named(Problem, 1, 3, fields.TITLE) = Field(description="Test problems by free titles")
+    effort: Literal["quick", "full"] = Field(
+        "quick", description="quick, or full: longer timings and all stress tests (some minutes)"
+    )
+    short_seconds: fields.real("Duration of the repetitions of each timing with effort quick [s]", 1e-3, 1)
+    full_seconds: fields.real("Duration of the repetitions of each timing with effort full [s]", 1e-3, 60)
+    problems: fields.named(Problem, 1, 3, fields.TITLE) = Field(description="Test problems by title")
     benchmark: Benchmark
 
 
 class Config(Section):
-    """The chapter: system, cases, figures, accuracy. Dimensionless; times in forcing periods."""
+    """Config of the chapter: system, cases, figures, accuracy. Dimensionless; times in forcing periods."""
 
     system: SystemSection
-    # At most twelve: companions have a panel for each.
+    # At most twelve, since companion figures have a panel for each case.
     cases: fields.named(Case, 1, 12, fields.CASE) = Field(
-        description="Systems and their direct integration by name: a small letter, then 1 to 39 of a-z 0-9 - _"
+        description="Cases by name: a lower-case letter, then 1 to 39 characters out of a-z 0-9 - _"
     )
-    default_case: fields.CaseName | None = Field(None, description="Case of entries that name none; absent: the first")
+    default_case: fields.CaseName | None = Field(
+        None, description="Case of all entries that name no case; default: the first case"
+    )
     figures: Figures
     accuracy: Accuracy
 
@@ -132,28 +148,28 @@ class Config(Section):
         yield from self.unsound()
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the places of entries whose names become names of rules."""
+        """Yield the key paths of entries that become rules of the same name."""
         yield from (("figures", name) for name in self.figures.model_extra)
 
     def taken_names(self):
-        """Yield entries whose names are taken already."""
+        """Yield errors for entries whose name is already in use."""
         places = [*self.named_rules()]
         for place in places:
             name = place[-1]
             twice = [other[-1] for other in places].count(name) > 1 and place[0] != "figures"
             if twice or name in RULES or name.startswith(PREFIXES):
-                what = f"the name is that of a rule or another figure, or begins with {', '.join(PREFIXES)}"
+                what = f"name already used by a rule or another figure, or begins with one of {', '.join(PREFIXES)}"
                 yield place, what
 
     def unsound(self):
-        """Yield errors of parameters that no System takes: those of the cases, or else where parameters move."""
+        """Yield errors for parameters that System rejects: in cases or, if these are valid, along sweeps and paths."""
         systems, found = {}, False
         for name, case in self.cases.items():
-            own = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
-            systems[name] = dict(self.system) | own
+            overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
+            systems[name] = dict(self.system) | overrides
             for place, what in _amiss(systems[name]):
                 found = True
-                yield ("system", *place) if {*place} - own.keys() else ("cases", name, *place), what
+                yield ("system", *place) if {*place} - overrides.keys() else ("cases", name, *place), what
         for place, case, moved in () if found else self.moves():
             at = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
             for one in [case] if case else systems:
@@ -161,12 +177,12 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def moves(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return changed parameters: the place of the change, its case (None: all), and the parameters by name."""
+        """Return varied parameters: key path of the entry, its case (None: all cases), and parameters by name."""
         return ()
 
 
 def _amiss(parameters):
-    """Return why parameters are not valid for a System, each problem with its place; none if they are."""
+    """Return the problems of parameters that System rejects, each with its key path; an empty list if valid."""
     try:
         Parameters.model_validate(parameters)
     except ValidationError as error:

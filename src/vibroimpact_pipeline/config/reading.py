@@ -1,4 +1,4 @@
-"""Reading and checking a config: all problems at once, one line each."""
+"""Read and validate a config; report all problems at once, one line each."""
 
 import re
 from importlib import import_module
@@ -9,37 +9,39 @@ import yaml
 from pydantic import ValidationError
 
 from vibroimpact_pipeline.cases import with_cases
-from vibroimpact_pipeline.config.messages import described, hint, problems_of, shown, written
+from vibroimpact_pipeline.config.messages import described, hint, key_path, problems_of, short_repr
 from vibroimpact_pipeline.config.section import refuse
 
-LARGEST, ALL = 100_000, 50_000
-"""Bytes of a file, and its values (aliases make many of few)."""
-MOST = 30
-"""Lines that are shown at once."""
+MAX_BYTES, MAX_VALUES = 100_000, 50_000
+"""Limits of a file: its size, and the number of its values after YAML aliases are expanded."""
+MAX_LINES = 30
+"""Maximum number of problems in an error message."""
 
 
 class ConfigError(ValueError):
-    """The config is not valid; the message has a line for each problem, with the file and key."""
+    """Invalid config; the message has one line "file: key: problem" for each problem."""
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader with keys as written; refuses duplicate keys, and numbers in octal or base 60."""
+    """A YAML loader that keeps keys as text and rejects duplicate keys, octal numbers and base 60."""
 
     def construct_mapping(self, node, deep=False):
         seen = set()
         for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
             if key.value in seen:
-                raise yaml.MarkedYAMLError(problem=f"key {shown(key.value)} given twice", problem_mark=key.start_mark)
+                raise yaml.MarkedYAMLError(
+                    problem=f"duplicate key {short_repr(key.value)}", problem_mark=key.start_mark
+                )
             seen.add(key.value)
             if key.tag != MERGE:
-                key.tag = self.DEFAULT_SCALAR_TAG  # `no` would be false
+                key.tag = self.DEFAULT_SCALAR_TAG  # otherwise the key `no` becomes False
         return super().construct_mapping(node, deep)
 
     def construct_number(self, node):
         text, kind = node.value, node.tag.rpartition(":")[2]
         number = getattr(super(), f"construct_yaml_{kind}")(node)
         if ":" in text or OCTAL.fullmatch(text):
-            what = f"{shown(text, plain=True)} is {number} in YAML; write a decimal number, or a text in quotes"
+            what = f"{short_repr(text, plain=True)} means {number} in YAML; write a decimal number or a quoted text"
             raise yaml.MarkedYAMLError(problem=what, problem_mark=node.start_mark)
         return number
 
@@ -50,19 +52,19 @@ for kind in ("int", "float"):
 
 
 def read(path) -> dict:
-    """Return the entries of a config file; null stands for those that it removes.
+    """Return the entries of a config file; a null marks an entry to be removed.
 
     Raises:
-        ConfigError: the file cannot be read, is not a mapping in YAML, or holds what no config does; in one line.
+        ConfigError: if the file cannot be read, is not a YAML mapping, or contains unsupported values; one line.
     """
     try:
         with open(path, "rb") as file:
-            content = file.read(LARGEST + 1)
-        if len(content) > LARGEST:
-            raise ValueError(f"has more than {LARGEST} bytes")
+            content = file.read(MAX_BYTES + 1)
+        if len(content) > MAX_BYTES:
+            raise ValueError(f"file is larger than {MAX_BYTES} bytes")
         config = yaml.load(content.decode("utf-8"), _Loader)
         if not isinstance(config, dict):
-            raise ValueError(f"{shown(config)} is not a mapping of system, cases and figures")
+            raise ValueError(f"{short_repr(config)} should be a mapping with the keys system, cases, figures, ...")
         return _with_text_keys(config)
     except ValidationError as error:
         raise _refusal(error, [(path, config)]) from None
@@ -70,17 +72,16 @@ def read(path) -> dict:
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         what = getattr(error, "strerror", None) or getattr(error, "problem", None) or str(error)
-    raise ConfigError(f"{path}: {place}{shown(' '.join(what.split()), plain=True)}")
+    raise ConfigError(f"{path}: {place}{short_repr(' '.join(what.split()), plain=True)}")
 
 
 def merged(sources) -> dict:
-    """Return the entries of some sources (name, content) together, a later one over those before.
+    """Merge sources (name, content); a later source overrides earlier ones.
 
-    An entry of null removes that of the sources before. Inside a mapping given by `--config`, Snakemake hands null over
-    as text.
+    A null removes the entry of an earlier source. Inside a mapping given by `--config`, Snakemake passes null as text.
 
     Raises:
-        ConfigError: a null has nothing to remove, or a source has what no config has; a line for each.
+        ConfigError: if a null has nothing to remove, or a source contains unsupported values; one line for each.
     """
     whole = {}
     for name, content in sources:
@@ -92,14 +93,14 @@ def merged(sources) -> dict:
 
 
 def checked(config: dict, sources=()) -> dict:
-    """Return the validated values of a config: numbers as numbers, defaults in.
+    """Validate a config and return its values, with numbers converted and defaults filled in.
 
     Args:
-        config: all entries together, as `merged` returns them.
-        sources: (name, content) of what they are from, a later one over those before.
+        config: all entries, as `merged` returns them.
+        sources: (name, content) of each source, later ones overriding earlier ones; used in messages.
 
     Raises:
-        ConfigError: something is wrong; a line for each problem, "source: key: what".
+        ConfigError: if the config is invalid; one line "source: key: problem" for each problem.
     """
     try:
         whole = {}
@@ -112,22 +113,22 @@ def checked(config: dict, sources=()) -> dict:
 
 
 def model():
-    """Return the model of the config: of both files, or of the chapter's alone where there are no studies."""
+    """Return the model of the config: of both files, or of the chapter's alone if the studies are not installed."""
     if find_spec("vibroimpact_pipeline.studies"):
         return import_module("vibroimpact_pipeline.studies.config.model").Whole
     return import_module("vibroimpact_pipeline.config.model").Config
 
 
 def _update(whole, content, above):
-    """Update a config with entries whose keys are texts; return the problems of nulls that have nothing to remove."""
+    """Update a config with entries whose keys are texts; return a problem for each null with nothing to remove."""
     problems = []
     for key, value in content.items():
         if value in (None, "null"):
             if key in whole:
                 del whole[key]
             else:
-                comma = "; a decimal number has a point" if key.isdecimal() else ""
-                what = f"has no value, and no earlier source defines it{comma}{hint(key, whole)}"
+                comma = "; use a point as decimal separator" if key.isdecimal() else ""
+                what = f"null removes an entry of an earlier source, but none defines this key{comma}{hint(key, whole)}"
                 problems.append(((*above, key), what))
         elif isinstance(value, dict):
             within = whole.get(key)
@@ -139,14 +140,16 @@ def _update(whole, content, above):
 
 
 def _refusal(error, sources):
-    """Return the error with a line for each problem that Pydantic found, the first MOST."""
-    found = sorted(problems_of(error).items(), key=lambda problem: written(problem[0]))
-    lines = [f"{_source(place, sources)}: {written(place)}: {described(about)}" for place, about in found[:MOST]]
-    return ConfigError("\n".join(lines + ([f"... and {len(found) - MOST} more"] if len(found) > MOST else [])))
+    """Return a ConfigError with one line for each of the first MAX_LINES problems that Pydantic found."""
+    found = sorted(problems_of(error).items(), key=lambda problem: key_path(problem[0]))
+    lines = [f"{_source(place, sources)}: {key_path(place)}: {described(about)}" for place, about in found[:MAX_LINES]]
+    return ConfigError(
+        "\n".join(lines + ([f"... and {len(found) - MAX_LINES} more"] if len(found) > MAX_LINES else []))
+    )
 
 
 def _source(place, sources):
-    """Return the last source that has a place in the config, or else the first with the longest part of it."""
+    """Return the last source that contains a key path, or else the first that contains the longest part of it."""
 
     def depth(source):
         value = source[1]
@@ -162,22 +165,22 @@ def _source(place, sources):
 
 
 def _with_text_keys(config):
-    """Return a copy of a config with its keys as texts.
+    """Return a copy of a config with its keys converted to text.
 
     Raises:
-        ValidationError: it has values that no config has, or too many.
+        ValidationError: if the config has values of an unsupported type, or too many values.
     """
     found, values = [], count()
 
     def copied(value, place):
-        if next(values) > ALL:
-            refuse([(place[:3], f"has, with all before, more than {ALL} values")])
+        if next(values) > MAX_VALUES:
+            refuse([(place[:3], f"the config has more than {MAX_VALUES} values up to here")])
         if isinstance(value, dict):
             return {str(key): copied(item, (*place, key)) for key, item in value.items()}
         if isinstance(value, list):
             return [copied(item, (*place, number)) for number, item in enumerate(value)]
         if isinstance(value, bool) or not isinstance(value, str | int | float | None):
-            found.append((place, f"{shown(value)} is not a number, text, list or mapping"))
+            found.append((place, f"{short_repr(value)} should be a number, text, list or mapping"))
         return value
 
     whole = copied(config, ())

@@ -1,6 +1,6 @@
-"""The JSON Schema of each config file, for editors and for Snakemake without Pydantic.
+"""Write the JSON Schema of each config file, for editors and for Snakemake without Pydantic.
 
-Run it as `python -m vibroimpact_pipeline.config.schema`.
+Run as `python -m vibroimpact_pipeline.config.schema`.
 """
 
 import json
@@ -15,18 +15,18 @@ if find_spec("vibroimpact_pipeline.studies"):
     studies = import_module("vibroimpact_pipeline.studies.config.model").Studies
     TARGETS[ROOT / "workflow/schemas/studies/config.schema.json"] = studies
 NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^[-+]?\d+(\.0*)?$"}
-"""Texts that are read as numbers."""
+"""Patterns of texts that Pydantic reads as numbers."""
 
 
 def schema(model) -> str:
-    """Return the text of the schema of a model, a line for each of its sections."""
+    """Return the JSON Schema of a model as text, one line for each section."""
     whole = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(model.model_json_schema())
     sections = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in whole.pop("$defs").items())
     return f'{{"$defs": {{\n{sections}\n}},\n{json.dumps(whole)[1:]}\n'
 
 
 def _plain(node):
-    """Return a node without titles and defaults of null; numbers may be texts, and names have to match."""
+    """Return a node without titles and null defaults; numbers may be texts, and names must match their pattern."""
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
     plain = {key: _plain(item) for key, item in node.items() if key != "title" or not isinstance(item, str)}
@@ -35,7 +35,7 @@ def _plain(node):
     if plain.get("type") in ("number", "integer"):
         plain |= {"type": [plain["type"], "string"], "pattern": NUMERALS[plain["type"]]}
     if "case" in plain.get("required", ()):
-        plain["required"] = [name for name in plain["required"] if name != "case"]  # else default_case
+        plain["required"] = [name for name in plain["required"] if name != "case"]  # it defaults to default_case
     return plain | ({"additionalProperties": False} if "patternProperties" in plain else {})
 
 

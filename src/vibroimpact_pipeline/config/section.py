@@ -1,4 +1,4 @@
-"""Base class of the config's sections: known keys, and conditions across fields."""
+"""Base class of config sections; it rejects unknown keys and checks conditions across fields."""
 
 from collections.abc import Iterable
 
@@ -6,16 +6,16 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 Place = tuple[str | int, ...]
-"""Keys and positions on the way to a value."""
+"""Path to a value: keys of mappings and indices of lists."""
 
 
 class Section(BaseModel):
-    """A mapping of the config. Numbers may be text, as `--config` passes them."""
+    """A mapping in the config. Numbers may be given as text, as `--config` does."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     def conditions(self) -> Iterable[tuple[Place, str]]:
-        """Yield violated conditions between fields that are valid by themselves: the place, and the error."""
+        """Return violated conditions across valid fields, each with its key path and message."""
         return ()
 
     @model_validator(mode="after")
@@ -25,7 +25,7 @@ class Section(BaseModel):
 
 
 def refuse(problems: Iterable[tuple[Place, str]]) -> None:
-    """Raise Pydantic's error with these problems, each by its place; none, nothing."""
+    """Raise Pydantic's ValidationError if there are problems, given as (key path, message)."""
     kinds = [(place, PydanticCustomError("condition", "{what}", {"what": what})) for place, what in problems]
     if errors := [InitErrorDetails(type=kind, loc=place, input=None) for place, kind in kinds]:
         raise ValidationError.from_exception_data("config", errors)

@@ -1,6 +1,6 @@
-"""Accept figures as the reference set: copy their tables, draw their pictures, and record the reason.
+"""Accept figures into the reference set: copy their tables, draw their pictures, and record the reason.
 
-Nothing else writes into the reference set.
+No other command writes to the reference set.
 """
 
 import argparse
@@ -17,29 +17,30 @@ from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 
 SETS = {"figure_check": "", "study_check": "studies"}
-"""Folders of reference sets, below that of the chapter's figures, by the check of each."""
+"""Folder of each reference set, relative to `figures/`, by the name of its check."""
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
     """Copy the tables of figures into the reference set, draw their pictures, and record the reason.
 
-    A figure that is no longer built leaves the set.
+    Figures that are no longer built are removed from the set.
 
     Args:
-        verdicts: on these figures. build: folder in which results/ lies. reference: folder of the set.
-        reason: one line. date: of the entry.
-        pictures_only: keep the tables, and take the pictures that are drawn of them now.
+        verdicts: verdicts on the figures to accept. build: folder that contains results/. reference: folder of the set.
+        reason: one line. date: date of the entry.
+        pictures_only: keep the reference tables and redraw the pictures from them.
 
     Raises:
-        ValueError: the reason is empty, or a figure that has no reference is to keep its tables. Nothing is written.
+        ValueError: if the reason is empty, or if `pictures_only` is set for a figure without reference. Nothing is
+            written in these cases.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:
-        raise ValueError('reason: empty; say why the reference set changes, REASON="a longer axis"')
+        raise ValueError('reason: empty, expected why the reference set changes, for example REASON="longer axis"')
     new = [verdict["figure"] for verdict in verdicts if _is_new(verdict, reference)]
     if new and pictures_only:
-        raise ValueError(f"{', '.join(new)}: no reference, whose tables could be kept; accept it without PICTURES=1")
+        raise ValueError(f"{', '.join(new)}: no reference tables to redraw; accept without PICTURES=1")
     sums = reference_sums(reference)
     for verdict in verdicts:
         figure, files = verdict["figure"], verdict["files"]
@@ -75,23 +76,23 @@ def _built_from(verdict, build):
 
 def main(arguments=None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("figures", nargs="*", help="figures to accept; all that differ, if none is named")
-    parser.add_argument("--reason", default="", help="why the reference changes")
-    parser.add_argument("--pictures", action="store_true", help="keep the tables; take the pictures drawn of them now")
-    parser.add_argument("--build", type=Path, default=Path(), help="folder in which results/ lies")
+    parser.add_argument("figures", nargs="*", help="figures to accept; default: all that did not pass")
+    parser.add_argument("--reason", default="", help="why the reference set changes")
+    parser.add_argument("--pictures", action="store_true", help="keep the reference tables and redraw their pictures")
+    parser.add_argument("--build", type=Path, default=Path(), help="folder that contains results/")
     parser.add_argument("--reference", type=Path, default=Path("figures"), help="folder of the reference sets")
     given = parser.parse_args(arguments)
     try:
         checks = {given.reference / SETS[check]: given.build / f"results/{check}/figure_check.json" for check in SETS}
         sets = {folder: json.loads(path.read_text("utf-8")) for folder, path in checks.items() if path.is_file()}
         if not sets:
-            raise ValueError("No figure has been checked: run `make check-figures` or `make check-studies` first.")
+            raise ValueError("figures: none has been checked; run `make check-figures` or `make check-studies` first")
         known = {verdict["figure"]: verdict for verdicts in sets.values() for verdict in verdicts}
         if unknown := [figure for figure in given.figures if figure not in known]:
-            raise ValueError(f"figures: unknown {', '.join(unknown)}; there are {', '.join(known)}")
+            raise ValueError(f"figures: unknown {', '.join(unknown)}; expected some of {', '.join(known)}")
         named = given.figures or [figure for figure, verdict in known.items() if verdict["status"] != PASSED]
         if not named:
-            print("Nothing to accept: every figure agrees with its reference.")
+            print("Nothing to accept: all figures match their reference.")
             return 0
         for folder, verdicts in sets.items():
             if found := [verdict for verdict in verdicts if verdict["figure"] in named]:

@@ -1,7 +1,7 @@
-"""Verdicts on figures: new tables against reference tables, and `draw(reference table)` against the reference picture.
+"""Compare new tables with reference tables, and `draw(reference table)` with the reference picture.
 
-A figure has passed, failed, or is not comparable: its tables agree, but its picture is another one, as other versions
-of what draws may make it.
+A figure passes or fails, or is not comparable if its tables match but other versions of the drawing libraries produce
+another picture.
 """
 
 import json
@@ -15,17 +15,17 @@ from tempfile import TemporaryDirectory
 from vibroimpact.figures.plotting.versions import drawing_versions
 from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check import pictures
-from vibroimpact_pipeline.figure_check.table_distances import compare, printed_distances
+from vibroimpact_pipeline.figure_check.table_distances import printed_distances, table_differences
 from vibroimpact_pipeline.specs import each
 
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
-OTHER_VERSIONS = "other versions drew the reference, see pictures.json, and these make another picture of its table"
+OTHER_VERSIONS = "the picture differs, but other library versions drew the reference (see pictures.json)"
 SUMS = "pictures.json"
-"""File of a reference set with the sums of PDF and SVG by figure, and the versions that drew them."""
+"""File of a reference set with the checksums of PDF and SVG by figure, and the versions that drew them."""
 
 
 def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
-    """Return file name in the reference set and path in a build by name of each compared table of a figure."""
+    """Return the compared tables of a figure by name: file name in the reference set, path in a build."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
         for name, table in spec["tables"].items()
@@ -39,7 +39,7 @@ def reference_sums(reference) -> dict[str, dict]:
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Return verdicts on all given figures and those that have a reference, by name."""
+    """Return the verdicts on all figures of a build or of the reference set, sorted by name."""
     known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
     figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
@@ -47,15 +47,17 @@ def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]
 
 
 def check(figure: str, spec: dict | None, reference, build) -> dict:
-    """Return the verdict on one figure as JSON data; a damaged file fails this figure alone.
+    """Return the verdict on one figure as JSON data; a damaged file only fails this figure.
 
     Args:
-        spec: its SPEC, and as "module" what draws it; None for one that is no longer made.
-        reference: folder of the reference set. build: folder in which results/ lies, up to date.
+        figure: name of the figure.
+        spec: SPEC of the figure with its drawing module as "module"; None if the figure is no longer built.
+        reference: folder of the reference set. build: folder that contains results/, up to date.
 
-    Returns keys figure, stem (path of its pictures in the build, without their endings), module, files (of each table
-    that is compared its name in the reference set, and its path in the build), status, reasons (one line each),
-    distance (the largest, of which 1 is the limit), tables (see `tables.compare`, with the table's name).
+    Returns:
+        Mapping with the keys figure, stem (path of the pictures in the build, without suffix), module, files (name in
+        the reference set and path in the build of each compared table), status, reasons (one line each), distance
+        (the largest; 1 is the limit), tables (distances of `table_differences`, with the name of the table).
     """
     verdict = {
         "figure": figure,
@@ -68,7 +70,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         "tables": [],
     }
     if spec is None:
-        return verdict | {"reasons": ["not built: the config has no such figure"]}
+        return verdict | {"reasons": ["not built: the config has no figure of this name"]}
     reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], compared_files(figure, spec)
     plotted = spec["tables"].get("csv", {"file": f"{verdict['stem']}.csv"})
     verdict |= {"module": spec["module"], "files": files, "stem": plotted["file"].removesuffix(".csv")}
@@ -84,7 +86,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     for name, (file, path) in files.items():
         with _errors_as_reasons(reasons, f"{file}: unreadable"):
             old[name], new[name] = read(reference / file), read(build / path)
-            found, distances = compare(old[name], new[name], each(spec["tables"][name]["columns"]))
+            found, distances = table_differences(old[name], new[name], each(spec["tables"][name]["columns"]))
             reasons += [f"{file}: {reason}" for reason in found]
             verdict["tables"] += [{"table": file, **one} for one in distances]
     printed = reference / f"published/{figure}.csv"
@@ -94,8 +96,8 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
             reasons += [f"published/{printed.name}: {reason}" for reason in found]
             verdict["tables"] += [{"table": f"published/{printed.name}", **one} for one in distances]
     others = []
-    with _errors_as_reasons(reasons, "picture: cannot be read or drawn"), TemporaryDirectory() as folder:
-        # Where the tables are equal, the built picture is what today's `draw` makes of the reference's tables.
+    with _errors_as_reasons(reasons, "picture: unreadable or not drawable"), TemporaryDirectory() as folder:
+        # If the tables are equal, `draw` would reproduce the built picture from the reference tables.
         equal = all(name in new and old[name].equals(new[name]) for name in files)
         today = pictures.sums(built if equal else pictures.draw(spec["module"], old, figure, folder))
         known = reference_sums(reference).get(figure, {})
@@ -104,14 +106,14 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         if pictures.is_blank(built["png"]):
             reasons.append("picture: blank")
         if others and known.get("drawn with") == drawing_versions():
-            reasons.append(f"picture: `draw` makes another {', '.join(others)} of the reference's tables")
+            reasons.append(f"picture: {', '.join(others)} drawn from the reference tables differs from the reference")
     far = max((one["distance"] for one in verdict["tables"]), default=0.0)
     return verdict | {"status": FAILED if reasons else NOT_COMPARABLE if others else PASSED, "distance": far}
 
 
 @contextmanager
 def _errors_as_reasons(reasons, what):
-    """Turn any error into a reason: libraries raise many types for a damaged file."""
+    """Append any error to the reasons; libraries raise many types of errors for a damaged file."""
     try:
         yield
     except Exception as error:
@@ -125,22 +127,22 @@ def ordered(verdicts: list[dict]) -> list[dict]:
 
 
 def line(verdict: dict) -> str:
-    """Return a line on a figure, with the first reason why it has not passed."""
+    """Return one line for a figure, with the first reason why it did not pass."""
     reasons = verdict["reasons"] or [OTHER_VERSIONS] * (verdict["status"] == NOT_COMPARABLE)
     more = f" ({len(reasons) - 1} more on the page)" * (len(reasons) > 1)
     return ": ".join([verdict["figure"], verdict["status"], *reasons[:1]]) + more
 
 
 def lines(verdicts: list[dict]) -> list[str]:
-    """Return a line per figure that did not pass, and a summary."""
+    """Return one line for each figure that did not pass, and a summary."""
     counts = Counter(verdict["status"] for verdict in verdicts)
     summary = ", ".join(f"{n} {status}" for status, n in counts.items())
     far = max((verdict["distance"] for verdict in verdicts), default=0.0)
     failures = [line(verdict) for verdict in ordered(verdicts) if verdict["status"] != PASSED]
-    return [*failures, f"{len(verdicts)} figures: {summary}; largest distance {far:.2g} of its limit"]
+    return [*failures, f"{len(verdicts)} figures: {summary}; largest distance {far:.2g} times its limit"]
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:
-    """Return True if a figure failed, if there was nothing to check or, if strict, if one could not be compared."""
+    """Return True if a figure failed, if there is no verdict or, if strict, if a figure is not comparable."""
     failures = (FAILED, NOT_COMPARABLE) if strict else (FAILED,)
     return not verdicts or any(verdict["status"] in failures for verdict in verdicts)

@@ -1,4 +1,4 @@
-"""The figure check as one offline HTML page: reference, new picture, difference and numbers of every figure."""
+"""Offline HTML page of the figure check: reference, new picture, difference and distances of every figure."""
 
 import base64
 import io
@@ -14,11 +14,11 @@ from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SPREAD = 7
-"""Width in pixels of the mark of a changed one, which a page would not show at its own size."""
+"""Width [pixels] to which a changed pixel is enlarged, so that it is visible on the page."""
 
 
 def page(verdicts: list[dict], reference, build) -> str:
-    """Return the page for verdicts of the figure check; `reference` and `build` are folders, as in `check.check`."""
+    """Return the page for the verdicts; `reference` and `build` are folders as in `check.check`."""
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
@@ -26,12 +26,12 @@ def page(verdicts: list[dict], reference, build) -> str:
 
 
 def _pictures(verdict, reference, build):
-    """Return reference, new picture and difference as PNG files; of a figure that has passed the reference alone."""
+    """Return reference, new picture and difference as data URLs; only the reference if the figure passed."""
     files, shown = {}, []
     for name, folder in (("Reference", Path(reference)), ("New", (Path(build) / verdict["stem"]).parent)):
-        with suppress(Exception):  # the verdict says so, whatever the library raises
+        with suppress(Exception):  # the verdict reports unreadable files
             content = (folder / f"{verdict['figure']}.png").read_bytes()
-            shown.append(pictures.picture(content))
+            shown.append(pictures.load_png(content))
             files[name] = content
         if verdict["status"] == check.PASSED:
             break
@@ -41,8 +41,8 @@ def _pictures(verdict, reference, build):
 
 
 def difference(old, new) -> bytes:
-    """Return a PNG file, white where two pictures are alike and dark where not; of two sizes, the part of both."""
-    unlike = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
+    """Return a PNG file that is white where two pictures agree and dark elsewhere, cropped to their common part."""
+    changed = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
     content = io.BytesIO()
-    ImageChops.invert(unlike).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")
+    ImageChops.invert(changed).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")
     return content.getvalue()

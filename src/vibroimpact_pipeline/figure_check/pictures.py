@@ -1,4 +1,4 @@
-"""Pictures drawn from tables, and their content: pixels of PNG, bytes of SVG and PDF without metadata."""
+"""Draw pictures from tables and compute checksums: of the pixels of PNG, of SVG and PDF without metadata."""
 
 import base64
 import hashlib
@@ -14,30 +14,30 @@ from vibroimpact.figures.plotting import style
 
 KINDS = "png", "pdf", "svg"
 DECIMALS = 3
-"""To which numbers in PDF and SVG are rounded, in points: their last digits follow from the layout, which another
-processor may round otherwise; a thousandth of a point is a hundredth of a pixel."""
+"""Decimals to which numbers in PDF and SVG are rounded [points]. Further digits depend on how the processor rounds the
+layout; 0.001 points are about a hundredth of a pixel."""
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables with its module, by full name; return the files by kind."""
+    """Draw a figure from its tables with a module, given by its full name; return the files by kind."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.draw_tables(import_module(module), tables), files)
     return files
 
 
-def picture(content: bytes) -> Image.Image:
-    """Return a PNG file as an RGBA picture.
+def load_png(content: bytes) -> Image.Image:
+    """Return the content of a PNG file as an RGBA image.
 
     Raises:
-        OSError: it is none.
+        OSError: if the content is not a PNG file.
     """
     with Image.open(io.BytesIO(content), formats=["PNG"]) as opened:
         return opened.convert("RGBA")
 
 
 def small(content: bytes) -> bytes:
-    """Return a PNG file without metadata, alpha and colours that it does not use."""
-    shown, smaller = picture(content), io.BytesIO()
+    """Return a PNG file without metadata, unused alpha and unused colours."""
+    shown, smaller = load_png(content), io.BytesIO()
     modes = (shown.convert(mode) for mode in ("L", "RGB"))
     fits = (one for one in modes if one.convert("RGBA").tobytes() == shown.tobytes())
     next(fits, shown).save(smaller, "PNG", optimize=True)
@@ -45,29 +45,29 @@ def small(content: bytes) -> bytes:
 
 
 def is_blank(path) -> bool:
-    """Return True if all pixels of a PNG file are alike."""
-    return all(low == high for low, high in picture(path.read_bytes()).getextrema())
+    """Return True if all pixels of a PNG file are equal."""
+    return all(low == high for low, high in load_png(path.read_bytes()).getextrema())
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """Return the SHA-256 by kind of the files' content, metadata and compression apart."""
+    """Return the SHA-256 of the content of files by kind, without metadata and compression."""
     return {kind: hashlib.sha256(SHOWN[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 
 def _png(content):
-    shown = picture(content)
+    shown = load_png(content)
     return str((*shown.size[::-1], 4)).encode() + shown.tobytes()
 
 
 def _svg(content):
-    """Return the text of an SVG without metadata; embedded pictures count by their pixels."""
+    """Return the text of an SVG without metadata, with embedded pictures replaced by their pixels."""
     content = re.sub(rb"<metadata>.*?</metadata>", b"", content, flags=re.DOTALL)
     embedded = re.compile(rb"data:image/png;base64,\s*([^\"]+)")
     return _rounded(embedded.sub(lambda found: _png(base64.b64decode(found[1])).hex().encode(), content))
 
 
 def _pdf(content):
-    """Return the unpacked objects of a PDF, without document information, lengths and cross-reference table."""
+    """Return the decompressed objects of a PDF without document information, lengths and cross-reference table."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
     shown = [body for number, body in objects.items() if number != info and not body.strip().isdigit()]

@@ -1,1 +1,1 @@
-"""Parts of pages that are read offline: formulas, and what a browser may load."""
+"""Building blocks of offline HTML pages: formulas, figure texts, notebooks and the content security policy."""

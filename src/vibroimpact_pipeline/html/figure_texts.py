@@ -1,4 +1,4 @@
-"""Title, caption, alternative text, equations and tables of each figure."""
+"""Return title, caption, alternative text, equations and tables of each figure."""
 
 import re
 from collections.abc import Callable
@@ -9,12 +9,12 @@ from vibroimpact_pipeline.chapter import CASE_OF
 from vibroimpact_pipeline.data_dictionary import read
 from vibroimpact_pipeline.specs import case_parameters, spec_of, specs, with_model
 
-SAID = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
-"""Texts of a figure, and how plain text is written in each: titles are plain, captions reStructuredText."""
+TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
+"""Texts of a figure and the function that escapes inserted values: captions are reStructuredText."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure, animation and control by name, worded for a config; see `words`."""
+    """Return the SPEC of every figure, animation and control by name, filled in for a config (see `words`)."""
     known, data = read(root)
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
     moving = config.get("report", {"animations": {}})
@@ -28,12 +28,13 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
 
 
 def words(figure: str, scene: dict, parameters: dict) -> dict:
-    """Return the SPEC of a figure with its placeholders filled, such as {f10_hat} of its case.
+    """Return the SPEC of a figure with placeholders such as {f10_hat} replaced by the values of its case.
 
-    A figure of the chapter that shows other parameters than there has the words for figures of one's own.
+    A figure of the chapter with other parameters than in the chapter gets the texts for figures of your own.
 
     Args:
-        scene: its entry in the config. parameters: of the system that it shows, as far as it has one.
+        figure: name of the figure.
+        scene: entry of the figure in the config. parameters: parameters of the system that it shows, if any.
     """
     known = specs()
     spec = spec_of(figure, scene, known) if figure in known or "like" in scene else known["animation"]
@@ -43,15 +44,15 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
         if figure in CASE_OF and parameters != PARAMETERS | CASES[CASE_OF[figure]]:
             spec, heading = spec | spec["own"], heading.replace(". ", " for other parameters. ")
     spec = spec | {"caption": with_model(spec["caption"], scene)}
-    said = {name: _filled(spec[name], scene | parameters, as_is) for name, as_is in SAID.items()}
-    return spec | said | {"title": heading + said["title"]}
+    texts = {name: _filled(spec[name], scene | parameters, escape) for name, escape in TEXTS.items()}
+    return spec | texts | {"title": heading + texts["title"]}
 
 
-def _filled(text, known, as_is: Callable[[str], str]):
-    """Return the text with known {name} replaced; other braces belong to formulas."""
+def _filled(text, known, escape: Callable[[str], str]):
+    """Return the text with known placeholders {name} replaced; other braces belong to formulas."""
 
     def value(name):
         given = known.get(name[1], name[0])
-        return as_is(given) if isinstance(given, str) and name[1] in known else str(given)
+        return escape(given) if isinstance(given, str) and name[1] in known else str(given)
 
     return re.sub(r"\{(\w+)\}", value, text)

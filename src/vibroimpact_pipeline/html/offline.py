@@ -1,4 +1,4 @@
-"""Executed notebooks as offline HTML pages with MathML formulas."""
+"""Convert executed notebooks to offline HTML pages with MathML formulas."""
 
 import re
 from html import escape
@@ -11,14 +11,15 @@ from traitlets.config import Config
 from vibroimpact_pipeline.html.mathematics import STYLE, kept, mathml
 from vibroimpact_pipeline.html.policy import guarded
 
-OF_THE_RUN = "vibroimpact: compiling"
+PROGRESS = "vibroimpact: compiling"
+"""Prefix of progress messages of the library, which pages omit."""
 PAGE = Path(__file__).with_name("notebook.html.j2")
 
 
 class MathMLRenderer(markdown_mistune.IPythonRenderer):
     """Renderer of Markdown to HTML with formulas as MathML.
 
-    A formula that cannot be translated raises math_core.LatexError.
+    A formula that cannot be converted raises math_core.LatexError.
     """
 
     def inline_math(self, body):
@@ -36,7 +37,7 @@ class OfflineExporter(HTMLExporter):
     """Exporter of a notebook to one self-contained page."""
 
     def __init__(self):
-        # Papermill puts the values of this run below the cell with the default parameters, which need not be read.
+        # Papermill inserts the values of this run below the cell of default parameters, which is removed.
         config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters"}})
         super().__init__(config=config, exclude_input_prompt=True, exclude_output_prompt=True)
         self.raw_template = PAGE.read_text(encoding="utf-8")
@@ -47,13 +48,13 @@ class OfflineExporter(HTMLExporter):
 
 
 def markdown_to_html(source: str) -> str:
-    """Return HTML of the Markdown in a notebook; raw HTML in it is shown as text, and no link starts a program."""
+    """Return the Markdown of a notebook as HTML; raw HTML is escaped and links with unsafe protocols are removed."""
     renderer = MathMLRenderer(escape=True, allow_harmful_protocols=False, exclude_anchor_links=True)
     return kept(markdown_mistune.MarkdownWithMath(renderer=renderer).render(source))
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook for the report, with a link from its first line to the page of its figure."""
+    """Return the page of a notebook for the report, with its first line linked to the page of its figure."""
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
@@ -61,11 +62,11 @@ def linked(page: str, address: str) -> str:
 def page(notebook, title: str) -> str:
     """Return the HTML page of an executed notebook; the title is that of its figure.
 
-    What the library says about itself while it runs, such as that it compiles, is left out.
+    Progress messages of the library, such as those on compilation, are omitted.
     """
     for cell in notebook.cells:
         if "outputs" in cell:
-            cell.outputs = [output for output in cell.outputs if not output.get("text", "").startswith(OF_THE_RUN)]
+            cell.outputs = [output for output in cell.outputs if not output.get("text", "").startswith(PROGRESS)]
     html, _ = OfflineExporter().from_notebook_node(notebook, {"metadata": {"name": title}, "mathematics": STYLE})
     beside_results = html.replace('href="../docs/', 'href="../../docs/').replace('href="../results/', 'href="../')
     return guarded(beside_results)

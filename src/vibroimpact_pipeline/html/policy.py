@@ -1,6 +1,6 @@
-"""Content security policy of the pages: show files beside a page, run the scripts beside it only.
+"""Content security policy of the pages: load files and scripts of the site only.
 
-Texts from the config and from results are escaped where a page is made; this holds should one of them slip through.
+Texts from the config and from results are escaped when a page is made. The policy is a second line of defence.
 """
 
 import base64
@@ -8,12 +8,12 @@ import hashlib
 import re
 
 FILES = "'self' file:"
-"""This site, and this disk: some browsers treat a page opened from disk as of no site."""
+"""The site and local files, because some browsers treat a local page as having no origin."""
 HEAD = re.compile(r"<head>\n?")
 
 
 def policy(*scripts: str) -> str:
-    """Return the element of the head that allows scripts from files and those within the page that are given."""
+    """Return the meta element that allows scripts from files and the given inline scripts."""
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
     rules = (
@@ -24,12 +24,12 @@ def policy(*scripts: str) -> str:
 
 
 def guarded(page: str) -> str:
-    """Return a page that runs no script.
+    """Return a page with a policy that allows no script.
 
     Raises:
-        ValueError: the page has no head.
+        ValueError: if the page has no head element.
     """
     page, found = HEAD.subn(f"<head>\n{policy()}\n", page, count=1)
     if not found:
-        raise ValueError("page: has no head to say in what it may do")
+        raise ValueError("page: has no <head>, expected one for the content security policy")
     return page

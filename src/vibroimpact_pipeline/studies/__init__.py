@@ -1,1 +1,1 @@
-"""The pipeline of the studies: their config, claims and report."""
+"""Pipeline of the studies: config, claims and report."""

@@ -1,4 +1,4 @@
-"""Which parts of the evidence for the claims a config changes."""
+"""Determine which parts of the evidence for the claims a config changes."""
 
 import hashlib
 import json
@@ -7,13 +7,14 @@ from vibroimpact_pipeline.chapter import departures
 
 
 def unknown_entries(config: dict, known: dict[str, str]) -> list[str]:
-    """Return one line per config entry that differs from the one the claims were written for.
+    """Return one line for each config entry that differs from the entry that the claims were written for.
 
     Args:
-        known: the digest of each entry (see `digest`) by its dotted path.
+        config: the config.
+        known: digest (see `digest`) of each entry by its dotted path.
     """
     others = [path for path, digest in known.items() if _digest_at(config, path) != digest]
-    return [f"{path} is not the one that docs/studies/claims.yaml knows" for path in others]
+    return [f"{path} differs from the entry for which docs/studies/claims.yaml was written" for path in others]
 
 
 TABLES = {
@@ -28,19 +29,20 @@ TABLES = {
     "sweeps.clearance": ("absorber", "clearance"),
     "sweeps.design": ("absorber",),
 }
-"""Parts of the evidence that depend on an entry of the config."""
+"""Parts of the evidence that depend on each entry of the config."""
 
 
-def unlike(config: dict, known: dict[str, str]) -> dict[str, str]:
-    """Return why parts of the evidence are not about the chapter, a line by part: see `studies.claims.evidence`.
+def departures_by_part(config: dict, known: dict[str, str]) -> dict[str, str]:
+    """Return for parts of the evidence, by name, why they do not apply to the chapter (see `studies.claims.evidence`).
 
     Args:
+        config: the config.
         known: as in `unknown_entries`.
     """
     found = {}
     for line in departures(config):
-        place = line.removeprefix("there is no case ").split(" ")[0].split(".")
-        found.setdefault("system" if place[0] == "system" else place[-1] if len(place) == 1 else place[1], line)
+        section, name = line.split(" ")[0].split(".")[:2]
+        found.setdefault("system" if section == "system" else name, line)
     for line in unknown_entries(config, known):
         for part in TABLES[line.split(" ")[0]]:
             found.setdefault(part, line)

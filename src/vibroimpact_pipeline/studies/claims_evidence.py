@@ -1,4 +1,4 @@
-"""The evidence for judging the chapter's claims, read from the results of a build."""
+"""Read the evidence for judging the claims of the chapter from the results of a build."""
 
 import json
 from pathlib import Path
@@ -16,28 +16,30 @@ TABLES = (
 )
 
 
-def evidence(config: dict, inputs: dict, unlike: dict[str, str]) -> Evidence:
-    """Return the evidence on the chapter's cases; `inputs` names the simulations <case>_samples, and so on.
+def evidence(config: dict, inputs: dict, departures: dict[str, str]) -> Evidence:
+    """Return the evidence on the cases of the chapter.
 
     Args:
-        unlike: why parts of it are not about the chapter; what a build does not make is one of them.
+        config: the config.
+        inputs: paths of results by name; simulations are named <case>_samples, <case>_events and <case>_summary.
+        departures: for parts of the evidence, why they do not apply to the chapter; missing results are added.
     """
     cases = [case for case in CASES if case in config["cases"]]
     simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
     proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
-    missing = {name: f"{name} is not made" for name in TABLES if name not in inputs}
+    missing = {name: f"{name} is missing in this build" for name in TABLES if name not in inputs}
     return Evidence(
         systems={case: System(**case_parameters(config, case)) for case in cases},
         proofs={case: proofs[case] for case in cases},
         simulations={case: simulation(case, inputs) for case in sorted(simulated)},
         **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES if name in inputs},
         **dict.fromkeys(missing),
-        unlike=missing | unlike,
+        unlike=missing | departures,
     )
 
 
 def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of the chapter's cases; a table without cases whole."""
+    """Return the rows of the chapter's cases, or all rows of a table without the column case."""
     return table[table["case"].isin(CASES)].reset_index(drop=True) if "case" in table else table
 
 

@@ -9,7 +9,7 @@ from chapter import PARAMETERS
 from published_tables import COLUMNS, kinds_used, published, tables_in, unnoticed
 from vibroimpact.figures import fig10_08
 from vibroimpact.tables import curve, join
-from vibroimpact_pipeline.figure_check.table_distances import FAR, KINDS, MEASURES, compare
+from vibroimpact_pipeline.figure_check.table_distances import KINDS, MAX_DISTANCE, MEASURES, table_differences
 
 RANDOM = np.random.default_rng(5)
 VALUE = {"value": {"compared": "kind"}}
@@ -23,7 +23,7 @@ def apart(monkeypatch):
     def apart(measure, old, new, limit=1.0):
         monkeypatch.setitem(KINDS, "kind", {"limits": {measure: limit}})
         old, new = (curve("a", "s", value=values) for values in (old, new))
-        return {one["measure"]: one["distance"] for one in compare(old, new, VALUE)[1]}[measure]
+        return {one["measure"]: one["distance"] for one in table_differences(old, new, VALUE)[1]}[measure]
 
     return apart
 
@@ -67,8 +67,10 @@ def test_a_balance_is_as_rare_as_the_same_tosses_of_a_coin(apart):
 def test_a_class_that_vanishes_is_never_near_unless_it_is_scarce(apart, number):
     old = np.repeat(["one", "two"], [900, number])
     vanished = number > 4
-    assert (apart("balance", old, np.repeat(["one"], 900 + number), 99) == FAR) == vanished
-    assert (apart("balance", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 99) == FAR) == vanished
+    assert (apart("balance", old, np.repeat(["one"], 900 + number), 99) == MAX_DISTANCE) == vanished
+    assert (
+        apart("balance", np.repeat([0.0, 0.2], [900, number]), np.zeros(900 + number), 99) == MAX_DISTANCE
+    ) == vanished
 
 
 def test_a_shift_of_one_series_and_of_many_short_ones(monkeypatch):
@@ -77,7 +79,7 @@ def test_a_shift_of_one_series_and_of_many_short_ones(monkeypatch):
     monkeypatch.setitem(KINDS, "kind", {"limits": {"middle": 0.02, "balance": 4}})
     for series, measure in ([old["series"] == "0"], "balance"), ([old["series"] != "0"], "middle"):
         new = old.assign(value=old["value"].where(~series[0], 1.1 * old["value"]))
-        _, found = compare(old, new, VALUE)
+        _, found = table_differences(old, new, VALUE)
         assert [one["measure"] for one in found if one["distance"] > 1] == [measure]
 
 
@@ -85,9 +87,9 @@ def test_infinity_is_a_place_where_it_is_declared(monkeypatch):
     monkeypatch.setitem(KINDS, "kind", {"limits": {"difference": {"absolute": 4.0, "relative": 0}}})
     columns = {"value": {"compared": "kind", "infinite": True}}
     old, new, other = (curve("a", "s", value=[x, 4.0, y]) for x, y in ((0.0, np.inf), (1.0, np.inf), (0.0, 4.0)))
-    assert compare(old, new, columns)[1][0]["distance"] == pytest.approx(0.25)
-    assert compare(old, other, columns)[1][0]["distance"] == FAR
-    assert compare(old, old, VALUE)[0] == ["value is infinite"]
+    assert table_differences(old, new, columns)[1][0]["distance"] == pytest.approx(0.25)
+    assert table_differences(old, other, columns)[1][0]["distance"] == MAX_DISTANCE
+    assert table_differences(old, old, VALUE)[0] == ["value: infinite value"]
 
 
 def test_classes_are_words_that_may_differ_and_others_may_not(monkeypatch):
@@ -95,10 +97,10 @@ def test_classes_are_words_that_may_differ_and_others_may_not(monkeypatch):
     monkeypatch.setitem(KINDS, "kind", {"limits": {"decades": 1.0}})
     old = join([curve("a", "s", label=["one", "two", "two", "two"], value=np.arange(1.0, 5.0))])
     new = old.assign(label=["one", "one", "two", "two"])
-    reasons, found = compare(old, new, VALUE | {"label": {"compared": "outcome"}})
+    reasons, found = table_differences(old, new, VALUE | {"label": {"compared": "outcome"}})
     assert reasons == []
     assert [(one["reference"], one["new"]) for one in found if one["column"] == "label"] == [("two", "one")]
-    assert compare(old, new, VALUE)[0] == ["a, s: other rows, 4 instead of 4"]
+    assert table_differences(old, new, VALUE)[0] == ["a, s: rows differ, 4 instead of 4"]
 
 
 def test_a_series_has_a_kind_of_its_own(monkeypatch):
@@ -107,27 +109,27 @@ def test_a_series_has_a_kind_of_its_own(monkeypatch):
     columns = {"value": {"compared": {"dots": "some", "others": "kind"}}}
     old = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.2, 0.4, 0.6])])
     new = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.3, 0.5, 0.6])])
-    reasons, found = compare(old, new, columns)
+    reasons, found = table_differences(old, new, columns)
     assert (reasons, {one["kind"]: one["distance"] == 0 for one in found}) == ([], {"kind": True, "some": False})
-    assert compare(old, new[new["series"] == "line"], columns)[0] == ["a, dots: other rows, 0 instead of 3"]
+    assert table_differences(old, new[new["series"] == "line"], columns)[0] == ["a, dots: rows differ, 0 instead of 3"]
 
 
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda t: t.rename(columns={"B": "b"}), "columns panel, series, C, b instead of panel, series, C, B"),
+        (lambda t: t.rename(columns={"B": "b"}), "columns are panel, series, C, b instead of panel, series, C, B"),
         (lambda t: t.iloc[1:], "SIM, SIM unstable: "),
-        (lambda t: t.assign(series=t["series"].replace("B_min", "b")), "SIM, B_min: other rows, 0 instead of 2"),
+        (lambda t: t.assign(series=t["series"].replace("B_min", "b")), "SIM, B_min: rows differ, 0 instead of 2"),
         (lambda t: t.iloc[::-1], "SIM, "),
-        (lambda t: t.assign(B=t["B"].where(t["C"] > 0)), "B: blank in other rows"),
-        (lambda t: t.assign(B=t["B"].where(t["C"] > 0, np.nan).where(t["C"] > 9)), "B: blank in other rows"),
-        (lambda t: t.assign(B=t["B"].where(t["C"] != 1, np.inf)), "B is infinite"),
-        (lambda t: t.sort_values("series", kind="stable"), "the same series in another order"),
+        (lambda t: t.assign(B=t["B"].where(t["C"] > 0)), "B: blank cells differ"),
+        (lambda t: t.assign(B=t["B"].where(t["C"] > 0, np.nan).where(t["C"] > 9)), "B: blank cells differ"),
+        (lambda t: t.assign(B=t["B"].where(t["C"] != 1, np.inf)), "B: infinite value"),
+        (lambda t: t.sort_values("series", kind="stable"), "the order of the series differs"),
     ],
 )
 def test_what_cannot_be_compared_is_said(change, said):
     old, columns = published("fig10_04")
-    reasons, _ = compare(old, change(old), columns)
+    reasons, _ = table_differences(old, change(old), columns)
     assert any(said in reason for reason in reasons), reasons
 
 
@@ -135,11 +137,11 @@ def test_what_is_wrong_in_both_fails():
     table, columns = published("fig10_04")
     for spoilt, said in [
         (table.iloc[:0], "no rows"),
-        (table.assign(B=np.nan), "no value of B"),
-        (table.drop(columns=["C", "B"]), "none of the columns that its SPEC declares"),
-        (table.assign(new=1.0), "no limit is stated for column new"),
+        (table.assign(B=np.nan), "B: all cells are blank"),
+        (table.drop(columns=["C", "B"]), "no column that the SPEC compares"),
+        (table.assign(new=1.0), "new: the SPEC states no limit for this column"),
     ]:
-        assert said in compare(spoilt, spoilt, columns)[0]
+        assert said in table_differences(spoilt, spoilt, columns)[0]
 
 
 @pytest.mark.parametrize("name", tables_in("figures"))
@@ -151,7 +153,7 @@ def test_of_the_accuracy_charts_errors_orders_and_failures_are_compared_and_seco
     old, columns = published("work_precision")
     slower = {"seconds_per_cycle": 9 * old["seconds_per_cycle"], "steps": old["steps"] + 1}
     slower["reason"] = old["reason"].where(old["reason"].isna() | (old["reason"] == ""), "another")
-    assert compare(old, old.assign(**slower), columns)[0] == []
+    assert table_differences(old, old.assign(**slower), columns)[0] == []
     last = old.index == old.index[old["outcome"] == "finished"][-1]
     for name, values in {
         "error_state": old["error_state"].where(~last, 100 * old["error_state"]),
@@ -160,7 +162,7 @@ def test_of_the_accuracy_charts_errors_orders_and_failures_are_compared_and_seco
         "missed": old["missed"] + (old["method"] == "heyoka"),
         "outcome": old["outcome"].where(~last, "unfinished"),
     }.items():
-        assert compare(old, old.assign(**{name: values}), columns)[0], name
+        assert table_differences(old, old.assign(**{name: values}), columns)[0], name
 
 
 @pytest.mark.parametrize(("gamma1_hat", "caught"), [(0.2, False), (0.2 * 1.003, True)])
@@ -173,7 +175,7 @@ def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(
         events = curve("", "", **{name: run.events[name] for name in ("tau", "module", "wall")})
         return fig10_08.compute(system, samples, events.assign(X2=run.events["state"][:, 2]))
 
-    assert bool(compare(settled(0.2), settled(gamma1_hat), COLUMNS["fig10_08"])[0]) == caught
+    assert bool(table_differences(settled(0.2), settled(gamma1_hat), COLUMNS["fig10_08"])[0]) == caught
 
 
 def test_every_column_of_numbers_has_a_kind_that_there_is():

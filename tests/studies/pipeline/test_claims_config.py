@@ -3,18 +3,18 @@
 import copy
 
 from configs import GOOD
-from vibroimpact_pipeline.studies.claims_config import digest, unlike
+from vibroimpact_pipeline.studies.claims_config import departures_by_part, digest
 
 
 def test_what_differs_from_the_chapter_is_named_by_the_part_of_the_evidence():
     config = copy.deepcopy(GOOD)
     seen = {"sweeps.design": digest(config["sweeps"]["design"])}
-    assert unlike(config, seen) == {}
+    assert departures_by_part(config, seen) == {}
     config["cases"]["weak"]["f10_hat"] = 0.6
     config["sweeps"]["design"]["starts"] = 9
     del config["cases"]["unequal"]
-    found = unlike(config, seen)
+    found = departures_by_part(config, seen)
     assert found.keys() == {"weak", "unequal", "absorber"}
-    assert found["weak"] == "cases.weak.f10_hat is 0.6, not 0.5"
+    assert found["weak"] == "cases.weak.f10_hat is 0.6 instead of 0.5"
     config["system"]["kappa"] = 0.7
-    assert "system" in unlike(config, seen)
+    assert "system" in departures_by_part(config, seen)

@@ -9,7 +9,7 @@ import pytest
 from pandas.api.types import is_numeric_dtype
 
 from published_tables import by_kind, published, tables_in
-from vibroimpact_pipeline.figure_check.table_distances import compare
+from vibroimpact_pipeline.figure_check.table_distances import table_differences
 
 STUDIES = tables_in("figures/studies")
 REBUILDS = pd.read_csv(Path(__file__).with_name("rebuilds.csv.gz"), dtype=str)
@@ -34,7 +34,7 @@ def built(build, name):
 def differs(name, change):
     """True if the check tells a published table from what `change` makes of it."""
     old, columns = published(name)
-    return compare(old, change(old.copy()), columns)[0] != []
+    return table_differences(old, change(old.copy()), columns)[0] != []
 
 
 @pytest.mark.parametrize("name", CHAOTIC)
@@ -44,7 +44,7 @@ def test_a_build_that_is_rounded_otherwise_passes(name):
     builds = sorted(set(REBUILDS["build"][REBUILDS["table"] == name]))
     tables = {build: built(build, name) for build in ("reference", *builds)}
     for before, after in combinations(tables, 2):
-        assert compare(tables[before], tables[after], columns)[0] == [], (before, after)
+        assert table_differences(tables[before], tables[after], columns)[0] == [], (before, after)
 
 
 def shifted(values, kind, factor):
@@ -74,7 +74,7 @@ def test_a_shift_of_a_column_by_a_tenth_fails(name, factor):
         else:
             new[column] = new[column].astype(float)
             new.loc[rows, column] = shifted(new.loc[rows, column], kind, factor)
-        assert compare(old, new, columns)[0] != [], (column, kind)
+        assert table_differences(old, new, columns)[0] != [], (column, kind)
 
 
 def contiguous(column, before, after, cells):

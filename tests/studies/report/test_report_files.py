@@ -130,7 +130,7 @@ def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(
 def test_every_figure_tells_where_it_comes_from_and_leads_to_its_notebook_and_back(site):
     html = (site / "figures.html").read_text(encoding="utf-8")
     records = sorted((site.parent / "figures").glob("fig10_*.provenance.json"))
-    assert html.count("Where it comes from:") >= len(records) == 11
+    assert html.count("Origin:") >= len(records) == 11
     for path in records:
         record = json.loads(path.read_text(encoding="utf-8"))
         assert all(f"{part} {number}" in html for part, number in record["versions"].items())

@@ -32,7 +32,7 @@ def test_own_cases_and_figures_go_through_claims_and_report(restudied):
         assert figure in (results / "report/figures.html").read_text(encoding="utf-8")
     assert "Simulated motion of case A b" in (results / "report/figures.html").read_text(encoding="utf-8")
 
-    reasons = ["there is no case unequal", "there is no case weak"]
+    reasons = ["cases.unequal is missing", "cases.weak is missing"]
     claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
     verdicts = {claim["id"]: claim["verdict"] for claim in claims}
     assert verdicts["two-branches"] == "holds in part"  # which no case decides on

@@ -1,6 +1,6 @@
-"""LaTeX formulas as MathML, which browsers draw themselves, in a font shipped here.
+"""Convert LaTeX formulas to MathML, which browsers render without scripts, in an embedded font.
 
-The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), cut down to the signs of formulas by
+The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), reduced to the characters of formulas by
 `pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff`.
 """
 
@@ -20,19 +20,19 @@ math {{ font-family: "STIX Two Math", math, serif; }}
 .kept {{ white-space: nowrap; }}
 math[display="block"] {{ margin: 0.7rem 0; }}
 """
-"""Style of every page with formulas; it contains the font, since browsers load none from a disk."""
+"""Style of every page with formulas; it embeds the font because browsers load no fonts from local files."""
 _CONVERTER = LatexToMathML(fancy_error=False)
 OVERLINE = re.compile(r"(?<=<mo stretchy=\"true\">)\u0332(?=</mo></mover>)")
-"""The combining low line that the converter sets for \\overline, drawn below its letter."""
+"""The combining low line that the converter inserts for \\overline and that browsers draw below the letter."""
 MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)', re.DOTALL)
-"""A formula within a line, with the marks before and behind it."""
+"""An inline formula with the punctuation before and after it."""
 
 
 def mathml(tex: str, display: bool) -> str:
     """Return a LaTeX formula as MathML, within a line or displayed on its own, where it may have a \\tag.
 
     Raises:
-        math_core.LatexError: the formula cannot be translated.
+        math_core.LatexError: if the formula cannot be converted.
     """
     if display and r"\tag" in tex:
         tex = rf"\begin{{equation}}{tex}\end{{equation}}"
@@ -40,5 +40,5 @@ def mathml(tex: str, display: bool) -> str:
 
 
 def kept(html: str) -> str:
-    """Return HTML without line breaks between a formula and the marks around it."""
+    """Return HTML without line breaks between a formula and the punctuation around it."""
     return MARKED.sub(lambda m: f'<span class="kept">{m[0]}</span>' if m[1] or m[3] else m[0], html)

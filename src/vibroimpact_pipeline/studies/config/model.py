@@ -1,4 +1,4 @@
-"""The config of the studies, config/studies.yaml: its smaller sections, and the conditions across both files."""
+"""Model of the studies' config, config/studies.yaml: smaller sections and conditions across both files."""
 
 from collections.abc import Iterator
 
@@ -15,65 +15,71 @@ from vibroimpact_pipeline.studies.config.sweeps import Sweep
 class Companion1005(Section):
     """Companion of figure 10.5."""
 
-    C_range: fields.around(0.6, fields.HIGHEST) = Field(description="Ends of the axis, which holds the derived limits")
+    C_range: fields.around(0.6, fields.BEYOND_LIMITS) = Field(
+        description="Ends of the axis; it must contain the derived limits"
+    )
 
 
 class VerdictGrid(Section):
-    """The theory's verdicts against exact orbits, at the centres of points x points cells of forces."""
+    """Verdicts of the theory against exact orbits at the centres of points x points cells of forcing amplitudes."""
 
     f10_range: fields.Forces
     f20_range: fields.Forces
     points: fields.Points
-    epsilon: fields.items(fields.Epsilon, 1, 20, "Values at which the exact orbits are looked for")
+    epsilon: fields.items(fields.Epsilon, 1, 20, "Values of epsilon for the exact orbits")
 
 
 class Stability(Section):
-    """The axis of the companion of figure 10.5, and the grid for judging the criteria."""
+    """Axis of the companion of figure 10.5, and grid for judging the stability criteria."""
 
     companion_10_05: Companion1005
     verdict_grid: VerdictGrid
 
 
 class Animation(Section):
-    """The first cycles of a case's simulated window."""
+    """An animation of the first cycles of the simulated window of a case."""
 
     case: fields.CaseName
-    cycles: fields.count("Cycles shown, no more than the window has [forcing periods]", 1, 1000)
+    cycles: fields.count("Length, at most window_cycles of the case [forcing periods]", 1, 1000)
 
 
 class ForceSweep(Section):
-    """The slider on the page of fixed points: f20_hat varies, all else is as in the case."""
+    """The slider on the page of fixed points: it varies f20_hat, with all other parameters as in the case."""
 
     case: fields.CaseName
     range: fields.Forces
-    values: fields.count("Values of f20_hat", 2, fields.MOST)
+    values: fields.count("Number of values of f20_hat", 2, fields.MAX_VALUES)
     C_max: fields.Amplitude = Field(description="Right end of the planes")
 
     def conditions(self):
         if self.range[1] - self.range[0] < 1e-6 * (self.values - 1):
-            yield ("values",), f"{self.values} in {self.range} are not all different in six decimals"
+            yield ("values",), f"{self.values} values in {self.range} should differ in six decimals"
 
 
 class Report(Section):
-    """The live parts of the report: animations, and the slider of the fixed points."""
+    """Interactive parts of the report: animations and the slider of the fixed points."""
 
-    animations: fields.named(Animation, 0, 10) = Field(description="Animations by free names")
+    animations: fields.named(Animation, 0, 10) = Field(description="Animations by name")
     force_sweep: ForceSweep
 
 
 class Studies(Section):
-    """All beyond the chapter: dimensionless except machines, times in forcing periods."""
+    """Config of the studies. Dimensionless except machines; times in forcing periods."""
 
     stability: Stability
     regimes: Regimes
-    tile_seconds: float = Field(20.0, gt=0, le=1e5, description="Cut sweeps into jobs of about so long [core seconds]")
+    tile_seconds: float = Field(
+        20.0, gt=0, le=1e5, description="Approximate run time of each job of a sweep [core seconds]"
+    )
     report: Report
-    sweeps: fields.named(Sweep, 0, 100) = Field({}, description="Questions of one's own, by name; companions draw some")
-    machines: fields.named(Machines, 0, 10) = Field({}, description="Machines in SI units, a figure each, by name")
+    sweeps: fields.named(Sweep, 0, 100) = Field({}, description="Parameter sweeps by name; companion figures draw some")
+    machines: fields.named(Machines, 0, 10) = Field(
+        {}, description="Machines in SI units by name; each becomes a figure"
+    )
 
 
 class Whole(Config, Studies):
-    """Both files together."""
+    """Both config files together."""
 
     def conditions(self):
         yield from super().conditions()
@@ -81,20 +87,20 @@ class Whole(Config, Studies):
             for place, what in sweep.not_drawn(name):
                 yield ("sweeps", name, *place), what
         if "self" in self.sweeps:
-            yield ("sweeps", "self"), "a sweep cannot have this name, which Snakemake gives to an argument"
+            yield ("sweeps", "self"), "this name is reserved by Snakemake; rename the sweep"
         for name, shown in self.report.animations.items():
             if shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
-                what = f"{shown.cycles} is above {kept}, window_cycles of the case {shown.case}"
+                what = f"{shown.cycles} should be at most {kept}, the window_cycles of case {shown.case}"
                 yield ("report", "animations", name, "cycles"), what
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the places of entries whose names become names of rules."""
+        """Yield the key paths of entries that become rules of the same name."""
         yield from super().named_rules()
         yield from (("report", "animations", name) for name in self.report.animations)
         yield from (("machines", name) for name in self.machines)
 
     def moves(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield changed parameters: the place of the change, its case (None: all), and the parameters by name."""
+        """Yield varied parameters: key path of the entry, its case (None: all cases), and parameters by name."""
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):
             for end in path.range:

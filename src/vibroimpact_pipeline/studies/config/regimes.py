@@ -1,4 +1,4 @@
-"""Section `regimes`: regimes of the exact system other than 1:1 responses, and the resolution of their search."""
+"""Section `regimes`: settings for finding regimes of the exact system other than 1:1 responses."""
 
 import dataclasses
 from typing import Annotated, Literal
@@ -9,41 +9,43 @@ from vibroimpact.system import System
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 
-NEAR = "How near to repeating before Newton's method takes over; half a cavity is 1"
+NEAR = "Distance of states one period apart at which Newton's method starts; the clearance is 1"
 NAMES = tuple(field.name for field in dataclasses.fields(System))
-Along = fields.items(Literal[NAMES], 1, len(NAMES), "The parameters that move together")
-APART = fields.needs(lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ in `along`")
+Along = fields.items(Literal[NAMES], 1, len(NAMES), "Parameters that vary together, with equal values")
+APART = fields.needs(
+    lambda paths: len({tuple(path.along) for path in paths}) == len(paths), "should differ from each other in `along`"
+)
 Window = Annotated[int, Field(ge=1, le=100_000)]
 
 
 class Exponent(Section):
-    """Length of the measurement of a Lyapunov exponent."""
+    """Length of the computation of a Lyapunov exponent."""
 
-    blocks: fields.count("Blocks of a Lyapunov exponent; their spread is its error", 2, 10_000)
-    block: fields.count("Cycles of a block [forcing periods]", 1, 10_000)
+    blocks: fields.count("Number of blocks of a Lyapunov exponent; their spread gives its error", 2, 10_000)
+    block: fields.count("Length of a block [forcing periods]", 1, 10_000)
 
 
 class Observation(Exponent):
-    """Length of the observation of one start."""
+    """Settings for classifying the motion from one initial state."""
 
-    cycles: fields.count("A start is simulated for so long before it is looked at; see docs/howto.md [forcing periods]")
-    rounds: fields.count("At most so many times, until it repeats", 1, 1000)
-    window: fields.count("Cycles that it is looked at [forcing periods]", 4, 10_000)
+    cycles: fields.count("Transient before each observation, see docs/howto.md [forcing periods]")
+    rounds: fields.count("Maximum number of observations until the motion repeats", 1, 1000)
+    window: fields.count("Length of an observation [forcing periods]", 4, 10_000)
     nearness: fields.real(NEAR, 1e-6, 0.5)
-    retest: fields.count("The name of a motion without repetition is tried so long [forcing periods]")
+    retest: fields.count("Time over which the regime of a non-periodic motion is tested [forcing periods]")
 
 
 class BranchPath(Section):
-    """A line through the parameters, along which they move together."""
+    """A path in parameter space along which parameters vary together."""
 
     along: Along
     range: fields.span(fields.Number)
 
 
 class Attractors(Section):
-    """Attractors found from random starts along the paths of the branches."""
+    """Attractors found from random initial states along the paths of the branches."""
 
-    values: fields.count("Values along each path", 2, fields.MOST)
+    values: fields.count("Number of values along each path", 2, fields.MAX_VALUES)
     starts: fields.Starts
     seed: fields.Seed
 
@@ -52,35 +54,35 @@ class Branches(Section):
     """Branches of 1:1 responses along paths through the parameters."""
 
     case: fields.CaseName
-    paths: fields.items(BranchPath, 1, 4, "Lines through the parameters", APART)
-    longest_step: fields.real("Longest step of a branch, 200 of every path at most", 1e-6, 1000)
-    seeds: fields.count("Values of a path at which branches are looked for", 1, 100)
+    paths: fields.items(BranchPath, 1, 4, "Paths in parameter space", APART)
+    longest_step: fields.real("Longest step of the continuation, at least 1/200 of the longest path", 1e-6, 1000)
+    seeds: fields.count("Number of values of a path at which branches are searched", 1, 100)
     attractors: Attractors
 
     def conditions(self):
-        # A continuation gives up after 2000 points, and a branch is longer than its range.
+        # A continuation stops after 2000 points, and a branch is longer than its range.
         if self.longest_step < (least := max(path.range[1] - path.range[0] for path in self.paths) / 200):
             yield ("longest_step",), f"{self.longest_step} should be at least {least:g}, 1/200 of the longest path"
 
 
 class Modulation(Exponent):
-    """Modulated responses in numbers."""
+    """Measures of modulated responses."""
 
     starts: fields.Starts
     seed: fields.Seed
-    cycles: fields.count("Window of the measures [forcing periods]", 1, 100_000)
-    windows: fields.items(Window, 1, 20, "Windows that measures are compared over [forcing periods]")
+    cycles: fields.count("Length of the window of the measures [forcing periods]", 1, 100_000)
+    windows: fields.items(Window, 1, 20, "Lengths of the windows to compare [forcing periods]")
 
 
 class Basins(Section):
-    """Basins of attraction on a plane of starts."""
+    """Basins of attraction in a plane of initial states."""
 
     case: fields.CaseName
     points: fields.Points
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold, left out: time scales cannot be told apart there."""
+    """A fixed point next to the fold of the manifold, excluded because the time scales do not separate there."""
 
     case: fields.CaseName
     label: fields.Label
@@ -90,8 +92,10 @@ class EpsilonRange(Section):
     """Values of epsilon at which theory and exact responses are compared."""
 
     epsilon: fields.items(fields.Epsilon, 2, 2, "First and last value")
-    values: fields.count("Values, evenly on a logarithmic scale", 3, fields.MOST)
-    fit_below: float = Field(gt=0, le=10, description="Fit orders to the values below this, two at least")
+    values: fields.count("Number of values, evenly spaced on a logarithmic scale", 3, fields.MAX_VALUES)
+    fit_below: float = Field(
+        gt=0, le=10, description="Fit orders to values of epsilon below this; at least two must be below"
+    )
 
     def conditions(self):
         low, high = sorted(self.epsilon)
@@ -100,9 +104,9 @@ class EpsilonRange(Section):
 
 
 class Asymmetric(EpsilonRange):
-    """Asymmetric pairs towards small epsilon, over the manifold."""
+    """Asymmetric pairs of orbits as epsilon decreases, drawn over the manifold."""
 
-    C_max: fields.real("Right end of the manifold, beyond the derived limits", fields.HIGHEST, 100)
+    C_max: fields.real("Right end of the manifold, above the derived limits", fields.BEYOND_LIMITS, 100)
 
 
 class EpsilonLimit(EpsilonRange):

@@ -1,4 +1,4 @@
-"""Section `sweeps`: your own parameter studies, one or two axes and the observations at each point."""
+"""Section `sweeps`: parameter sweeps along one or two axes, with observations at each point."""
 
 import math
 from collections import ChainMap
@@ -12,8 +12,8 @@ from vibroimpact_pipeline.config.section import Section
 from vibroimpact_pipeline.specs import specs
 from vibroimpact_pipeline.studies.config.regimes import Along
 
-POINTS = 4_000_000
-"""Points of a sweep: its table is read and drawn in the memory of one job."""
+MAX_POINTS = 4_000_000
+"""Maximum number of points of a sweep; one job holds the whole table in memory."""
 SIMULATED = ("starts", "seed", "cycles", "settle")
 NEEDED = dict.fromkeys(("amplitudes", "envelopes", "energy"), SIMULATED) | {
     "regimes": ("starts", "seed"),
@@ -22,20 +22,22 @@ NEEDED = dict.fromkeys(("amplitudes", "envelopes", "energy"), SIMULATED) | {
 """Keys required by each observation."""
 OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
-"""Keys by which an axis may give its values."""
-Listed = fields.items(fields.Number, 2, fields.MOST, "The values themselves, instead of all of these")
+"""Allowed combinations of keys for the values of an axis."""
+Listed = fields.items(fields.Number, 2, fields.MAX_VALUES, "Values, instead of a range")
 Tuple = fields.items(fields.Number, 2, 10, check=None)
-Tuples = fields.items(Tuple, 2, 100, "Or a value for each parameter, the first never twice the same")
+Tuples = fields.items(
+    Tuple, 2, 100, "Tuples with one value for each parameter, instead of a range; first values must differ"
+)
 
 
 class Axis(Section):
-    """Parameters that move together, evenly over a range or through a list."""
+    """Parameters that vary together, over a range or a list of values."""
 
     along: Along
     range: fields.span(fields.Number) | None = None
-    values: fields.count("So many values over the range, both ends among them", 2, POINTS) | None = None
-    cells: fields.count("Or the middles of so many equal cells of the range", 2, POINTS) | None = None
-    scale: Literal["linear", "logarithmic"] | None = Field(None, description="Of `values`; absent: linear")
+    values: fields.count("Number of values over the range, endpoints included", 2, MAX_POINTS) | None = None
+    cells: fields.count("Number of equal cells of the range, whose centres are the values", 2, MAX_POINTS) | None = None
+    scale: Literal["linear", "logarithmic"] | None = Field(None, description="Spacing of `values`; default: linear")
     listed: Listed | None = None
     tuples: Tuples | None = None
 
@@ -43,39 +45,39 @@ class Axis(Section):
         given = {name for name, value in self if value and name != "along"}
         if given not in FORMS:
             forms = ", or ".join(" and ".join(sorted(form)) for form in FORMS)
-            yield (), f"should have {forms}, not {', '.join(sorted(given)) or 'none of these'}"
+            yield (), f"should have the keys {forms}; has {', '.join(sorted(given)) or 'none of these'}"
         elif self.tuples:
             firsts, lengths = {values[0] for values in self.tuples}, {len(values) for values in self.tuples}
             if len(firsts) < len(self.tuples) or lengths != {len(self.along)}:
-                yield ("tuples",), f"should have different first values, and {len(self.along)} values each"
+                yield ("tuples",), f"should have {len(self.along)} values each, and different first values"
         elif self.range:
             low, high = self.range
             if low <= 0 and self.scale == "logarithmic":
-                yield ("range", 0), f"{low} should be above 0, as on a logarithmic scale"
+                yield ("range", 0), f"{low} should be above 0 for a logarithmic scale"
             elif (high - low) / self.number() < 4 * math.ulp(max(-low, high)):
-                yield ("range",), f"{self.range} should have {self.number()} different values"
+                yield ("range",), f"{self.range} should be wide enough for {self.number()} different values"
 
     def number(self) -> int:
-        """Return the number of values."""
+        """Return the number of values of the axis."""
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the least and the largest value, or at every tuple."""
+        """Return the parameters at the lowest and the highest value, or at every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
 
 class Sweep(Section):
-    """One or two axes, the case with the other parameters, and the observations at every point."""
+    """A sweep: one or two axes, the case with the other parameters, and the observations at every point."""
 
     case: fields.CaseName
-    axes: fields.items(Axis, 1, 2, "What moves over the grid")
-    observe: fields.items(OBSERVATIONS, 1, 7, "What is observed; the first five simulate, from every start")
+    axes: fields.items(Axis, 1, 2, "Axes of the grid")
+    observe: fields.items(OBSERVATIONS, 1, 7, "Observations; all but fixed_points and orbits need simulations")
     starts: fields.Starts | None = None
     seed: fields.Seed | None = None
-    cycles: fields.count("Length of a run that is observed [forcing periods]") | None = None
-    settle: fields.count("Cycles of it that are left out; see docs/howto.md [forcing periods]", 0) | None = None
-    band: Axis | None = Field(None, description="What moves at every point while the worst peak is sought")
+    cycles: fields.count("Length of a run [forcing periods]") | None = None
+    settle: fields.count("Length of the discarded transient, see docs/howto.md [forcing periods]", 0) | None = None
+    band: Axis | None = Field(None, description="Axis along which the worst peak is searched at every point")
 
     def moving(self) -> list[Axis]:
         """Return the axes and the band."""
@@ -84,26 +86,32 @@ class Sweep(Section):
     def conditions(self):
         names = [name for axis in self.moving() for name in axis.along]
         if len(set(names)) < len(names):
-            yield ("axes",), "a parameter moves along two of them or the band"
-        if math.prod(axis.number() for axis in self.moving()) > POINTS:
-            yield ("axes",), f"more than {POINTS} points, with those of the band"
+            yield ("axes",), "a parameter should vary along one axis or the band only"
+        if math.prod(axis.number() for axis in self.moving()) > MAX_POINTS:
+            yield ("axes",), f"should have at most {MAX_POINTS} points, including those of the band"
         needed = {name: observation for observation in self.observe for name in NEEDED.get(observation, ())}
         for name in (name for name in needed if getattr(self, name) is None):
-            yield (name,), f"missing; {needed[name]} are observed in simulations"
+            yield (name,), f"missing; required to observe {needed[name]}"
         if None not in (self.cycles, self.settle) and self.settle >= self.cycles:
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at the corners of the grid; their limits are intervals, so corners are enough."""
+        """Return the parameters at the corners of the grid, which suffice to check limits that are intervals."""
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield entries that a sweep lacks for the companion figures that draw it ("sweeps" in their SPEC)."""
+        """Yield errors if companion figures that draw a sweep ("sweeps" in their SPEC) cannot do so."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)
                 if [axis.along for axis in self.axes] != drawn["along"] or (drawn.get("evenly") and not even):
-                    how = ", evenly" if drawn.get("evenly") else ""
-                    yield ("axes",), f"are not {drawn['along']}{how}, as {figure} draws it; take another name"
+                    how = ", evenly spaced" if drawn.get("evenly") else ""
+                    yield (
+                        ("axes",),
+                        f"should be {drawn['along']}{how}, as {figure} draws this sweep; or rename the sweep",
+                    )
                 if missing := [wanted for wanted in drawn["observe"] if wanted not in self.observe]:
-                    yield ("observe",), f"{' and '.join(missing)} missing, which {figure} draws; take another name"
+                    yield (
+                        ("observe",),
+                        f"should contain {' and '.join(missing)}, which {figure} draws; or rename the sweep",
+                    )

@@ -1,1 +1,1 @@
-"""The report: pages from results, one site and one PDF."""
+"""Build the report from results: a website and a PDF."""

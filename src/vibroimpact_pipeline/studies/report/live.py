@@ -1,4 +1,4 @@
-"""Data of the live pages: parameters, cases with the theory's prediction, verdicts over both forces."""
+"""Data of the interactive pages: parameters, cases with predictions of the theory, verdicts over both forces."""
 
 import json
 
@@ -14,14 +14,15 @@ from vibroimpact_pipeline.specs import case_parameters
 
 FORCES = ("f10_hat", "f20_hat")
 SAMPLES = 200
-"""Of a predicted response, over one cycle."""
+"""Samples of a predicted response over one forcing cycle."""
 
 
 def live_data(results, config: dict) -> str:
-    """Return the data of the page Play as JSON: parameters, and of each case its forces and predicted responses, with
-    what (10.26) says of each and the verdict and largest multiplier of its exact orbit.
+    """Return the data of the page Play as JSON.
 
-    Cases that differ from the first in more than forces are left out.
+    The data are the parameters and, for each case, its forcing amplitudes and predicted responses, each with the
+    verdict of (10.26) and the verdict and largest multiplier of its exact orbit. Cases that differ from the first case
+    in more than the forcing amplitudes are omitted.
     """
     given = {case: case_parameters(config, case) for case in config["cases"]}
     systems = {case: System(**{name: known[name] for name in (*PARAMETERS, *FORCES)}) for case, known in given.items()}
@@ -31,19 +32,19 @@ def live_data(results, config: dict) -> str:
     for name, system in systems.items():
         if system == first.with_(f10_hat=system.f10_hat, f20_hat=system.f20_hat):
             points = sorted(fixed_points(system), key=lambda point: point.label)
-            told = [_point(system, point) | exact[name, point.label] for point in points]
-            cases[name] = {"forces": [system.f10_hat, system.f20_hat], "points": told}
+            predictions = [_point(system, point) | exact[name, point.label] for point in points]
+            cases[name] = {"forces": [system.f10_hat, system.f20_hat], "points": predictions}
     return json.dumps({"system": {name: getattr(first, name) for name in PARAMETERS}, "cases": cases})
 
 
 def _point(system, point):
     response = leading_order(system, point, np.arange(SAMPLES) / SAMPLES * system.period)
-    told = {name: getattr(response, name)[:, 1].round(4).tolist() for name in ("X", "W")}
-    return told | {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
+    samples = {name: getattr(response, name)[:, 1].round(4).tolist() for name in ("X", "W")}
+    return samples | {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
 
 
 def _exact(results) -> dict:
-    """Return verdict and largest multiplier of the exact orbit of each fixed point, by case and label."""
+    """Return the verdict and largest multiplier of the exact orbit of each fixed point, by case and label."""
     points, orbits = results.table("fixed_points.csv"), results.table("orbits.csv")
     moduli = orbits.set_index(["case", "label"])["modulus_1"]
     return {
@@ -56,8 +57,10 @@ def _exact(results) -> dict:
 
 
 def verdict_data(results, config: dict) -> str:
-    """Return the data of the slider of epsilon as JSON: for each epsilon the points that (10.26), or both time scales
-    of the theory, call stable, [f10, f20, verdict on the exact orbit].
+    """Return the data of the slider of epsilon as JSON.
+
+    For each criterion ((10.26), and both time scales of the theory) and each epsilon, the data list the points that
+    the criterion classifies as stable, as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = [
@@ -76,12 +79,14 @@ def verdict_data(results, config: dict) -> str:
 
 
 DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and slow", "exact": "exact orbit"}
-"""Criteria of the matrix of dots, with their heads."""
+"""Criteria of the verdict matrix, with their column heads."""
 
 
 def verdict_dots(results) -> dict:
-    """Return the matrix of verdicts: epsilon as listed, heads, and of each fixed point its verdicts by criterion and
-    the exact ones by epsilon with the largest multiplier.
+    """Return the verdict matrix: values of epsilon, column heads, and a row for each fixed point.
+
+    A row contains the verdicts of the theory by criterion, and for each epsilon the exact verdict with the largest
+    multiplier.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

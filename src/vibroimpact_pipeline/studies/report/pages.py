@@ -1,4 +1,4 @@
-"""Pages of the report as Markdown: documents with the numbers of this build, templates filled from results."""
+"""Pages of the report as Markdown: documents with numbers of this build, and templates filled from results."""
 
 import json
 import re
@@ -16,11 +16,11 @@ from vibroimpact_pipeline.studies.report.live import live_data, verdict_data, ve
 
 TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
-"""A number of a document, with the key to its place among the results."""
+"""A number in a document, with its key in numbers.yaml."""
 PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\((?:\.\./)+results/\w+/(?P<name>\w+)\.png\)")
-"""A figure that a document shows, with its caption, or links to."""
+"""A figure that a document shows with a caption, or links to."""
 LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
-"""What stands in a document for a part of report/parts, on paper and where a build has no data for it."""
+"""Marker for a part of report/parts, followed by the text that replaces it in print or if data are missing."""
 SHOWN = """\
 ```{{figure}} figures/{name}.svg
 :alt: {alt}
@@ -34,7 +34,7 @@ FIGURE = """\
    :target: figures/{name}.svg
 
    {caption}"""
-"""In reStructuredText, in which captions are, for Snakemake's own report, too."""
+"""reStructuredText, because captions are also used by the report of Snakemake."""
 
 
 class Pages:
@@ -42,10 +42,10 @@ class Pages:
 
     Args:
         root: the checkout.
-        results: a `Results`.
+        results: a `Results` object.
         config: the config of the pipeline.
-        shown: names of figures by group, in the order in which they are shown.
-        tables: names of further results to download.
+        shown: names of figures by group, in the order of display.
+        tables: names of additional results to download.
     """
 
     def __init__(self, root, results, config: dict, shown: dict, tables=()):
@@ -78,14 +78,14 @@ class Pages:
         }
 
     def filled(self, name: str) -> str:
-        """Return a page of report/pages."""
+        """Return a page of report/pages, filled from results."""
         return self.environment.get_template(f"pages/{name}.md").render()
 
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        A number has as many decimals as the document gives, and but on paper says where it is from. In a build with
-        other settings there may be no such value: then it stays as it is written.
+        A number keeps the number of decimals of the document, and shows its source except on paper. If a build with
+        other settings has no such value, the number of the document is kept.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
@@ -99,7 +99,7 @@ class Pages:
             shown = f"{value:.{len(number.partition('.')[2])}f}".replace("-", "−")
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
             return number
-        source = place.removeprefix("percent | ").replace(" | ", ", ")  # a bar would end the cell of a table
+        source = place.removeprefix("percent | ").replace(" | ", ", ")  # a vertical bar would end the table cell
         return shown if paper else f"{{abbr}}`{shown} ({value:.6g}: results/{source})`"
 
     def _picture(self, paper, text, name):
@@ -112,7 +112,7 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the pictures of the chapter for the end of the article on paper, those left out that it shows."""
+        """Return the figures of the chapter for the end of the printed article, except the one that it shows."""
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
@@ -124,7 +124,7 @@ class Pages:
             return still
 
     def figure(self, name: str, level: int = 2) -> str:
-        """Return the section of a figure: equations, picture, files, origin."""
+        """Return the section of a figure: title, equations, picture, files and origin."""
         about, record = self.about[name], self.results.provenance(name)
         files = self.results.files(name)
         links = [
@@ -132,10 +132,10 @@ class Pages:
             for kind, path in files.items()
         ]
         if self.results.notebook(name):
-            links.append(f"[the notebook that draws it](beside:notebooks/{quote(name)}.html)")
+            links.append(f"[notebook](beside:notebooks/{quote(name)}.html)")
         if "csv" in files:
             page = "data_figures" if files["csv"].parent.name == "figures" else "data"
-            links.append(f"[what the columns mean]({page}.md)")
+            links.append(f"[meaning of the columns]({page}.md)")
         origin = [plain(about["method"])] if "method" in about else []
         origin += (
             [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
@@ -146,14 +146,14 @@ class Pages:
             [
                 f"({anchor(name)})=\n{'#' * level} {plain(about['title'])}",
                 *(f"$$\n{formula.strip()}\n$$" for formula in about.get("equations", [])),
-                self.picture(name, files),
+                self.render_picture(name, files),
                 f"**Files:** {' · '.join(links)}",
-                f"**Where it comes from:** {'; '.join(origin)}" if record else "",
+                f"**Origin:** {'; '.join(origin)}" if record else "",
             ]
         )
 
-    def picture(self, name: str, files) -> str:
-        """Return the caption of a figure with its picture, if it has one."""
+    def render_picture(self, name: str, files) -> str:
+        """Return the picture of a figure, if it exists, and its caption."""
         caption = " ".join(self.about[name]["caption"].split())
         if "svg" in files:
             caption = FIGURE.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=caption)
@@ -161,11 +161,11 @@ class Pages:
 
 
 WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"}
-"""What is said in place of a value that is no number."""
+"""Texts that replace values that are not numbers."""
 
 
 def digits(value, number: int = 3) -> str:
-    """Return a number with so many significant digits, tiny and huge ones with a power of ten; other values as text."""
+    """Return a number with `number` significant digits, as a power of ten if tiny or huge; other values as text."""
     if isinstance(value, str):
         return plain(value)
     if str(value) in WORDS:
@@ -179,35 +179,35 @@ def digits(value, number: int = 3) -> str:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return columns of a DataFrame as a pipe table, with a head in Markdown for each."""
+    """Return columns of a DataFrame as a pipe table; `heads` maps columns to heads in Markdown."""
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 
 
 def cell(text) -> str:
-    """Return Markdown of the repository for a cell of a table."""
+    """Return Markdown for a table cell: on one line, with vertical bars escaped."""
     return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
 
 
 def anchor(name) -> str:
-    """Return the name of a place on a page."""
+    """Return a name as an HTML anchor."""
     return re.sub(r"[^\w-]", "-", str(name))
 
 
 def attribute(text) -> str:
-    """Return a text for HTML, between quotation marks or tags."""
+    """Return a text escaped for HTML attributes and elements."""
     return escape(one_line(text))
 
 
 def data(name: str, text: str) -> str:
-    """Return JSON as an element of a page: nothing in it ends the element.
+    """Return JSON as a script element of a page, with < escaped so that no text ends the element.
 
     Raises:
-        ValueError: it is no JSON.
+        ValueError: if the text is not JSON.
     """
     inert = json.dumps(json.loads(text), separators=(",", ":")).replace("<", r"\u003c")
     return f'<script type="application/json" id="{attribute(name)}">{inert}</script>'
 
 
 FILTERS = {"anchor": anchor, "attribute": attribute, "cell": cell, "code": code, "digits": digits, "plain": plain}
-"""Filters for values in a page; every value that is not a number goes through one."""
+"""Filters of the page templates; every value that is not a number must pass through one."""

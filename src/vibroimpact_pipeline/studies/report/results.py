@@ -1,4 +1,4 @@
-"""Tables, numbers, provenance and claims quoted by the report, read from results."""
+"""Read tables, numbers, provenance and claims for the report from results."""
 
 import json
 import re
@@ -11,42 +11,42 @@ FOLDERS = ("figures", "accuracy", "force_sweep", "animations", "nudge")
 
 
 class Results:
-    """Results of a build below one directory.
+    """Results of a build in one directory.
 
     Args:
         root: the directory.
-        judged: whether the claims have been judged; they are about the chapter's parameters alone.
+        judged: False if claims are not judged because the parameters are not those of the chapter.
     """
 
     def __init__(self, root, judged: bool = True):
         self.root, self.judged = Path(root), judged
 
     def table(self, name: str) -> pd.DataFrame:
-        """Return a CSV file, given its path below the results."""
+        """Return a CSV file as a table; the path is relative to the results directory."""
         return pd.read_csv(self.root / name)
 
     def text(self, name: str) -> str:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the files of a figure by kind, and its further tables <figure>.<name>.csv by name.
+        """Return the files of a figure by kind, and its additional tables <figure>.<name>.csv by name.
 
         Raises:
-            ValueError: no folder holds the figure.
+            ValueError: if there are no files of the figure.
         """
         for folder in FOLDERS:
             found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
             if found := {kind: path for kind, path in found.items() if path.is_file()}:
                 further = sorted((self.root / folder).glob(f"{figure}.*.csv"))
                 return found | {path.suffixes[0][1:]: path for path in further}
-        raise ValueError(f"figure: there are no files of {figure!r} in {self.root}")
+        raise ValueError(f"figure: no files of {figure!r} found in {self.root}")
 
     def notebook(self, figure: str) -> Path | None:
         path = self.root / f"notebooks/{figure}.html"
         return path if path.is_file() else None
 
     def provenance(self, figure: str) -> dict:
-        """Return the provenance record of a figure; it is empty for what has none."""
+        """Return the provenance record of a figure, or an empty mapping if it has none."""
         paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
         return next((json.loads(path.read_text(encoding="utf-8")) for path in paths if path.is_file()), {})
 
@@ -55,13 +55,14 @@ class Results:
         return json.loads(self.text("claims.json")) if self.judged else []
 
     def claims_about(self, figure: str) -> list[dict]:
-        """Return the judged claims whose place names a figure of the chapter."""
+        """Return the judged claims that refer to a figure of the chapter."""
         named = re.compile(rf"[Ff]ig[a-z]*\.?[^()]*\b10\.{figure.removeprefix('fig10_').lstrip('0')}(?!\d)")
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return for each problem and method the finished run with the smallest error, with its time as a multiple of
-        ours.
+        """Return the finished run with the smallest error for each problem and method.
+
+        The column ratio is its run time relative to that of the library.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
@@ -73,7 +74,7 @@ class Results:
         """Return a number, given its place as in docs/studies/numbers.yaml.
 
         Raises:
-            ValueError: the query finds several values, or none.
+            ValueError: if the query does not find exactly one value.
         """
         file, *path = place.removeprefix("percent | ").split(" | ")
         scale = 100 if place.startswith("percent | ") else 1

@@ -1,4 +1,4 @@
-"""The site by Sphinx, and its article as PDF by pandoc and Typst; nothing is fetched."""
+"""Build the site with Sphinx, and its article as PDF with pandoc and Typst, without network access."""
 
 import io
 import re
@@ -19,7 +19,7 @@ from vibroimpact_pipeline.studies.report.pages import anchor
 
 need("report", "pypandoc", "sphinx", "typst")
 
-import pypandoc  # noqa: E402 (after the word on what is missing)
+import pypandoc  # noqa: E402 (after the dependency check)
 import typst  # noqa: E402
 from sphinx import addnodes  # noqa: E402
 from sphinx.application import Sphinx  # noqa: E402
@@ -27,52 +27,53 @@ from sphinx.util.docutils import docutils_namespace  # noqa: E402
 
 ARTICLE = "findings"
 NOTICE = (
-    "This build has other parameters than the chapter. Its figures and tables are its own; claims were not judged, "
-    "and what documents, findings and errata say is about the chapter's parameters. What differs: "
+    "The parameters of this build differ from those of the chapter. Figures and tables show this build; claims that "
+    "depend on the parameters were not judged, and the texts refer to the parameters of the chapter. Differences: "
 )
 THEME_SCRIPT = '\n      document.body.dataset.theme = localStorage.getItem("theme") || "auto";\n    '
-"""The one script that the theme has within its pages."""
+"""The inline script of the theme."""
 DOCUMENTS = "docs", "docs/studies"
-"""Folders of documents, which are beside each other on the site."""
+"""Folders of documents; the site has them in one folder."""
 ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.|(?:\.\./)+report/pages)/(?=\w+\.md)")
-"""Where a link to a document of the other folder begins."""
+"""Path to the other folder in a link between documents."""
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
-"""Where the number of an equation is not explained."""
+"""Nodes in which numbers of equations are not explained."""
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
-"""A warning that is not about a docstring, nor about a name that is shown where it is imported, too."""
+"""A warning about a page, as opposed to a docstring or a name that is documented twice."""
 SPHINX = {
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
     "myst_enable_extensions": ["dollarmath"],
-    "myst_disable_syntax": ["html_block", "html_inline"],  # what looks like HTML is text
+    "myst_disable_syntax": ["html_block", "html_inline"],  # HTML in documents is shown as text
     "myst_heading_anchors": 4,
-    "myst_url_schemes": {"beside": "{{path}}"},  # of files that the site has already
+    "myst_url_schemes": {"beside": "{{path}}"},  # links to files that the site already contains
     "html_math_renderer": "mathml",
     "html_theme": "furo",
     "html_css_files": ["mathematics.css", "style.css", "play.css"],
     "html_js_files": [("scroll.js", {"defer": "defer"})],
-    "html_show_search_summary": False,  # its text is fetched, which no browser does from a disk
+    "html_show_search_summary": False,  # browsers do not fetch the summary from local files
     "html_show_sourcelink": False,
     "html_copy_source": False,
     "html_use_index": False,
     "html_domain_indices": False,
     "html_permalinks": False,
     "default_role": "literal",
-    "smartquotes": False,  # texts from elsewhere are shown as they are
+    "smartquotes": False,  # quoted texts are shown unchanged
     "autodoc_member_order": "bysource",
     "python_use_unqualified_type_names": True,
 }
 
 
 def write(folder, root, pages, built: str, departures=()) -> None:
-    """Write the site and the PDF into a folder that has figures, data and notebooks already.
+    """Write the site and the PDF into a folder that already contains figures, data and notebooks.
 
     Args:
-        folder: of the site. root: the checkout. pages: a `Pages`. built: what the pages are built from.
-        departures: where the config departs from the chapter's parameters, a line each; every page then says so.
+        folder: folder of the site. root: the checkout. pages: a `Pages` object.
+        built: version that the pages are built from.
+        departures: differences from the parameters of the chapter, one line each; every page shows them.
 
     Raises:
-        RuntimeError: Sphinx has a warning on a page of the report; docstrings may have some.
+        RuntimeError: if Sphinx reports a warning on a page; warnings on docstrings are ignored.
     """
     notice = NOTICE + "; ".join(departures) if departures else ""
     write_site(Path(folder), Path(root), pages, built, notice)
@@ -80,8 +81,8 @@ def write(folder, root, pages, built: str, departures=()) -> None:
 
 
 def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write all documents, the pages of report/pages, and a page for each part of the library."""
-    settings, told = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
+    """Write the documents, the pages of report/pages, and API pages for each part of the library."""
+    settings, warnings = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
         scratch, static = Path(scratch), Path(scratch) / "static"
         for path in (path for folder in DOCUMENTS for path in (root / folder).glob("[!.]*.*")):
@@ -102,17 +103,17 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
         }
         with docutils_namespace():
             app = Sphinx(
-                scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=told, parallel=2
+                scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=warnings, parallel=2
             )
             app.connect("source-read", lambda app, name, source: fill(pages, name, source))
             app.connect("doctree-read", lambda app, tree: explain(app.env.docname, tree, settings["equations"]))
             app.build()
-    if of_pages := [line for line in told.getvalue().splitlines() if OF_PAGE.search(line)]:
+    if of_pages := [line for line in warnings.getvalue().splitlines() if OF_PAGE.search(line)]:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
 
 
 def write_library(folder: Path, left_out) -> None:
-    """Write a source for Sphinx for each part of the library, but for modules that match a pattern."""
+    """Write a Sphinx source for each part of the library, without modules that match a pattern."""
     library, parts = Path(vibroimpact.__file__).parent, {}
     for path in sorted(path for path in library.rglob("*.py") if is_source(path.relative_to(library))):
         name = ".".join(path.relative_to(library.parent).with_suffix("").parts).removesuffix(".__init__")
@@ -128,7 +129,7 @@ def write_library(folder: Path, left_out) -> None:
 
 
 def fill(pages, name: str, source: list[str]) -> None:
-    """Fill a page from results as Sphinx reads it."""
+    """Fill a page from results when Sphinx reads it."""
     if name in pages.names:
         source[0] = pages.filled(name)
     elif not name.startswith("api/"):
@@ -136,7 +137,7 @@ def fill(pages, name: str, source: list[str]) -> None:
 
 
 def explain(page: str, tree, equations: dict) -> None:
-    """Explain numbers of equations of the chapter and let the search find them; name the rows of claims."""
+    """Explain equation numbers of the chapter and add them to the search index; add anchors to rows of claims."""
     named = set()
     for text in list(tree.findall(nodes.Text)):
         if not isinstance(text.parent, NAMES) and EQUATION.search(text):
@@ -156,20 +157,20 @@ def explain(page: str, tree, equations: dict) -> None:
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the findings as PDF; links lead to the pages beside it."""
+    """Write the findings as PDF, with links to the pages of the site."""
     article = ELSEWHERE.sub("", (root / f"docs/studies/{ARTICLE}.md").read_text(encoding="utf-8"))
     text = pages.with_numbers(article + pages.plates(), paper=True)
-    told = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
+    metadata = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
     options = ["--standalone", "--shift-heading-level-by=-1", "--variable=papersize=a4", "--variable=fontsize=10pt"]
-    options += [f"--metadata={name}={value}" for name, value in told.items()]
+    options += [f"--metadata={name}={value}" for name, value in metadata.items()]
     text = re.sub(r"\]\((\w+)\.md", r"](\1.html", text)
     source = pypandoc.convert_text(text, "typst", "markdown+gfm_auto_identifiers-fancy_lists", options)
-    source = "#set figure(numbering: none)\n" + source  # the captions of the chapter's have their own numbers
+    source = "#set figure(numbering: none)\n" + source  # captions of the chapter's figures already have numbers
     typst.compile(source.encode(), output=folder / f"{ARTICLE}.pdf", root=folder, ignore_system_fonts=True)
 
 
 def setup(app) -> dict:
-    """Register the extension with Sphinx: formulas as MathML, bars in docstrings as they are, the policy of a page."""
+    """Register the Sphinx extension: MathML formulas, literal bars in docstrings, content security policy."""
     app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
