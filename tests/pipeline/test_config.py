@@ -79,8 +79,8 @@ def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
 @pytest.mark.parametrize(
     ("text", "key"),
     [
-        ("cases: {weak: {f20_hat: 0,4}}", "cases.weak.4: .*; a decimal number has a point"),
-        ("system: {gamma1_hat: 1,2}", "system.2: .*; a decimal number has a point"),
+        ("cases: {weak: {f20_hat: 0,4}}", "cases.weak.4: .*; use a point as decimal separator"),
+        ("system: {gamma1_hat: 1,2}", "system.2: .*; use a point as decimal separator"),
         ("figures: {fig10_010: }", "figures.fig10_010: .*, did you mean 'fig10_10'\\?"),
         ("figures: {fig10_12: null}", "figures.fig10_12: "),
         ("cases: {weak: {sigma_e_hat: null}}", "cases.weak.sigma_e_hat: "),
