@@ -1,7 +1,7 @@
 """Set up, build and test the committed checkout on several Pythons, with locked, lowest and newest packages.
 
-Each combination works in a clone below .cache/matrix, so that the checkout and its .venv stay as they are. The clone of
-one that failed is left to look at, beside its log.
+Each combination runs in a clone in .cache/matrix, so that the checkout and its .venv do not change. The clone and the
+log of a failed combination are kept.
 """
 
 import argparse
@@ -20,9 +20,9 @@ from vibroimpact_pipeline.git import GitRefused, changes, output
 ROOT = Path(__file__).resolve().parents[1]
 PLACE = Path(".cache/matrix")
 LINES = 12
-"""Of the output of a step that failed, the last ones are shown."""
+"""Number of lines shown from the end of the output of a failed step."""
 PACKAGES = {"lock": None, "lowest": "lowest-direct", "newest": "highest"}
-"""Name of each set of packages, and what uv calls its resolution; None for the locks as they are."""
+"""Resolution strategy of uv for each set of packages; None uses the locks."""
 STEPS = {
     "set-up": ["make", "set-up"],
     "figures": ["make", "figures"],
@@ -30,20 +30,20 @@ STEPS = {
     "tests": ["make", "test-quick"],
 }
 APART = ["snakemake-executor-plugin-slurm", "jupyterlab"]
-"""Packages that `make lock` leaves out, too."""
+"""Packages to exclude, as `make lock` does."""
 WITHOUT_WHEEL = ["connection-pool"]
-"""Packages in pure Python of which no release has a wheel."""
+"""Pure Python packages without wheels."""
 
 
 def named_pythons(root) -> list[str]:
-    """Return the versions of Python that the classifiers of pyproject.toml name, as "3.11"."""
+    """Return the versions of Python in the classifiers of pyproject.toml, such as "3.11"."""
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     versions = (entry.removeprefix("Programming Language :: Python :: ") for entry in project["classifiers"])
     return [version for version in versions if version.startswith("3.")]
 
 
 def interpreter(version: str) -> str | None:
-    """Return the path of a Python of a version such as "3.11", on the PATH or below pyenv; None if there is none."""
+    """Return the path of a Python version such as "3.11" from PATH or pyenv, or None if not found."""
     below = glob(f"{os.getenv('PYENV_ROOT', os.path.expanduser('~/.pyenv'))}/versions/{version}.*/bin/python3")
     for candidate in [*sorted(below), shutil.which(f"python{version}")]:
         code = "import sys, venv, ensurepip; print('%d.%d' % sys.version_info[:2])"
@@ -56,9 +56,9 @@ def interpreter(version: str) -> str | None:
 
 
 def pin(clone: Path, python: str, resolution: str, log) -> int:
-    """Replace the locks of a clone by one of the lowest or newest allowed packages; return uv's exit status.
+    """Replace the locks of a clone by one with the lowest or newest allowed packages; return the exit status of uv.
 
-    Only releases with a wheel for this Python count: nobody without a compiler can install older ones.
+    Only releases with a wheel for this Python are used, since other releases need a compiler.
     """
     (clone / ".cache").mkdir(exist_ok=True)
     (clone / ".cache/apart.txt").write_text("\n".join(APART), encoding="utf-8")
@@ -80,7 +80,7 @@ def pin(clone: Path, python: str, resolution: str, log) -> int:
 
 
 def run(version: str, python: str, packages: str) -> dict[str, str]:
-    """Return the outcome of each step of one combination: its seconds, "failed" or "not run"."""
+    """Run all steps of one combination; return the outcome of each: its time, "failed" or "not run"."""
     clone = ROOT / PLACE / f"{version}-{packages}"
     shutil.rmtree(clone, ignore_errors=True)
     clone.parent.mkdir(parents=True, exist_ok=True)
@@ -106,7 +106,7 @@ def run(version: str, python: str, packages: str) -> dict[str, str]:
             outcomes[step] = "failed" if status else f"{time.monotonic() - begun:.0f} s"
             if status:
                 ends = Path(log.name).read_text(encoding="utf-8").splitlines()[-LINES:]
-                print(*(f"    {line}" for line in ends), f"{step} failed; {log.name} has all", sep="\n")
+                print(*(f"    {line}" for line in ends), f"{step} failed; full log: {log.name}", sep="\n")
             if status and step == "set-up":
                 break
     if "failed" not in outcomes.values():
@@ -125,18 +125,24 @@ def main(arguments=None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     known = named_pythons(ROOT)
     parser.add_argument(
-        "--python", nargs="+", choices=known, metavar="VERSION", help=f"of {', '.join(known)}; all found"
+        "--python",
+        nargs="+",
+        choices=known,
+        metavar="VERSION",
+        help=f"some of {', '.join(known)}; default: all that are installed",
     )
-    parser.add_argument("--packages", nargs="+", choices=PACKAGES, default=list(PACKAGES), help="all three by default")
+    parser.add_argument(
+        "--packages", nargs="+", choices=PACKAGES, default=list(PACKAGES), help="sets of packages; default: all three"
+    )
     given = parser.parse_args(arguments)
     found = {version: interpreter(version) for version in given.python or known}
     missing = [version for version, python in found.items() if python is None]
     if missing and (given.python or len(missing) == len(found)):
-        parser.error(f"argument --python: {', '.join(missing)} not found, neither on the PATH nor below pyenv")
-    print(*(f"Python {version}: not found, not run" for version in missing), sep="\n", end="\n" * bool(missing))
+        parser.error(f"argument --python: {', '.join(missing)} not found on PATH or in pyenv")
+    print(*(f"Python {version}: not found, skipped" for version in missing), sep="\n", end="\n" * bool(missing))
     try:
         if changes(ROOT):
-            print("What is not committed takes no part.")
+            print("Uncommitted changes are not tested.")
     except GitRefused as refused:
         parser.error(str(refused))
     rows = [

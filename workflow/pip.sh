@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# pip of .venv, or with `uv` before its arguments uv in its place. Of the user's settings only those count that say where packages are and how to reach them: `user` or `target`
-# would install elsewhere, `constraint` or `only-binary` refuse packages of the lock.
+# Run pip of .venv, or uv if the first argument is `uv`. Of the user's settings, only those on the location of packages and
+# on the network apply: `user` or `target` would install elsewhere, `constraint` or `only-binary` reject locked packages.
 set -euo pipefail
 unset CDPATH
 cd -P -- "$(dirname -- "$0")/.."
@@ -12,20 +12,20 @@ for name in "${!PIP_@}"; do
     key=${key,,}
     [[ ${key//_/-} =~ ^($reach|cache-dir|config-file)$ ]] || unset "$name"
 done
-# Those of configuration files, of which the section of a command goes before [global], and a variable before both. `user` has
-# another meaning for this one command.
+# Read the settings of configuration files. The section [install] overrides [global], and variables override both. `user`
+# has another meaning for `pip config`.
 while IFS== read -r key value; do
     name=${key^^}
     name=PIP_${name//-/_}
     [[ -n ${!name:-} ]] || export "$name=$value"
 done < <(PIP_USER=0 .venv/bin/python -I -m pip config list | sort --reverse |
     sed -nE "s/^(global|install)\.($reach)='(.*)'$/\2=\3/p" | sed 's/\\n/ /g')
-# What pip itself needs meanwhile lies in the checkout, too.
+# Store temporary files and the cache in the checkout.
 export PIP_CONFIG_FILE=/dev/null TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE_DIR:-$PWD/.cache/pip}"
 if [[ ${1:-} != uv ]]; then
     exec .venv/bin/python -I -m pip --disable-pip-version-check "$@"
 fi
-# The same settings in the words of uv.
+# Translate the settings to options of uv.
 set -f
 options=()
 for pair in default-index:INDEX_URL index:EXTRA_INDEX_URL find-links:FIND_LINKS; do
@@ -43,6 +43,6 @@ fi
 if [[ -n ${PIP_PROXY:-} ]]; then
     export HTTP_PROXY=$PIP_PROXY HTTPS_PROXY=$PIP_PROXY http_proxy=$PIP_PROXY https_proxy=$PIP_PROXY
 fi
-# Hashes decide which file is taken, so that any index may have it, as with pip.
+# Accept a file from any index, as pip does, because hashes are checked.
 exec .venv/bin/uv --quiet --no-config pip "${@:2}" --python .venv/bin/python --cache-dir .cache/uv \
     --index-strategy unsafe-best-match "${options[@]}"

@@ -1,4 +1,4 @@
-"""Write a version into every file that bears it; for a release, date it and the changes since the last one."""
+"""Set the version in all files that contain it; for a release, also set its date and that of the changelog entry."""
 
 import argparse
 import datetime
@@ -18,24 +18,24 @@ PLACES = {
     ".zenodo.json": [(r'^  "version": ".*",$', '  "version": "{version}",')],
     "codemeta.json": [(r'^  "version": ".*",$', '  "version": "{version}",')],
 }
-"""Pattern and replacement, once in each file."""
+"""Patterns and replacements by file; each pattern occurs once."""
 
 
 def changes(text: str, version: str) -> str:
-    """Return the entries of a version in a changelog, or "Unreleased", without heading."""
+    """Return the entries of a version (or "Unreleased") in a changelog, without heading."""
     return text.partition(f"## [{version}]")[2].partition("\n")[2].partition("\n## [")[0].strip()
 
 
 def dated(text: str, version: str, date: datetime.date) -> str:
-    """Return a changelog whose unreleased changes are those of a version.
+    """Return a changelog with the unreleased changes moved to a version.
 
     Raises:
-        ValueError: there are none, or the version is there.
+        ValueError: if there are no unreleased changes, or the version already exists.
     """
     if f"## [{version}]" in text:
-        raise ValueError(f"CHANGELOG.md: {version} has been released")
+        raise ValueError(f"CHANGELOG.md: version {version} already exists")
     if not changes(text, "Unreleased"):
-        raise ValueError("CHANGELOG.md: nothing under [Unreleased]")
+        raise ValueError("CHANGELOG.md: no entries in [Unreleased]")
     return text.replace(NEXT, f"{NEXT}\n## [{version}] - {date}\n", 1)
 
 
@@ -43,23 +43,23 @@ def replaced(text: str, places: list, words: dict) -> str:
     """Return a text with each pattern replaced.
 
     Raises:
-        ValueError: a pattern that does not occur exactly once.
+        ValueError: if a pattern does not occur exactly once.
     """
     for pattern, new in places:
         text, count = re.subn(pattern, lambda _, new=new: new.format(**words), text, flags=re.MULTILINE)
         if count != 1:
-            raise ValueError(f"{pattern} occurs {count} times, not once")
+            raise ValueError(f"{pattern}: found {count} times, expected once")
     return text
 
 
 def main(arguments=None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("version", help="as 0.2.0; after a release the next one, as 0.3.0.dev0")
-    parser.add_argument("--changes", action="store_true", help="write nothing; print the changes of a version")
+    parser.add_argument("version", help="for example 0.2.0, or 0.3.0.dev0 after a release")
+    parser.add_argument("--changes", action="store_true", help="only print the changes of the version")
     given = parser.parse_args(arguments)
     version, date = given.version, datetime.datetime.now(datetime.UTC).date()
     if not re.fullmatch(r"\d+\.\d+\.\d+(\.dev\d+)?", version):
-        parser.error(f"version: {version!r} is not like 0.2.0 or 0.3.0.dev0")
+        parser.error(f"version: {version!r}, expected a version such as 0.2.0 or 0.3.0.dev0")
     log = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     if given.changes:
         print(changes(log, version))
@@ -76,7 +76,7 @@ def main(arguments=None) -> int:
         (ROOT / name).write_text(text, encoding="utf-8")
     if final:
         commands = f'git commit -am "Version {version}" && git tag v{version} && git push origin main v{version}'
-        print(f"Look at `git diff`, then: {commands}")
+        print(f"Check `git diff`, then run: {commands}")
     return 0
 
 

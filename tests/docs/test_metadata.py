@@ -95,10 +95,10 @@ def test_a_release_is_the_same_version_everywhere_and_dated_and_the_next_one_is_
 @pytest.mark.parametrize(
     ("version", "edit", "said"),
     [
-        ("1.0", None, "is not like 0.2.0"),
-        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [Unreleased]\n\n## [77.0.0] - 2026-01-01"), "nothing under"),
-        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [77.1.0] - 2026-01-01"), "77.1.0 has been released"),
-        ("77.1.0", ("codemeta.json", '"version"', '"release"'), "occurs 0 times"),
+        ("1.0", None, "expected a version such as 0.2.0"),
+        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [Unreleased]\n\n## [77.0.0] - 2026-01-01"), "no entries in"),
+        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [77.1.0] - 2026-01-01"), "77.1.0 already exists"),
+        ("77.1.0", ("codemeta.json", '"version"', '"release"'), "found 0 times"),
     ],
 )
 def test_a_release_that_cannot_be_is_refused_in_a_line_and_changes_nothing(copy, capsys, version, edit, said):

@@ -135,7 +135,7 @@ def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
     commit(tree.path)
     said = tree.dry_run("--config", "figures={fig10_04: {C_max: 3.0}}", "--", "archive")
     assert tree.returncode == 1
-    assert re.search(r"archive: figures.fig10_04.C_max is 3.0, in config/config.yaml\b.* 2.0\. Build without", said)
+    assert re.search(r"archive: figures.fig10_04.C_max is 3.0, but 2.0 in config/config.yaml\b.*\. Build without", said)
     assert "Traceback" not in said
 
 
@@ -160,7 +160,7 @@ def test_results_of_another_commit_are_refused_before_anything_is_built(rebuilt,
     assert rebuilt.returncode == 1
     assert "archive: results/figures/fig10_0" in said
     assert told in said
-    assert "Build first: make figures" in said
+    assert "Rebuild first: make figures" in said
 
 
 def test_the_language_of_the_workflow_has_its_version(tmp_path):

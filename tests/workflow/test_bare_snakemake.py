@@ -75,5 +75,5 @@ def test_a_build_says_what_to_install(bare):
     status, said = bare("--cores", "1", "fig10_04")
     assert status != 0
     assert "Traceback" not in said
-    assert "Not installed: numpy" in said
+    assert "Packages not installed: numpy" in said
     assert "make set-up" in said

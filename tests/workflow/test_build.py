@@ -29,7 +29,7 @@ def test_a_build_says_where_to_look_and_how_far_it_is(rebuilt):
     (rebuilt / "results/figures/fig10_04.png").unlink()
     said = rebuilt.snakemake("fig10_04")
     assert "1 of 1 steps (100%) done" in said
-    assert f"All results are in {rebuilt / 'results'}/." in said
+    assert f"Results: {rebuilt / 'results'}/" in said
 
 
 def test_orbits_of_all_cases_are_gathered(built):
@@ -122,7 +122,7 @@ def test_a_figure_unlike_its_reference_fails_the_check_alone_which_says_how_to_a
     verdicts = json.loads((rebuilt / "results/figure_check/figure_check.json").read_text())
     assert {verdict["figure"] for verdict in verdicts} == {*FIGURES, "grazing", "stress_tests", "work_precision"}
     assert {verdict["figure"] for verdict in verdicts if verdict["status"] != "passed"} == {"fig10_04"}
-    assert 'To accept a change on purpose: make accept REASON="why" FIGURES="fig10_04"\n' in said
+    assert 'To accept intended changes: make accept REASON="why" FIGURES="fig10_04"\n' in said
 
 
 @pytest.mark.thorough

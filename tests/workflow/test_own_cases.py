@@ -43,7 +43,7 @@ def test_what_is_left_of_a_figure_that_is_gone_is_named(tree):
     for name in ("my_planes.provenance.json", ".partial-my_motion.provenance.json", "fig10_02.provenance.json"):
         (tree / "results/figures" / name).write_text("{}", encoding="utf-8")
     output = tree.snakemake("fig10_01")
-    assert "In results/figures, but not of this config: my_planes. They may be deleted." in output
+    assert "Figures in results/figures that this config does not define, safe to delete: my_planes" in output
     assert (tree / "results/figures/my_planes.provenance.json").exists()
 
 
@@ -51,4 +51,4 @@ def test_a_figure_that_the_config_lacks_is_refused_with_its_key(tree):
     (tree / "small.yaml").write_text("figures: {fig10_09: null}", encoding="utf-8")
     output = tree.dry_run("--configfile", "small.yaml", "--", "fig10_09")
     assert tree.returncode == 1
-    assert "figures.fig10_09: the config has no such figure, or not its case." in output
+    assert "figures.fig10_09: missing in the config, or its case is missing" in output

@@ -1,9 +1,9 @@
-# How accurate and how fast each method is, and where it fails. A job that times things runs alone: it takes all cores.
-# `accuracy: {effort: full}` in the config repeats every timing for longer, and tries every method on every stress test.
+# Accuracy, speed and failures of each method. Jobs that measure times use all cores, so that they run alone.
+# `accuracy: {effort: full}` in the config selects longer timings, and every method on every stress test.
 
 ACCURACY = config["accuracy"]
 FULL = ACCURACY["effort"] == "full"
-# Without a number of cores nothing is run: a summary, a graph, the report of Snakemake.
+# There is no number of cores if Snakemake runs no jobs, for example for a summary, a graph or its report.
 ALL_CORES = workflow.resource_settings.cores or 1
 
 
@@ -60,7 +60,7 @@ rule work_precision:
         "../scripts/figure.py"
 
 
-# The figures that have a choice of models, and what each is computed from.
+# Figures with a choice of models.
 MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
 
 
@@ -105,7 +105,7 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# The charts that are compared with a reference set: their errors, orders and failures, not their seconds. Then all.
+# Charts that the figure check compares with the reference set (errors, orders and failures, but not times), and all charts.
 CHARTS = "work_precision", "stress_tests", "grazing"
 ALL_CHARTS = *CHARTS, "models"
 

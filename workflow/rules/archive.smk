@@ -1,4 +1,4 @@
-# One file to cite and to run elsewhere.
+# Archive of a build: one citable file that can be rerun elsewhere.
 
 import tomllib
 

@@ -1,7 +1,7 @@
-# The figures against the reference set in figures/, which no rule writes to: `make accept` does, with a reason.
+# Compare figures with the reference set in figures/. Only `make accept` writes to it, with a reason.
 
 
-# Has no output, so that it compares each time; it prints its result on the terminal, too.
+# This rule has no output, so that it always runs. It also prints its result to the terminal.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],
@@ -20,7 +20,7 @@ rule figure_check:
         "../scripts/figure_check.py"
 
 
-# The same where it is a failure, too, that other versions of Matplotlib keep pictures from being compared.
+# The strict check also fails if other versions of Matplotlib make pictures incomparable.
 use rule figure_check as figure_check_strict with:
     params:
         strict=True,

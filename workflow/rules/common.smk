@@ -1,4 +1,4 @@
-# What every stage needs: where the files are, the checked config, the code behind jobs, the figures' SPECs.
+# Shared by all rules: paths, the validated config, fingerprints of code, and the SPECs of figures.
 
 import importlib.util
 import inspect
@@ -13,28 +13,28 @@ from types import SimpleNamespace
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, validate
 
-# Snakemake evaluates a module in a namespace of its own, under its name; since 9.27 the workflow itself under none.
+# Snakemake evaluates a module under the name of the module; since 9.27 `__name__` is None in the main workflow.
 IS_MODULE = __name__ not in ("snakemake.workflow", None)
 
 
 def refuse(message):
-    """End with a message in place of a traceback."""
+    """Exit with a message instead of a traceback."""
     print(message, file=sys.stderr)
     sys.exit(1)
 
 
-def own(path):
-    """A file of the checkout: by its short path in the checkout itself, so that this can be moved."""
+def checkout_path(path):
+    """Return the path of a file of the checkout, relative in the checkout itself, so that it can be moved."""
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# The library beside these rules, for jobs, too; where they come from a git source, it is the one that is installed.
+# Use the library of this checkout, also in jobs; for rules from a git source, use the installed library.
 SRC = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
 if SRC.is_dir():
     sys.path.insert(0, str(SRC))
 elif importlib.util.find_spec("vibroimpact_pipeline") is None:
-    refuse("Not installed: the pipeline of these rules. Install vibroimpact[pipeline] of the same commit with pip.")
-# This Python, also where its path has a space.
+    refuse("vibroimpact_pipeline: not installed. Install vibroimpact[pipeline] of the same commit with pip.")
+# Quote the path of Python, which may contain spaces.
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
@@ -48,27 +48,27 @@ from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
     name = path.relative_to(ROOT / "workflow").as_posix()
     if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
-        refuse(f"workflow/{name} is not that of the installed vibroimpact: install the commit of these rules.")
+        refuse(f"workflow/{name}: differs from the installed vibroimpact. Install the commit of these rules.")
 
 if not os.access(".", os.W_OK):
-    refuse(f"{os.getcwd()}: cannot be written to. Build in another directory, with --directory.")
+    refuse(f"{os.getcwd()}: not writable. Select another working directory with --directory.")
 
 
-# The layer of what goes beyond the chapter; a checkout may do without it.
+# True if the studies, which go beyond the chapter, are installed.
 STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
-# The config: entries of --config and --configfile over those of config/config.yaml and config/studies.yaml, each of the
-# working directory or else of the checkout.
+# Config files: config/config.yaml and config/studies.yaml, each from the working directory if it exists there, otherwise
+# from the checkout. Entries of --configfile and --config override them.
 def config_file(path):
-    return path if Path(path).is_file() and not IS_MODULE else own(path)
+    return path if Path(path).is_file() and not IS_MODULE else checkout_path(path)
 
 
 CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studies")[: 1 + STUDIES]]
 
 
 def config_files():
-    """The files that the config is from, a later one over those before."""
+    """Return the config files; later files override earlier ones."""
     given = workflow.config_settings
     if IS_MODULE:
         return CONFIG_FILES
@@ -76,7 +76,7 @@ def config_files():
 
 
 def checked_config(given):
-    """The config with defaults; without its model, as the schemas made from it allow."""
+    """Return the validated config with defaults; without Pydantic, validate it with the JSON Schemas."""
     if not WITH_MODEL:
         given, rest = with_cases(given), {}
         schemas = ROOT / "workflow/schemas"
@@ -100,18 +100,20 @@ if WITH_MODEL:
     from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 
     try:
-        SOURCES = [(file, read(file)) for file in config_files()]  # before Snakemake does, whose complaints are longer
+        SOURCES = [
+            (file, read(file)) for file in config_files()
+        ]  # before Snakemake reads them, since its messages are longer
     except ConfigError as error:
         refuse(error)
 
 
 def code(script, *others):
-    """The code behind a job: its script, and what this does not import by name, for example modules of figures."""
+    """Return the fingerprint of a script and of modules that it does not import by name, such as figures."""
     return code_of(f"workflow/scripts/{script}.py", "environment.lock", *others)
 
 
 def system_of(case):
-    """Parameters of System for one case."""
+    """Return the parameters of System for a case."""
     return case_parameters(config, case)
 
 
@@ -123,18 +125,18 @@ SPECS = specs()
 
 
 def spec(figure):
-    """The words and columns of a figure, and the module that draws it."""
+    """Return the SPEC of a figure, including its drawing module."""
     return spec_of(figure, SCENES.get(figure, {}), SPECS)
 
 
 def figure_files(stem, tables):
-    """The files of a figure by kind: pictures, record of provenance, and tables."""
+    """Return the files of a figure by kind: pictures, provenance record and tables."""
     kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
     return kinds | {name: table["file"] for name, table in tables.items()}
 
 
 def in_report(outputs, category, caption="../../report/caption.rst"):
-    """Named outputs, the picture and the plotted table marked for `snakemake --report`; caption: from the rule's file."""
+    """Mark picture and plotted table for `snakemake --report`; `caption` is relative to the file of the rule."""
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
@@ -144,7 +146,7 @@ def in_report(outputs, category, caption="../../report/caption.rst"):
 
 
 def entries(paths):
-    """Entries of the config by path; a * stands for all settings of a section."""
+    """Return entries of the config by path; * stands for all settings of a section."""
     found = {}
     for path in paths:
         section, _, name = path.rpartition(".")
@@ -154,9 +156,9 @@ def entries(paths):
 
 
 def figure_params(figure, paths, case=None, systems=False, decides=()):
-    """Settings of a figure, named as the last key of their paths, and its systems.
+    """Return the params of a figure: settings, named by the last key of their path, and parameters of its systems.
 
-    `config`: all that decides what it shows, by path, also what its inputs are made with (`decides`).
+    The param `config` lists all entries on which the figure depends, including those of its inputs (`decides`).
     """
     settings = entries(paths)
     params = {"figure": figure, "module": spec(figure)["module"], "case": case, "config": settings | entries(decides)}
@@ -169,27 +171,27 @@ def figure_params(figure, paths, case=None, systems=False, decides=()):
 
 
 def files(figure, *marks, folder="figures"):
-    """Outputs of a figure: <figure>.png, .pdf, .svg, .csv, .provenance.json and further tables; marks: of `in_report`."""
+    """Return the outputs of a figure: .png, .pdf, .svg, .csv, .provenance.json and tables; `marks` as in `in_report`."""
     made = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
     return in_report(made, *(marks or ("Figures of the chapter",)))
 
 
 def chart(figure, settings={}, decides={}, *shown):
-    """Params of a chart of accuracy: settings, the entries of the config that decide on it, modules that it draws."""
+    """Return the params of a chart of accuracy: its settings, the config entries that affect it, and the code of its job."""
     known = {"figure": figure, "module": module_of(figure), "settings": settings, "config": decides}
     return known | {"code": code("figure", module_of(figure), *shown)}
 
 
 def of_case(figure, paths):
-    """Results for the case that a figure of the config shows."""
+    """Return the paths of results for the case and model of a figure."""
     shown = SCENES.get(figure, {})
     return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
 
 def scene(figure, *others, section="figures"):
-    """Params of a figure of the config: its own settings, others by their path, and the system of its case.
+    """Return the params of a figure: its settings, other settings by path, and the system of its case.
 
-    Of a simulated motion the model and the settings of the run are decided in its inputs.
+    For a simulated motion, model and settings of the run belong to the inputs.
     """
     if figure not in SCENES:
         return {"settings": absent(figure)}
@@ -202,12 +204,12 @@ def scene(figure, *others, section="figures"):
     return params | {"code": code("figure", spec(figure)["module"], *map(module_of, spec(figure)["shares"]))}
 
 
-# The notebooks by name.
+# Paths of notebooks by name.
 NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
 
 
 def by_notebook(figures):
-    """The notebooks of some figures, each with the figures whose pages it makes."""
+    """Return the notebooks of figures, each with the figures whose pages it makes."""
     found = {}
     for figure in figures:
         found.setdefault(spec(figure)["notebook"], []).append(figure)
@@ -215,19 +217,19 @@ def by_notebook(figures):
 
 
 def page_inputs(figure):
-    """Files that the notebook of a page reads, by name: tables and picture of its figure, and results beside them."""
+    """Return the files that the notebook of a page reads, by name: tables and picture of its figure, other results."""
     tables = {name: table["file"] for name, table in spec(figure)["tables"].items()}
     return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
 
 
 def read_by(notebook, figures):
-    """Inputs of the job that makes the pages of some figures: their notebook, and what it reads for each."""
+    """Return the inputs of the job that makes the pages of figures: their notebook, and the files that it reads."""
     read = sorted({path for figure in figures for path in page_inputs(figure).values()})
-    return {"notebook": own(NOTEBOOKS[notebook]), "read": read}
+    return {"notebook": checkout_path(NOTEBOOKS[notebook]), "read": read}
 
 
 def pages(figures):
-    """Outputs of that job by figure, and for its script the entry of each in the config and its notebook's parameters."""
+    """Return the outputs of that job by figure, and by figure the config entry and the parameters of its notebook."""
     outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
     given = {}
     for figure in figures:
@@ -238,13 +240,13 @@ def pages(figures):
 
 
 def titled(figure):
-    """The entry of a figure in the config, its case under its title."""
+    """Return the config entry of a figure with its case replaced by the title of the case."""
     shown = SCENES[figure]
     return shown | ({"case": title_of(config, shown["case"])} if "case" in shown else {})
 
 
 def modelled(figure, entry):
-    """A figure with its settings or, of a simulation, those of the run."""
+    """Return the model and settings of a figure; for a simulation, the settings of the run."""
     known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
     settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
     if known["notebook"] == "simulation":
@@ -253,16 +255,16 @@ def modelled(figure, entry):
 
 
 def absent(figure):
-    """A function for Snakemake that raises the reason why a figure cannot be made."""
+    """Return an input function that raises an error because the figure is not in the config."""
 
     def refused(wildcards):
-        raise WorkflowError(f"figures.{figure}: the config has no such figure, or not its case.")
+        raise WorkflowError(f"figures.{figure}: missing in the config, or its case is missing")
 
     return refused
 
 
 def caption(figure):
-    """The caption of a figure, with the numbers that it asks for."""
+    """Return the caption of a figure with its placeholders filled in."""
     params = getattr(rules, figure).params
     known = (titled(figure) if figure in SCENES else {}) | (params.get("system") or config["system"])
     text = with_model(spec(figure)["caption"], known)
@@ -270,19 +272,19 @@ def caption(figure):
 
 
 def left_over():
-    """Figures of builds before, which this config does not make."""
+    """Return figures of earlier builds that this config does not define."""
     found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
     return sorted(found.difference(ALL_FIGURES))
 
 
 def study_titles(wildcards):
-    """Titles of the figures of the studies that are there."""
+    """Return the titles of existing figures of the studies."""
     others = [name for name in ALL_FIGURES if name not in config["figures"]]
     return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
 
 
-def made_with_now(name, wildcards):
-    """Params and inputs of a rule; those of the inputs that are results."""
+def current_origin(name, wildcards):
+    """Return the current params of a rule, and those of its inputs that are results."""
     if not hasattr(rules, name):
         raise LookupError(name)
     made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
@@ -291,7 +293,7 @@ def made_with_now(name, wildcards):
 
 
 def results_of_a_commit(wildcards):
-    """Results of both builds; refused, before anything is built, where they would not be those of the commit."""
+    """Return the results of both builds; exit before any job runs if they would not match the commit."""
     from vibroimpact_pipeline.archive import differences, made_otherwise
     from vibroimpact_pipeline.config import checked, merged, read
 
@@ -301,22 +303,20 @@ def results_of_a_commit(wildcards):
         refuse(f"archive: {error}")
     of_commit = checked(merged([(file, read(ROOT / file)) for file in COMMITTED_CONFIG]))
     for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
-        refuse(
-            f"archive: {place} is {here}, in {' and '.join(COMMITTED_CONFIG)} {there}. Build without another config."
-        )
+        refuse(f"archive: {place} is {here}, but {there} in {' and '.join(COMMITTED_CONFIG)}. Build without --config.")
     targets = [*rules.all.input, *(rules.studies.input if STUDIES else ())]
-    if others := list(made_otherwise(targets, made_with_now)):
+    if others := list(made_otherwise(targets, current_origin)):
         more = f" ({len(others) - 1} more)" if others[1:] else ""
-        refuse(f"archive: {others[0]}{more}. Build first: make figures{' studies' if STUDIES else ''}")
+        refuse(f"archive: {others[0]}{more}. Rebuild first: make figures{' studies' if STUDIES else ''}")
     return targets
 
 
-# Rules before these are those of another workflow, which has these as a module.
+# Rules defined so far belong to another workflow that includes this one as a module.
 OTHERS = {rule.name for rule in workflow.rules}
 
 
 def existing_outputs():
-    """The outputs of all rules, as far as they are there."""
+    """Return the outputs of all rules of this workflow; outputs with wildcards only if they exist."""
     patterns = [output for rule in workflow.rules if rule.name not in OTHERS for output in rule.output]
     found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
     return [pattern for pattern in patterns if "{" not in pattern] + found
@@ -324,4 +324,6 @@ def existing_outputs():
 
 onstart:
     if missing := missing_libraries():
-        refuse(f"Not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
+        refuse(
+            f"Packages not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip."
+        )

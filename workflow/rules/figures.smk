@@ -1,7 +1,7 @@
-# The figures of the chapter. Each has a rule of its name: `snakemake --cores 2 fig10_06` draws this one and what it needs.
-# Its module, src/vibroimpact/figures/fig10_06.py, computes the plotted tables from inputs and settings, and draws them.
+# Figures of the chapter. Each has a rule of the same name: `snakemake --cores 2 fig10_06` draws one figure and its inputs.
+# Its module, src/vibroimpact/figures/fig10_06.py, computes the plotted tables from inputs and settings and draws them.
 
-# Settings of each figure by its name; those of the studies join.
+# Settings of each figure by name; the studies add theirs.
 SCENES = dict(config["figures"])
 
 POINTS = {"points": "results/fixed_points/{case}.csv"}
@@ -134,7 +134,7 @@ use rule fig10_01 as fig10_11 with:
         "results/logs/figures/fig10_11.log",
 
 
-# Your own figures, each drawn like one of these.
+# Figures of your own, drawn like one of the above.
 for figure in (name for name, own_scene in config["figures"].items() if "like" in own_scene):
 
     rule:
@@ -155,7 +155,7 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
             "../scripts/figure.py"
 
 
-# The page of each figure: its notebook, which reads the finished tables and picture, and what these are computed from.
+# Page of each figure: its notebook, executed on the finished tables, the picture and their inputs.
 PAGES = by_notebook(config["figures"])
 
 for notebook, shown in PAGES.items():
@@ -185,7 +185,7 @@ rule figures:
         [getattr(rules, f"pages_{notebook}").output for notebook in PAGES],
 
 
-# The figures that are compared with a reference set and that captions are for; those of the studies join.
+# Figures with captions and a reference; the studies add theirs.
 ALL_FIGURES = list(config["figures"])
 config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}

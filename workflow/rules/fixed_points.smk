@@ -1,4 +1,4 @@
-# Fixed points of the slow flow (10.23) and exact 1:1 responses of each case, with the verdicts of every criterion on both.
+# Fixed points of the slow flow (10.23) and exact 1:1 responses of each case, with the verdicts of all criteria.
 
 
 rule fixed_points:
@@ -18,7 +18,7 @@ rule fixed_points:
         "../scripts/fixed_points.py"
 
 
-# The tables of all cases.
+# Join the tables of all cases.
 rule gather:
     input:
         points=expand("results/fixed_points/{case}.csv", case=all_systems()),

@@ -1,4 +1,4 @@
-# The page to open first: what the exact system says of each figure, links to all results, studies among them if built.
+# Index page: verdict of the exact system on each figure, and links to all results, including studies if built.
 
 
 rule index:

@@ -1,4 +1,4 @@
-"""The checkout and the results of both builds -> one archive."""
+"""Pack the checkout and the results of both builds into one archive."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Measure the speed of every method on one motion, and of ensembles; print a table, and CSV with versions."""
+"""Measure the speed of every method on one motion and of ensembles; print a table and write CSV with versions."""
 
 import argparse
 from pathlib import Path
@@ -17,14 +17,14 @@ SECONDS = 0.5
 
 
 HANDICAPS = """\
-All are timed in turn in one process, the shortest of many calls. Only this engine proves that it misses no impact.
-SciPy's methods (RK45, DOP853, Radau, LSODA) take interpreted steps and locate events to 4 units of rounding.
-heyoka calls the impact law in Python, a sixth to a third of its time; of scenes with sticking its batches run starts
-without, and the same closed form in C++ takes 99 to 112 ns where one long run takes 222."""
+Each time is the shortest of many calls in one process. Only this engine proves that it misses no impact.
+SciPy's methods (RK45, DOP853, Radau, LSODA) execute steps in Python and locate events to 4 units of rounding.
+heyoka calls the impact law in Python, which takes a sixth to a third of its time; its batches use starts without
+sticking, where the same closed form in C++ takes 99 to 112 ns and one long run takes 222."""
 
 
 def problem_of(name: str, config: dict, settings: dict):
-    """Return the test problem of an entry of the config's accuracy section."""
+    """Return the test problem for an entry in the section accuracy of the config."""
     from vibroimpact.accuracy.work_precision import Problem
 
     system = System(**case_parameters(config, settings["case"]))

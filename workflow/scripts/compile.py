@@ -1,4 +1,4 @@
-"""Compile what the default build needs into the cache of the checkout; the rest is compiled at its first use."""
+"""Compile the functions of the default build into the cache; other functions are compiled on first use."""
 
 import pkgutil
 from concurrent.futures import ProcessPoolExecutor
@@ -13,6 +13,7 @@ NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf
 
 
 def other_methods():
+    """Run every other method once, so that it is compiled."""
     from vibroimpact.integrators import METHODS
     from vibroimpact.integrators.event_driven import Engine
     from vibroimpact.system import System
@@ -25,7 +26,7 @@ def other_methods():
 
 
 def imports():
-    """Import all modules of jobs once: Python caches their bytecode, and Matplotlib its list of fonts."""
+    """Import all modules of jobs once, so that Python caches bytecode and Matplotlib its list of fonts."""
     import vibroimpact
 
     library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))

@@ -1,4 +1,4 @@
-"""One figure: the tables that its module computes, written, and the picture of what was written."""
+"""Compute and write the tables of one figure, and draw the figure from the written tables."""
 
 from importlib import import_module
 
@@ -11,7 +11,7 @@ from vibroimpact.system import System
 
 
 def arguments(params, inputs) -> dict:
-    """Return the arguments of a figure's `compute`: settings, the system of its case or those of all cases, tables."""
+    """Return the arguments of `compute`: settings, the system of the case or those of all cases, tables."""
     given = dict(params.settings)
     if params.get("system"):
         given["system"] = System(**params.system)

@@ -1,4 +1,4 @@
-"""All figures against the reference set -> page, verdicts, summary; exit status 1 if a figure fails."""
+"""Compare all figures with the reference set; write page, verdicts and summary; exit with 1 if a figure fails."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
-BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # below the prefix of a module
+BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # includes the prefix of a module
 FOLDER = BUILD / snakemake.params.page
 REFERENCE = ROOT / snakemake.params.reference
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
@@ -28,11 +28,11 @@ with running(snakemake):
     for name, text in texts.items():
         with replacing(FOLDER / name) as partial:
             partial.write_text(text, encoding="utf-8")
-    report = [*lines(found), f"Reference, new and difference of every figure: {FOLDER}/index.html"]
+    report = [*lines(found), f"Page with reference, new picture and difference of every figure: {FOLDER}/index.html"]
     if others := " ".join(verdict["figure"] for verdict in found if verdict["status"] != PASSED):
-        report += [f'To accept a change on purpose: make accept REASON="why" FIGURES="{others}"']
-        report += ["With PICTURES=1 the tables of the reference stay, and their pictures are drawn anew."]
-    for stream in (sys.stdout, TERMINAL):  # the log, and who has asked
+        report += [f'To accept intended changes: make accept REASON="why" FIGURES="{others}"']
+        report += ["PICTURES=1 keeps the reference tables and redraws their pictures."]
+    for stream in (sys.stdout, TERMINAL):  # the log and the terminal
         print(*report, sep="\n", file=stream, flush=True)
     if has_failed(found, snakemake.params.strict):
-        sys.exit("Some figures are not those of the reference set.")
+        sys.exit("Some figures differ from the reference set.")

@@ -1,6 +1,6 @@
-"""Fixed points and exact 1:1 responses of one case -> CSV, a row each, with the verdicts of all criteria and proofs.
+"""Compute fixed points and exact 1:1 responses of one case, with the verdicts of all criteria and proofs, as CSV.
 
-search.json holds the number of Newton starts with which asymmetric orbits were searched.
+search.json contains the number of Newton starts in the search for asymmetric orbits.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Tables of all cases -> one table of fixed points, one of orbits."""
+"""Join the tables of all cases: one table of fixed points, one of orbits."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,4 +1,4 @@
-"""Results -> the page to open first: the chapter, speed and accuracy, and the studies that are there."""
+"""Write the index page of the results: the chapter, speed and accuracy, and existing studies."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Work-precision chart and stress tests -> CSV, a row per method, and the methods to choose."""
+"""Summarise the work-precision chart and the stress tests by method, and list the recommended methods."""
 
 from vibroimpact_pipeline.jobs import running
 

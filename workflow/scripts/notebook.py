@@ -1,6 +1,6 @@
-"""Pages of figures: their notebook executed with the parameters of each, on its finished tables and picture.
+"""Write the pages of figures: execute their notebook with the parameters, tables and picture of each figure.
 
-An executed notebook is kept beside the log, cell by cell as it runs, so that a failure can be read there.
+Each executed notebook is saved next to the log, cell by cell while it runs, so that it shows where a cell failed.
 """
 
 from pathlib import Path
@@ -15,11 +15,11 @@ from nbformat.v4 import output_from_msg
 from papermill.engines import Engine, papermill_engines
 
 SHOWN = "stream", "display_data", "execute_result", "error"
-"""Kinds of a kernel's messages that are outputs of a cell."""
+"""Types of kernel messages that are outputs of a cell."""
 
 
 class InProcess(Engine):
-    """Execute the cells in this process: a kernel in a process of its own would import everything once more."""
+    """Execute the cells in this process; a separate kernel process would have to import all modules again."""
 
     @classmethod
     def execute_managed_notebook(cls, manager, kernel_name, **settings):
@@ -45,14 +45,14 @@ papermill_engines.register("in_process", InProcess)
 
 
 def execute(notebook, executed, parameters: dict):
-    """Return the executed notebook; it must have the parameters that are given.
+    """Execute a notebook with parameters and return it.
 
     Raises:
-        ValueError: it has not, of which papermill itself would only warn; or a cell has found one of them wrong.
-        papermill.PapermillExecutionError: a cell failed.
+        ValueError: if the notebook lacks a parameter (papermill only warns), or if a cell rejects a value.
+        papermill.PapermillExecutionError: if a cell fails.
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
-        raise ValueError(f"notebook: {notebook} has no parameters {', '.join(unknown)}")
+        raise ValueError(f"notebook: {notebook} lacks the parameters {', '.join(unknown)}")
     try:
         return papermill.execute_notebook(
             str(notebook),
@@ -67,7 +67,7 @@ def execute(notebook, executed, parameters: dict):
 
 
 def parameters_of(config: dict) -> dict:
-    """Return the parameters of a notebook by name, from the entries of the config that decide what its figure shows."""
+    """Return the parameters of a notebook by name, from the config entries on which its figure depends."""
     given = {}
     for path, value in config.items():
         name = path.rpartition(".")[2]
@@ -81,8 +81,8 @@ with running(snakemake) as out:
         case = {"case": shown["case"]} if shown["case"] else {}
         given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(shown["config"])}
         executed = Path(snakemake.log[0]).with_name(f"{figure}.ipynb")
-        print(f"{snakemake.input.notebook} as it was executed: {executed}")
+        print(f"Executed notebook: {executed}")
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
-        injected.id = "injected-parameters"  # random else, and the page of each build another
+        injected.id = "injected-parameters"  # otherwise random, which would change the page in every build
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

@@ -1,5 +1,6 @@
-"""Direct integration of one case -> its window after the transient: samples.csv, events.csv, summary.json; strobe.csv
-holds the state at the start of every forcing cycle of the whole run.
+"""Integrate one case, and write the window after the transient: samples.csv, events.csv and summary.json.
+
+strobe.csv contains the state at the start of every forcing cycle of the whole run.
 """
 
 import json
@@ -14,7 +15,7 @@ from vibroimpact.system.state import KINDS, NAMES
 
 
 def summarise(simulated: Window, settings: dict) -> dict:
-    """Return numbers of the window: events by kind and module, and recurrence errors after 1 to 4 cycles."""
+    """Return summary statistics of the window: events by kind and module, recurrence errors after 1 to 4 cycles."""
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}

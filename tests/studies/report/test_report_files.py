@@ -161,7 +161,7 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     title, *headings = re.findall("^#+ (.*)", article, re.MULTILINE)
     assert words.startswith(title)
     assert [heading for heading in headings if heading not in words] == []
-    assert re.search(r"Built from (commit .* of \d{4}-\d\d-\d\d|a copy without its history)\.", words)
+    assert re.search(r"Built from (commit .* of \d{4}-\d\d-\d\d|a copy without git history)\.", words)
     assert "numbers.yaml" not in words
     assert len(document) < 20
     titles = [figure_texts(ROOT, CONFIG)[f"fig10_{number:02d}"]["title"] for number in range(2, 12)]

@@ -50,4 +50,4 @@ def test_the_archive_has_both_layers(studied, tmp_path):
     tree.edit("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]")
     commit(tree.path)
     said = tree.dry_run("--rerun-triggers", "mtime", "--", "archive")
-    assert re.search(r"C_range \[0.5, 2.2\], now \[0.5, 2.0\].*\. Build first: make figures studies", said)
+    assert re.search(r"C_range was \[0.5, 2.2\], is now \[0.5, 2.0\].*\. Rebuild first: make figures studies", said)

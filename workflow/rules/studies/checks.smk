@@ -1,4 +1,4 @@
-# The figures of the studies against their reference set, figures/studies/.
+# Compare the figures of the studies with their reference set, figures/studies/.
 
 
 rule study_check:

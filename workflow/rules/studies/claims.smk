@@ -1,5 +1,5 @@
-# The chapter's claims: each verdict follows from the results of the stages before. They are about the chapter's
-# parameters and lean on some settings: with others, those that depend on these are not judged, and the page says why.
+# Claims of the chapter, judged by the results of earlier stages. With parameters or settings other than those of
+# claims.yaml, the claims that depend on them are not judged, and the page gives the reason.
 
 EVIDENCE = {
     "fixed_points": "results/fixed_points.csv",
@@ -19,7 +19,7 @@ EVIDENCE = {
     "weak_summary": "results/simulations/weak/reference/summary.json",
 }
 
-# What a config does not make.
+# Results that this config does not build.
 ABSENT = {
     *({"special_points"} if "companion_branches" not in MADE else ()),
     *({"epsilon_orders"} if "companion_epsilon" not in MADE else ()),
@@ -32,7 +32,7 @@ ABSENT = {
 rule claims:
     input:
         **{name: path for name, path in EVIDENCE.items() if name not in ABSENT},
-        claims=own("docs/studies/claims.yaml"),
+        claims=checkout_path("docs/studies/claims.yaml"),
     output:
         json=report("results/claims.json", category="Tables", labels={"name": "claims", "kind": "json"}),
         markdown="results/claims.md",

@@ -1,11 +1,11 @@
-# What the rules of the studies share.
+# Shared by the rules of the studies.
 
-# From their files.
+# Relative to the files of the rules.
 CAPTION = "../../../report/caption.rst"
 
 
 def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
-    """Inputs and params of a companion figure; None if the config lacks an entry that it needs."""
+    """Return inputs and params of a companion figure, or None if the config lacks an entry that it needs."""
     try:
         case = at(config, case) if case else None
         inputs = {name: path.format(case=case) for name, path in inputs.items()}
@@ -18,7 +18,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
 
 
 def sweep_request(sweep):
-    """Everything that the numbers of a sweep depend on, and nothing else: see vibroimpact.studies.sweeps.request."""
+    """Return the settings on which the numbers of a sweep depend, as in vibroimpact.studies.sweeps.request."""
     spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]
@@ -26,5 +26,5 @@ def sweep_request(sweep):
 
 
 def arithmetic(scene):
-    """The model of a case's simulation that is shown: the reference where the case gives its digits."""
+    """Return the model of a simulation to show: reference if the case sets `digits`, otherwise float64."""
     return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"

@@ -1,5 +1,6 @@
-# A published program beside exact orbits, outside the default build: snakemake field. It runs the program CC by Weidemann
-# et al. (2025) in Octave, from the folder that the environment variable CC_PROGRAM names (docs/studies/field.md).
+# Compare a published program with exact orbits: snakemake field. This rule is not part of the default build. It runs the
+# program CC by Weidemann et al. (2025) in Octave from the folder in the environment variable CC_PROGRAM
+# (docs/studies/field.md).
 
 
 rule field:

@@ -1,8 +1,8 @@
-# Figures beside those of the chapter. Each has a rule of its name, and its file in src/vibroimpact/studies/figures/.
+# Companion figures. Each has a rule of the same name and a module in src/vibroimpact/studies/figures/.
 
-# What `compute` of each takes: settings of the config, named as the last key of their paths (a * stands for all of a
-# section, but for its `case`); inputs; `system`, that of a case; `systems`, those of all cases. Without one of these
-# entries it is not made.
+# Arguments of `compute` for each figure: `settings` of the config, named by the last key of their path (* stands for all
+# settings of a section except `case`); `inputs`; the system of a `case`; the `systems` of all cases. A figure is omitted
+# if the config lacks one of these entries or of `needs`.
 COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {
@@ -90,7 +90,7 @@ for figure, found in MADE.items():
             "../../scripts/figure.py"
 
 
-# Machines in SI units, with a page as the chapter's figures.
+# Machines in SI units, each with a page like the figures of the chapter.
 SCENES |= {name: entry | {"like": "machines"} for name, entry in config["machines"].items()}
 
 for figure in config["machines"]:

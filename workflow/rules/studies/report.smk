@@ -1,4 +1,4 @@
-# The report: one site that reads offline and one PDF, from the results of all stages.
+# Report: an offline website and a PDF, built from the results of all stages.
 
 MOVING = config["report"]
 PICTURES = "png", "pdf", "svg"

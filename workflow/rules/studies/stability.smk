@@ -1,4 +1,4 @@
-# What is proved of the orbits of each case, and the verdicts of all criteria over planes of forces and over epsilon.
+# Proofs on the orbits of each case, and verdicts of all criteria over planes of forces and over epsilon.
 
 
 rule proofs:
@@ -18,12 +18,12 @@ rule proofs:
         "../../scripts/studies/proofs.py"
 
 
-# The theory's verdicts over a plane of forces, against exact orbits at several epsilon.
+# Verdicts of the theory over a plane of forcing amplitudes, against exact orbits at several epsilon.
 rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables", CAPTION),
     params:
-        system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid has the forces
+        system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid sets the forces
         settings=config["stability"]["verdict_grid"],
         code=code("studies/verdict_grid"),
     log:
@@ -36,7 +36,7 @@ rule verdict_grid:
         "../../scripts/studies/verdict_grid.py"
 
 
-# Measures of the regime of every case, and their Lyapunov spectra.
+# Measures of modulation and Lyapunov spectra of every case.
 rule modulation:
     output:
         measures="results/regimes/modulation.csv",
@@ -54,7 +54,7 @@ rule modulation:
         "../../scripts/studies/modulation.py"
 
 
-# The verdicts on the fixed points of the cases as the balls get lighter.
+# Verdicts on the fixed points of all cases as epsilon decreases.
 rule verdicts_by_epsilon:
     output:
         csv="results/verdicts_by_epsilon.csv",

@@ -1,4 +1,4 @@
-# What goes beyond the chapter: `snakemake --cores 2 studies`. Deleting every folder and file called `studies` removes it.
+# Studies beyond the chapter: `snakemake --cores 2 studies`. Delete every folder and file named `studies` to remove them.
 
 
 include: "common.smk"
@@ -14,7 +14,7 @@ READ_BY_FIGURES = {path for figure in ALL_FIGURES for path in getattr(rules, fig
 SIMULATED = {Path(path).parent.as_posix() for path in READ_BY_FIGURES if "results/simulations/" in path}
 
 
-# What the columns of all tables mean, for programs that read them elsewhere.
+# Machine-readable description of the columns of all tables.
 rule datapackage:
     input:
         rules.index.input,
@@ -23,8 +23,8 @@ rule datapackage:
         rules.sweeps.input,
         sorted(READ_BY_FIGURES),
         expand("{run}/{table}.csv", run=sorted(SIMULATED), table=["samples", "events", "strobe"]),
-        citation=own("CITATION.cff"),
-        data=own("report/data.yaml"),
+        citation=checkout_path("CITATION.cff"),
+        data=checkout_path("report/data.yaml"),
     output:
         json="results/datapackage.json",
     params:

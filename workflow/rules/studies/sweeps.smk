@@ -1,5 +1,5 @@
-# Parameters moved over a grid: snakemake sweep_NAME. A sweep is cut into tiles, a job each; how many follows from its
-# predicted cost (vibroimpact.studies.sweeps.cost), or from `--set-scatter NAME=8`, and changes no byte of its table.
+# Parameter sweeps over a grid: snakemake sweep_NAME. A sweep is split into tiles, one job each. Their number follows from
+# the predicted cost (vibroimpact.studies.sweeps.cost) or from `--set-scatter NAME=8`; it does not change the table.
 
 from vibroimpact.studies.sweeps.cost import points, tiles
 
@@ -70,7 +70,7 @@ for name, sweep in SWEEPS.items():
             "../../scripts/figure.py"
 
 
-# Sweeps of your own: those that no companion figure draws.
+# Figures of all sweeps that no companion figure draws.
 rule sweeps:
     input:
         [

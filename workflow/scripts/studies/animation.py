@@ -1,4 +1,4 @@
-"""A window of a simulation -> the frames of an animation as JSON, and a still of it as a picture."""
+"""Write the frames of an animation as JSON and one frame as a picture, from a simulated window."""
 
 import json
 from pathlib import Path
@@ -11,7 +11,7 @@ from vibroimpact.studies.figures.animation import PLACES, compute, draw
 from vibroimpact.system import System
 
 DECIMALS = {"t": 4, "X1": 3, "Y1": 3, "X2": 3, "Y2": 3}
-"""A thousandth of L is less than a pixel."""
+"""Decimals of each column; 0.001 L is less than a pixel."""
 
 with running(snakemake) as out:
     samples, events = tables.read(snakemake.input.samples), tables.read(snakemake.input.events)

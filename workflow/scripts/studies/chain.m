@@ -1,13 +1,13 @@
-% Results of the program CC by Weidemann et al. for two sectors: of each in-phase resonant response its frequency, the
-% amplitudes of its sector and absorber over the clearance, stability by their slow flow, and what their time stepping
-% from their own initial conditions ends in, as their test of practical stability looks at it.
+% Results of the program CC by Weidemann et al. for two sectors. For each in-phase resonant response, this script writes its
+% frequency, the amplitudes of sector and absorber over the clearance, its stability by their slow flow, and measures of
+% the motion that their time stepping reaches from their initial conditions, as in their test of practical stability.
 %
 %   octave chain.m FOLDER_OF_CC FILE.csv
 source_folder = argv(){1};
 for name = {'system', 'analytics', 'integrator', 'postprocessing'}
     addpath(fullfile(source_folder, name{1}));
 end
-function angle = wrapToPi(angle)  % MATLAB has it in a toolbox
+function angle = wrapToPi(angle)  % in MATLAB, part of a toolbox
     angle = mod(angle + pi, 2 * pi) - pi;
 end
 run(fullfile(source_folder, 'system', 'InitStructs.m'));
@@ -36,7 +36,7 @@ for r = [0.980, 0.985, 0.9875, 0.9885, 0.990, 0.992]
         [heights, spreads] = MeanAmplitude(sys.Phi * eta(:, 2:end), run_of.N_Sample);
         impacts = CountImpacts(speeds, run_of.N_Tau, 'average');
         reach = (max(places(1, :)) - min(places(1, :))) / 2 / sys.Gamma(1);
-        % Speeds of the first absorber to the right and to the left differ where its flights are of unequal length.
+        % The speeds of the first absorber to the right and to the left differ if its flights are asymmetric.
         right = mean(speeds(1, speeds(1, :) > 0));
         left = -mean(speeds(1, speeds(1, :) < 0));
         fprintf(file, '%g,%.10g,%.10g,%d,%.6g,%.3g,%.8g,%.6g\n', r, at, theta, stable, min(impacts), ...

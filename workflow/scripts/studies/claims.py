@@ -1,6 +1,6 @@
-"""Results of the build -> the chapter's claims with their verdicts: claims.json, and claims.md to read.
+"""Judge the claims of the chapter by the results of the build; write claims.json, and claims.md for reading.
 
-In a build with other parameters than the chapter's, or other settings, those that depend on these are not judged.
+Claims that depend on parameters or settings other than those of claims.yaml are not judged.
 """
 
 import json

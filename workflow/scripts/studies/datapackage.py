@@ -1,4 +1,4 @@
-"""Tables of the default build -> the data package beside them, which describes every column."""
+"""Write the data package of the tables of a build, which describes every column."""
 
 import csv
 import json

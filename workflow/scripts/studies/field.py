@@ -1,4 +1,4 @@
-"""Two sectors of the chain of Weidemann et al.: their program in Octave and exact responses -> CSV; proofs -> JSON."""
+"""Compare two sectors of the chain of Weidemann et al.: results of their program, exact responses and proofs."""
 
 import json
 import os
@@ -17,9 +17,9 @@ from vibroimpact.studies.field import responses
 with running(snakemake) as out:
     folder = os.environ.get("CC_PROGRAM", "")
     if not Path(folder, "analytics/AllSectorsFRS.m").is_file():
-        sys.exit(f"CC_PROGRAM: {folder or 'nothing'} is not the folder of the program github.com/tobiaswdm/CC.")
+        sys.exit(f"CC_PROGRAM: {folder or 'not set'}, expected the folder of the program github.com/tobiaswdm/CC")
     if not shutil.which("octave"):
-        sys.exit("octave: not installed. It is a package of most systems, for example of Debian.")
+        sys.exit("octave: not installed. Install Octave, for example with apt install octave.")
     command = ["octave", "--no-gui", "--quiet", "--norc", snakemake.params.octave, folder, out.program]
     subprocess.run(command, check=True)
     rows = [row for r in pd.read_csv(out.program)["r"].unique().tolist() for row in responses(r)]

@@ -1,4 +1,4 @@
-"""Fixed points over a range of one forcing amplitude -> CSV, JSON for the report's control, and a picture."""
+"""Write fixed points over a range of one forcing amplitude as CSV, as JSON for the slider, and as a picture."""
 
 import json
 from pathlib import Path
@@ -17,7 +17,7 @@ from vibroimpact.theory.criteria import THEORY
 
 
 def for_page(found: dict, values: list) -> dict:
-    """Return the data of the slider: both branches of the manifold, points at each value, and their exact orbits."""
+    """Return the data of the slider: both branches of the manifold, fixed points and exact orbits at each value."""
     manifold = {
         series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in found["manifold"].groupby("series")
     }

@@ -1,4 +1,4 @@
-"""Measures of the regimes of all cases and their Lyapunov spectra -> three CSV files."""
+"""Write measures of modulation and Lyapunov spectra of all cases to three CSV files."""
 
 from vibroimpact_pipeline.jobs import running
 

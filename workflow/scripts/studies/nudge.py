@@ -1,4 +1,4 @@
-"""A predicted motion, nudged -> its frames as JSON for the report, and a picture."""
+"""Write the motion after a small perturbation of a predicted motion: frames as JSON, and a picture."""
 
 import json
 from pathlib import Path

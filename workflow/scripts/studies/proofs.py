@@ -1,8 +1,8 @@
-"""Completeness of the lists of fixed points and orbits, and proofs of the orbits -> JSON, by case.
+"""Write the proofs on fixed points and orbits of all cases as JSON.
 
-The lists of fixed points, also those with unequal flights, and of symmetric orbits are proved complete in interval
-arithmetic. That of asymmetric orbits is not: the number of Newton starts that led to the one that was met least says
-how likely another one was missed.
+Interval arithmetic proves that the lists of fixed points, including asymmetric ones, and of symmetric orbits are
+complete. The list of asymmetric orbits is not proved complete; the smallest number of Newton starts that led to one of
+them indicates how likely another orbit was missed.
 """
 
 import dataclasses
@@ -25,7 +25,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, table, search) -> dict:
-    """Return the proofs on one case; for asymmetric orbits, the search effort."""
+    """Return the proofs for one case; for asymmetric orbits, the search effort."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

@@ -1,4 +1,4 @@
-"""Results -> the report: a site that reads offline, and its article as PDF."""
+"""Build the report from results: an offline website, and its article as PDF."""
 
 import json
 import shutil
@@ -17,7 +17,7 @@ from vibroimpact.studies.claims.judge import NOT_JUDGED
 
 
 def collect(results, figures, tables, folder: Path) -> None:
-    """Copy the files of figures, their notebooks and further tables into the report."""
+    """Copy figures, their notebooks and additional tables to the report."""
     for part in ("figures", "notebooks", "data"):
         (folder / part).mkdir(parents=True)
     for figure in figures:
@@ -31,13 +31,13 @@ def collect(results, figures, tables, folder: Path) -> None:
 
 
 def version(root) -> str:
-    """Return commit and date of the checkout, if git knows them."""
+    """Return commit and date of the checkout, if available."""
     try:
-        described = git("describe", "--always", "--dirty=, with changes", root=root)
+        described = git("describe", "--always", "--dirty=, with uncommitted changes", root=root)
     except GitRefused:
-        return "a copy whose history git refuses to read"
+        return "a copy whose git history is not readable"
     if described is None:
-        return "a copy without its history"
+        return "a copy without git history"
     return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 

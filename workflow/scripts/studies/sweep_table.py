@@ -1,4 +1,4 @@
-"""All tiles of a sweep -> one table, a row per point in their order; the same as NetCDF, over the grid."""
+"""Join the tiles of a sweep into one table with a row per point, and write it as NetCDF over the grid."""
 
 import sys
 
@@ -13,6 +13,8 @@ from vibroimpact.studies.sweeps.spec import POINT
 with running(snakemake) as out:
     table = pd.concat(map(tables.read, snakemake.input), ignore_index=True).sort_values(POINT, ignore_index=True)
     if table[POINT].tolist() != list(range(snakemake.params.points)):
-        sys.exit(f"{len(table)} rows with {table[POINT].nunique()} points, not {snakemake.params.points} once each")
+        sys.exit(
+            f"tiles: {len(table)} rows for {table[POINT].nunique()} points, expected {snakemake.params.points} of both"
+        )
     tables.write(table, out.csv)
     to_dataset(table, map(tuple, snakemake.params.along)).to_netcdf(out.netcdf, engine="scipy")

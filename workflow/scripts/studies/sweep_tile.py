@@ -1,4 +1,4 @@
-"""One tile of a sweep -> CSV, a row per point."""
+"""Compute one tile of a sweep as CSV, one row per point."""
 
 from vibroimpact_pipeline.jobs import running
 

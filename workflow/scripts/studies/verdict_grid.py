@@ -1,4 +1,4 @@
-"""Verdicts on every fixed point over a grid of forces and several epsilon -> CSV, a row per point and epsilon."""
+"""Write the verdicts on every fixed point over a grid of forcing amplitudes and several epsilon as CSV."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,4 +1,4 @@
-"""All cases -> CSV: the verdicts on their fixed points at several epsilon."""
+"""Write the verdicts on the fixed points of all cases at several epsilon as CSV."""
 
 from vibroimpact_pipeline.jobs import running
 
