@@ -1,4 +1,4 @@
-// What the live pages draw with: marks, charts, the two boxes on their springs, and a clock.
+// Drawing tools of the interactive pages: marks, charts, the two boxes on their springs, and a clock.
 "use strict";
 
 function mark(parent, kind, name, attributes = {}, text = "") {
@@ -13,7 +13,7 @@ function mark(parent, kind, name, attributes = {}, text = "") {
 const set = (element, attributes) => { for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value); };
 const dataOf = (root) => JSON.parse(document.getElementById(root.dataset.source).textContent);
 
-// A chart whose letters keep their size: its unit is the pixel of the page.
+// A chart in units of page pixels, so that its text keeps its size.
 class Chart {
   constructor(svg, height) {
     Object.assign(this, { svg, fixed: height, left: 46, right: 14, top: 8, bottom: 22 });
@@ -35,7 +35,7 @@ class Chart {
   }
 }
 
-const FLASH = 0.12; // how long a wall is lit after an impact, in cycles
+const FLASH = 0.12; // duration of the flash of a wall after an impact [cycles]
 
 // Two boxes on springs, each with its ball.
 class Machine {
@@ -56,7 +56,7 @@ class Machine {
     });
   }
 
-  // X, Y: of both modules; ages: for each the time in cycles since the last impact at wall +1 and -1.
+  // X, Y: displacements of both modules; ages: for each module, cycles since the last impact at wall +1 and at wall -1.
   show(X, Y, ages, stuck = [0, 0]) {
     const { PLACES, EDGE, SIDE } = Machine, at = X.map((x, i) => PLACES[i] + x);
     this.modules.forEach(({ box, lights, ball }, i) => {
@@ -68,7 +68,7 @@ class Machine {
     this.springs.forEach((line, n) => line.setAttribute("points", Machine.spring(ends[2 * n], ends[2 * n + 1])));
   }
 
-  // The moment t of a simulated motion. Between two rows every ball flies straight, and the rows of a box are close.
+  // Show a simulated motion at time t, by linear interpolation between rows.
   showFrame({ motion, impacts }, t) {
     const n = Math.max(0, Math.min(motion.t.findLastIndex((time) => time <= t), motion.t.length - 2));
     const span = motion.t[n + 1] - motion.t[n], part = span > 0 ? Math.min(1, (t - motion.t[n]) / span) : 0;
@@ -84,7 +84,7 @@ class Machine {
   }
 }
 
-// Calls `passed` with the seconds between two pictures while it is on; `button` turns it on and off.
+// Call `passed` with the seconds between two frames while the clock runs; `button` starts and stops it.
 class Clock {
   constructor(button, passed) {
     Object.assign(this, { button, passed });

@@ -1,15 +1,15 @@
 // The two-module system (10.2), integrated exactly from event to event: impact, chatter, sticking and release.
 //
-// Between events the boxes obey a linear equation with a sinusoidal force, so their motion is a power series, exact to
-// rounding over a step. The gap between ball and wall is then a polynomial. All its turning points are found before its
-// zeros, so that a crossing, however shallow, is not stepped over. The library's own engine is another program
-// (src/vibroimpact/exact/engine); a test holds this one against it.
+// Between events the boxes obey a linear equation with a sinusoidal force. Their motion over a step is a power series that
+// is exact to rounding, so that the gap between ball and wall is a polynomial. All its turning points are found before its
+// zeros, so that no crossing is missed, however shallow. A test compares this program with the engine of the library
+// (src/vibroimpact/exact/engine).
 "use strict";
 
 const VibroImpact = (() => {
   const DEGREE = 16, STEP = 0.5, ROUNDING = 4 * Number.EPSILON;
-  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // a chatter is completed below both: change of the state, height of a hop
-  const MOST_EVENTS = 100000; // in one call of advance
+  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // thresholds for completing a chatter: change of the state, height of a hop
+  const MOST_EVENTS = 100000; // maximum in one call of advance
 
   const value = (c, t) => c.reduceRight((sum, coefficient) => sum * t + coefficient, 0);
   const derivative = (c) => c.slice(1).map((coefficient, k) => (k + 1) * coefficient);
@@ -21,7 +21,7 @@ const VibroImpact = (() => {
     return Math.abs(c[0]) > others;
   }
 
-  // The zero of a polynomial between two places where its signs differ: Newton's method, kept within by bisection.
+  // Find the zero of a polynomial between two places of opposite sign, by Newton's method safeguarded by bisection.
   function zeroBetween(c, a, b) {
     const slope = derivative(c), sign = Math.sign(value(c, a)) || -Math.sign(value(c, b));
     let t = 0.5 * (a + b);
@@ -36,7 +36,7 @@ const VibroImpact = (() => {
     return t;
   }
 
-  // All places in (0, T) where a polynomial changes its sign, ascending; between two turning points there is one at most.
+  // Find all sign changes of a polynomial in (0, T), ascending; between two turning points there is at most one.
   function zeros(c, T) {
     if (c.length < 2 || hasNoZero(c, T)) return [];
     const ends = [0, ...zeros(derivative(c), T), T], found = [];
@@ -46,7 +46,7 @@ const VibroImpact = (() => {
     return found;
   }
 
-  // The first time in (0, T] at which a polynomial that begins above zero falls below it, or Infinity.
+  // Find the first time in (0, T] at which an initially positive polynomial becomes negative, or Infinity.
   function firstFall(c, T) {
     if (hasNoZero(c, T) && c[0] > 0) return Infinity;
     let before = 0;
@@ -57,7 +57,7 @@ const VibroImpact = (() => {
     return Infinity;
   }
 
-  // The coefficients of (10.2), from the hatted parameters of (10.4) to (10.6).
+  // Compute the coefficients of (10.2) from the hatted parameters of (10.4) to (10.6).
   function coefficients({ epsilon: e, kappa, alpha12_hat, gamma1_hat, gamma2_hat, gamma12_hat, sigma20_hat, sigma_e_hat, f10_hat, f20_hat }) {
     const spring = e * alpha12_hat, damper = e * gamma12_hat, omega = 1 + e * sigma_e_hat;
     const K = [[1 + spring, -spring], [-spring, 1 + e * sigma20_hat + spring]];
@@ -67,14 +67,14 @@ const VibroImpact = (() => {
     return { e, kappa, K, C, omega, f: [e * f10_hat, e * f20_hat], step: STEP / fastest, period: 2 * Math.PI / omega };
   }
 
-  // A run from a state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] at tau = 0. `events` grows; whoever reads may empty it.
+  // A run from a state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] at tau = 0. `events` grows; the caller may clear it.
   class Run {
     constructor(parameters, state) {
       this.system = coefficients(parameters);
       [this.X, this.Y] = [[state[0], state[2]], [state[1], state[3]]];
       [this.V, this.U] = [[state[4], state[6]], [state[5], state[7]]];
       this.stuck = [0, 0]; // the wall, +1 or -1, that each ball sticks to
-      this.touching = [0, 0]; // the wall that each ball touches, leaving it or at rest
+      this.touching = [0, 0]; // the wall that each ball touches while it leaves or rests
       this.tau = 0;
       this.phase = 0; // of the force, modulo 2 pi
       this.events = [];
@@ -86,13 +86,13 @@ const VibroImpact = (() => {
       return [X[0], Y[0], X[1], Y[1], V[0], U[0], V[1], U[1]];
     }
 
-    // Go on with other parameters; the frequency of the force stays.
+    // Continue with other parameters; the forcing frequency must stay the same.
     change(parameters) {
       this.system = coefficients(parameters);
       this.resolve(-1);
     }
 
-    // Power series of X1 and X2 while these balls stick.
+    // Compute the power series of X1 and X2 for the balls that stick.
     series(stuck) {
       const { e, K, C, f, omega } = this.system, a = [[this.X[0], this.V[0]], [this.X[1], this.V[1]]];
       const mass = stuck.map((wall) => (wall ? 1 + e : 1)), turn = [Math.sin(this.phase), Math.cos(this.phase)];
@@ -106,7 +106,7 @@ const VibroImpact = (() => {
       return a;
     }
 
-    // Sizes below which an acceleration and a gap of module i are rounding.
+    // Thresholds below which an acceleration (tiny) and a gap (blur) of module i are rounding errors.
     tiny(i) {
       const { K, C, f } = this.system, { X, V } = this;
       return ROUNDING * (Math.abs(f[i]) + [0, 1].reduce((sum, j) => sum + Math.abs(K[i][j] * X[j]) + Math.abs(C[i][j] * V[j]), 0));
@@ -116,7 +116,7 @@ const VibroImpact = (() => {
       return ROUNDING * (2 + [...this.X, ...this.V, this.Y[i], this.U[i]].reduce((sum, x) => sum + Math.abs(x), 0));
     }
 
-    // Time to the next event of module i within T, or Infinity: an impact, or the end of the force that holds its ball.
+    // Find the time of the next event of module i within T, or Infinity: an impact, or the release of a sticking ball.
     next(i, series, T) {
       const a = series[i], wall = this.stuck[i];
       if (wall) return firstFall(derivative(derivative(a)).map((force) => wall * force), T);
@@ -125,7 +125,7 @@ const VibroImpact = (() => {
         let gap = a.map((coefficient) => -side * coefficient);
         gap[0] = 1 - side * (this.X[i] - this.Y[i]);
         gap[1] = -side * (this.V[i] - this.U[i]);
-        if (this.touching[i] === side) { // what vanishes at the start is divided out
+        if (this.touching[i] === side) { // divide out the zero at the start
           gap = gap.slice(1);
           if (gap[0] === 0) gap = gap.slice(Math.abs(2 * gap[1]) <= this.tiny(i) ? 2 : 1);
         }
@@ -134,7 +134,7 @@ const VibroImpact = (() => {
       return first;
     }
 
-    // Go on by a time dt, event by event.
+    // Advance by a time dt, event by event.
     advance(dt) {
       for (let left = dt, events = 0; left > 0;) {
         const series = this.series(this.stuck);
@@ -152,7 +152,7 @@ const VibroImpact = (() => {
         this.phase = (this.phase + t * this.system.omega) % (2 * Math.PI);
         if (t > 0) this.touching = [0, 0];
         left -= t;
-        if (due >= 0 && ++events > MOST_EVENTS) throw new Error(`there are too many events after tau = ${this.tau}`);
+        if (due >= 0 && ++events > MOST_EVENTS) throw new Error(`more than ${MOST_EVENTS} events before tau = ${this.tau}`);
         this.resolve(due);
       }
     }
@@ -161,7 +161,7 @@ const VibroImpact = (() => {
       this.events.push({ tau, module: i + 1, wall, kind, speed, state: this.state });
     }
 
-    // Everything that happens now: impacts first, then balls at rest on a wall, then completed chatters.
+    // Process all events at the current time: impacts, then balls at rest on a wall, then completed chatters.
     resolve(due) {
       const hit = [0, 1].map((i) => !this.stuck[i] && this.meet(i, i === due)), pulled = due >= 0 && this.stuck[due] ? due : -1;
       for (const i of [0, 1]) this.rest(i, i === pulled);
@@ -169,7 +169,7 @@ const VibroImpact = (() => {
       if (completed[0] || completed[1]) for (const i of [0, 1]) if (this.stuck[i] && !completed[i]) this.rest(i, false);
     }
 
-    // A flying ball meets the wall ahead, if it is there: Newton's restitution, momentum conserved. True if it did.
+    // Apply Newton's impact law with conserved momentum if a flying ball hits a wall. Return true if it does.
     meet(i, due) {
       const { e, kappa } = this.system, W = this.X[i] - this.Y[i], dW = this.V[i] - this.U[i], wall = W > 0 ? 1 : -1;
       if (!due && 1 - wall * W > this.blur(i)) return false;
@@ -186,13 +186,13 @@ const VibroImpact = (() => {
       return true;
     }
 
-    // Ball i goes as its box from now on, their momentum kept.
+    // Give ball i the velocity of its box, with conserved momentum.
     join(i) {
       const { e } = this.system;
       this.V[i] = this.U[i] = this.V[i] - (e * (this.V[i] - this.U[i])) / (1 + e);
     }
 
-    // A ball at rest on a wall sticks to it while the force holds it there, and is released when it no longer does.
+    // A ball at rest on a wall sticks while the force presses it on, and is released when the force changes sign.
     rest(i, pulled) {
       const wall = this.stuck[i] || (this.V[i] === this.U[i] ? this.touching[i] : 0);
       if (!wall) return;
@@ -200,9 +200,9 @@ const VibroImpact = (() => {
       both[i] = wall;
       const jet = this.series(both)[i].map((coefficient) => wall * coefficient), sticks = this.stuck[i] !== 0;
       const tiny = this.tiny(i), force = 2 * jet[2], change = 6 * jet[3];
-      let hold = force; // its sign: where the force vanishes within rounding, the first derivative that does not decides
+      let hold = force; // the sign decides; if the force vanishes within rounding, use the first nonzero derivative
       if (Math.abs(force) <= tiny) hold = jet.slice(3, 6).find((coefficient) => coefficient !== 0) ?? 0;
-      else if (sticks && force < 0 && change > 0 && -(force ** 3) < tiny * change ** 2) hold = change; // too brief to lift it
+      else if (sticks && force < 0 && change > 0 && -(force ** 3) < tiny * change ** 2) hold = change; // too short to release the ball
       const leaves = sticks && ((pulled && change < 0) || hold < 0);
       if (leaves || (!sticks && hold > 0)) {
         this.note(i, wall, leaves ? "release" : "stick");
@@ -210,8 +210,8 @@ const VibroImpact = (() => {
       }
     }
 
-    // Complete the chatter of ball i at once, if hardly anything is left of it: its hops, each kappa times as long as the
-    // one before, end after 2 u / (a (1 - kappa)). True if it was.
+    // Complete the chatter of ball i if its remaining hops are negligible. Each hop is kappa times as long as the previous
+    // one, so that they end after 2 u / (a (1 - kappa)). Return true if the chatter was completed.
     complete(i) {
       const { e, kappa, K } = this.system, series = this.series(this.stuck), jet = series[i], wall = this.touching[i];
       const push = 2 * wall * jet[2], speed = -wall * (this.V[i] - this.U[i]), height = (speed * speed) / (2 * push);

@@ -1,5 +1,4 @@
-// The fixed points on the slow invariant manifold, the exact orbits and their multipliers, for the value of f20 that the
-// slider stands at.
+// Show fixed points on the slow invariant manifold, exact orbits and their multipliers for the value of f20 at the slider.
 "use strict";
 
 const WIDTH = 360, HEIGHT = 290, LEFT = 44, BOTTOM = 38, TOP = 30, RIGHT = 10;
@@ -108,7 +107,7 @@ class Circle {
       }
     }
     const place = { x: WIDTH - RIGHT - 6, "text-anchor": "end" };
-    if (far.length) mark(this.layer, "text", "", { ...place, y: TOP + 18 }, "farther out:");
+    if (far.length) mark(this.layer, "text", "", { ...place, y: TOP + 18 }, "beyond the frame:");
     far.sort().forEach(([text, fill], n) => mark(this.layer, "text", "", { ...place, y: TOP + 35 + 16 * n, fill, "data-far": "" }, text));
   }
 }
@@ -137,8 +136,7 @@ class ForceSweep {
     return gaps.indexOf(Math.min(...gaps));
   }
 
-  // A letter for each branch, by its track: that which it has at the start of the page; a branch that is not there has
-  // the next letter that is free.
+  // Assign a letter to each branch (track): its letter at the initial force, or the next free letter.
   branchNames(start) {
     const names = new Map(this.data.points[start].map(({ track, label }) => [track, label]));
     for (const { track } of this.data.points.flat()) {

@@ -1,4 +1,4 @@
-// The motion that a simulation left, with W of both modules over the whole time.
+// Show a simulated motion, with W of both modules against time.
 "use strict";
 
 class Motion extends Chart {
@@ -34,11 +34,11 @@ class Motion extends Chart {
     const { cycles } = this.data;
     this.machine.showFrame(this.data, t);
     set(this.cursor, { x1: this.x(t), x2: this.x(t) });
-    const said = `cycle ${t.toFixed(2)} of ${cycles}`;
+    const text = `cycle ${t.toFixed(2)} of ${cycles}`;
     Object.assign(this, { t });
     this.slider.value = t;
-    this.slider.setAttribute("aria-valuetext", said);
-    this.output.textContent = said;
+    this.slider.setAttribute("aria-valuetext", text);
+    this.output.textContent = text;
   }
 }
 

@@ -1,10 +1,10 @@
-// A predicted motion, nudged: the distance climbs with the multiplier, until the flights are lopsided for good.
+// Show a predicted motion after a small perturbation: the distance grows with the multiplier until flights are asymmetric.
 "use strict";
 
 const SECONDS = 10;
 
 class Dots extends Chart {
-  // ticks: [value, words] of the vertical axis; at: the place of a value between 0 and 1.
+  // ticks: [value, text] of the vertical axis; at: maps a value to a position between 0 and 1.
   constructor(svg, cycles, ticks, at) {
     super(svg, 200);
     Object.assign(this, { cycles, ticks, at, left: 40, bottom: 34 });

@@ -1,13 +1,13 @@
-// The page "Play": the exact system runs, with sliders; beside it the theory's prediction in the cases of the config.
+// The page "Play": run the exact system with sliders, and show the prediction of the theory for the cases of the config.
 "use strict";
 
-const STEPS = 160; // of a cycle: what is simulated between two pictures, or several of it
-const SETTLED = 400, SKIPPED = 200, KEPT = 5; // cycles before the page opens; of the button; of what is drawn
-const SPEED = 0.5; // of both balls at the start of a case
-const REPEATS = 2e-3; // nearness of states, a cycle apart
+const STEPS = 160; // steps per cycle; a frame advances by one or more steps
+const SETTLED = 400, SKIPPED = 200, KEPT = 5; // cycles: before the page opens, of the skip button, of the drawn history
+const SPEED = 0.5; // initial speed of both balls in a case
+const REPEATS = 2e-3; // tolerance for the distance of states one period apart
 const niceAbove = (x) => [0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32].find((end) => end >= x) ?? 2 * x;
 
-// A quantity over the last cycles, the exact one and the theory's, which reaches a little beyond the present.
+// Chart of a quantity over the last cycles: exact values, and the prediction of the theory, which extends into the future.
 class Strip extends Chart {
   constructor(svg, height, walls) {
     super(svg, height);
@@ -98,7 +98,7 @@ class Play {
     this.changed();
   }
 
-  // Start anew, with the first so many cycles run at once.
+  // Restart the motion and run the first `cycles` cycles at once.
   begin(cycles) {
     this.run = new VibroImpact.Run(this.parameters, [0, 0, 0, 0, 0, this.speed, 0, this.speed]);
     Object.assign(this, { steps: 0, samples: [], impacts: [], hits: [[-Infinity, -Infinity], [-Infinity, -Infinity]], rest: 0, sections: [] });
@@ -126,14 +126,14 @@ class Play {
     this.show();
   }
 
-  // What the sliders say, and the points that the theory has there: it was asked in the cases of the config only.
+  // Update the sliders and the predictions, which exist only for the cases of the config.
   changed() {
     const { parts, data, parameters } = this, { f10_hat, f20_hat, kappa } = parameters;
     for (const [part, value] of [["f1", f10_hat], ["f2", f20_hat], ["kappa", kappa], ["start", this.speed]]) {
-      const said = part === "start" && !value ? "0: at rest" : value.toFixed(2);
+      const text = part === "start" && !value ? "0: at rest" : value.toFixed(2);
       parts[part].value = value;
-      parts[part].setAttribute("aria-valuetext", said);
-      parts[part].parentElement.querySelector("output").textContent = said;
+      parts[part].setAttribute("aria-valuetext", text);
+      parts[part].parentElement.querySelector("output").textContent = text;
     }
     const here = Object.values(data.cases).find(({ forces }) => forces[0] === f10_hat && forces[1] === f20_hat && kappa === data.system.kappa);
     this.points = here?.points ?? [];
@@ -142,7 +142,7 @@ class Play {
     this.show();
   }
 
-  // Cycles after which the section repeats, or 0.
+  // Number of cycles after which the section repeats, or 0.
   get repeats() {
     const points = this.sections, near = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]) < REPEATS;
     if (points.length < 20) return 0;
@@ -157,13 +157,13 @@ class Play {
     strips[1].show(now, samples.map(([t, , W]) => [t, W]), point?.W, impacts);
     parts.clock.textContent = `cycle ${now.toFixed(1)}`;
     const { f10_hat, f20_hat } = this.parameters, rests = !f10_hat && !f20_hat && [0, 2, 4, 5, 6, 7].every((n) => Math.abs(state[n]) < 1e-6);
-    parts.repeats.textContent = rests ? "at rest" : repeats === 1 ? "every cycle" : repeats ? `every ${repeats} cycles` : this.sections.length < 20 ? "wait for some cycles" : "not so far";
+    parts.repeats.textContent = rests ? "at rest" : repeats === 1 ? "1 cycle" : repeats ? `${repeats} cycles` : this.sections.length < 20 ? "wait for some cycles" : "not periodic so far";
     const shares = impacts.slice(1).map((time, n) => (time - impacts[n]).toFixed(2)).slice(-2);
-    parts.flights.textContent = shares.length === 2 ? `${shares.join(" and ")} of the period` : "none lately";
+    parts.flights.textContent = shares.length === 2 ? `${shares.join(" and ")} of the period` : "no recent flights";
     parts.largest.textContent = Math.max(0, ...samples.filter(([t]) => t > now - 1).map(([, X]) => Math.abs(X))).toFixed(3);
     parts.predicted.textContent = point ? Math.max(...point.X.map(Math.abs)).toFixed(3) : "";
     parts.printed.textContent = point ? point.printed : "no prediction here";
-    parts.stable.textContent = !point ? "" : point.multiplier ? `${point.exact}: each cycle a small error becomes ${point.multiplier} times as large` : point.exact;
+    parts.stable.textContent = !point ? "" : point.multiplier ? `${point.exact}: each cycle multiplies a small error by ${point.multiplier}` : point.exact;
   }
 }
 

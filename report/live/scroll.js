@@ -1,4 +1,4 @@
-// What is wider than the window scrolls by itself: it can be reached by keyboard, too. Captions are headings of a level.
+// Make elements that scroll horizontally focusable by keyboard, and give captions a heading level.
 const mayScroll = document.querySelectorAll(".table-wrapper, .math-wrapper, .scroll, pre");
 
 function reachable() {

@@ -1,4 +1,4 @@
-// Points that a criterion calls stable, over both forces, and which of them are: a slider of epsilon.
+// Show the points that a criterion calls stable in the plane of forces, and their exact stability, for each epsilon.
 "use strict";
 
 class Verdicts extends Chart {
@@ -36,7 +36,7 @@ class Verdicts extends Chart {
   show() {
     const index = Number(this.slider.value), points = this.data[this.criterion][index], epsilon = String(this.data.epsilon[index]);
     this.front.replaceChildren();
-    const size = (0.36 * this.inner[0]) / this.data.points; // marks of one cell stand beside each other
+    const size = (0.36 * this.inner[0]) / this.data.points; // marks of one cell are drawn side by side
     const seen = {}, is = (verdict) => points.filter((point) => point[2] === verdict).length;
     for (const [f1, f2, verdict] of points) {
       const nth = (seen[`${f1},${f2}`] = (seen[`${f1},${f2}`] ?? -1) + 1), [x, y] = this.place(f1, f2), at = x + (nth - 0.25) * 0.8 * size;
@@ -45,7 +45,7 @@ class Verdicts extends Chart {
     }
     this.output.textContent = epsilon;
     this.slider.setAttribute("aria-valuetext", epsilon);
-    this.count.textContent = `At ε = ${epsilon}, ${points.length} points are called stable. The exact orbits of ${is("stable")} of them are; ${is("no orbit")} have none.`;
+    this.count.textContent = `At ε = ${epsilon}, ${points.length} points are called stable. ${is("stable")} of them have a stable exact orbit, and ${is("no orbit")} have no exact orbit.`;
     for (const button of this.buttons) button.setAttribute("aria-pressed", button.dataset.criterion === this.criterion);
   }
 }

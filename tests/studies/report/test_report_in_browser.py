@@ -156,7 +156,7 @@ def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site,
         right, none = (int((called["exact"] == verdict).sum()) for verdict in ("stable", "no orbit"))
         assert browser.run("document.querySelector('#verdicts-count').textContent") == (
             f"At ε = {epsilon}, {len(called)} points are called stable. "
-            f"The exact orbits of {right} of them are; {none} have none."
+            f"{right} of them have a stable exact orbit, and {none} have no exact orbit."
         )
         assert browser.run("document.querySelectorAll('#verdicts-map [data-stable=true]').length") == right
         assert browser.run("document.querySelectorAll('#verdicts-map [data-stable]').length") == len(called)
@@ -224,7 +224,7 @@ def shown(browser, part):
 
 def test_it_waits_steps_and_begins_settled_on_the_lopsided_motion(still):
     assert shown(still, "run") == "Play"
-    assert shown(still, "repeats") == "every cycle"
+    assert shown(still, "repeats") == "1 cycle"
     share = sorted(float(number) for number in shown(still, "flights").split(" of ")[0].split(" and "))
     assert share == pytest.approx([0.376, 0.624], abs=0.01)  # of Fig. 10.8; the theory has halves
     before = shown(still, "clock")
@@ -273,7 +273,7 @@ def test_a_case_takes_back_restitution_and_start_and_its_prediction_is_told_unst
     values = [still.run(f"document.getElementById('play-{knob}').value") for knob in ("kappa", "start")]
     assert [float(value) for value in values] == [0.65, 0.5]
     assert shown(still, "printed") == "stable"
-    assert shown(still, "stable").startswith("unstable: each cycle a small error becomes 2.44 times")
+    assert shown(still, "stable").startswith("unstable: each cycle multiplies a small error by 2.44")
 
 
 def test_a_machine_without_force_is_at_rest(still):
@@ -281,7 +281,7 @@ def test_a_machine_without_force_is_at_rest(still):
         focus(still, f"#play-{knob}")
         still.press("Home")
     still.run("document.getElementById('play-skip').click()")
-    assert [shown(still, part) for part in ("repeats", "flights", "stable")] == ["at rest", "none lately", ""]
+    assert [shown(still, part) for part in ("repeats", "flights", "stable")] == ["at rest", "no recent flights", ""]
 
 
 def test_the_nudged_motion_climbs_and_plays_again(browser, site):

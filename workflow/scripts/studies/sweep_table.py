@@ -13,8 +13,6 @@ from vibroimpact.studies.sweeps.spec import POINT
 with running(snakemake) as out:
     table = pd.concat(map(tables.read, snakemake.input), ignore_index=True).sort_values(POINT, ignore_index=True)
     if table[POINT].tolist() != list(range(snakemake.params.points)):
-        sys.exit(
-            f"tiles: {len(table)} rows for {table[POINT].nunique()} points, expected {snakemake.params.points} of both"
-        )
+        sys.exit(f"tiles: {len(table)} rows, expected one for each of the {snakemake.params.points} points")
     tables.write(table, out.csv)
     to_dataset(table, map(tuple, snakemake.params.along)).to_netcdf(out.netcdf, engine="scipy")
