@@ -104,7 +104,7 @@ def test_fixed_points_are_those_of_the_parameters(shown):
 
 def test_without_a_fixed_point_none_is_shown(shown):
     assert solutions(0.3, [1.0, 0.72]) == []
-    assert "fixed points: 0. By (10.26): nothing to judge" in shown["no points"]
+    assert "fixed points: 0. By (10.26): none" in shown["no points"]
     assert "the theory has no fixed point here" in shown["no points"]
 
 
@@ -178,7 +178,7 @@ def test_the_manifold_is_that_of_kappa(shown):
 
 
 def test_another_drawing_is_that_drawing(shown):
-    assert "fig10_02: 84 mm wide and 46 mm high" in shown["drawing"]
+    assert "fig10_02: printed size 84 mm x 46 mm" in shown["drawing"]
 
 
 def test_every_notebook_shows_its_picture_once(shown):

@@ -17,7 +17,7 @@ def test_machines_swing_as_their_springs_have_it(tmp_path):
     left = K - omega[:, None, None] ** 2 * 10.0 * np.eye(2) + 1j * omega[:, None, None] * C
     swing = 1000 * abs(np.linalg.solve(left, np.full((len(omega), 2, 1), 2.0))).max()
     shown = printed({"machines": ("studies/physical_units", CHANGES)}, tmp_path)["machines"]
-    said = re.search(r"Without balls a box swings up to \*\*([\d.]+) mm", shown)[1]
+    said = re.search(r"The peak amplitude is \*\*([\d.]+) mm", shown)[1]
     assert float(said) == pytest.approx(swing, abs=0.1)
     assert shown.count("<picture>") == 1
     assert list(tmp_path.iterdir()) == []
