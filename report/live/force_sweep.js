@@ -37,7 +37,7 @@ class Plane {
     this.layer = mark(svg, "g", "", {});
   }
 
-  // Letters stand below the curve, outside the bend; where two would meet, the second stands above it.
+  // Place letters below the curve, outside the bend; place the second of two overlapping letters above it.
   show(points, module) {
     this.layer.replaceChildren();
     let last = -Infinity;
@@ -55,7 +55,7 @@ class Plane {
   }
 }
 
-// The exact branches over the force, C of module 2, with a line where the slider stands.
+// Branches of exact orbits: C of module 2 against the force, with a line at the value of the slider.
 class Branches {
   constructor(svg, { values, orbits }) {
     const all = orbits.flatMap((list, index) => list.map((orbit) => ({ ...orbit, value: values[index] })));
@@ -80,7 +80,7 @@ class Branches {
   }
 }
 
-// The multipliers of the exact orbits and the unit circle; those far out stand at the edge, their moduli beside the picture.
+// Multipliers of the exact orbits and unit circle; multipliers beyond the frame are drawn at its edge, with their moduli.
 class Circle {
   constructor(svg, { orbits }) {
     this.orbits = orbits;

@@ -137,7 +137,7 @@ class Play {
     }
     const here = Object.values(data.cases).find(({ forces }) => forces[0] === f10_hat && forces[1] === f20_hat && kappa === data.system.kappa);
     this.points = here?.points ?? [];
-    parts.point.replaceChildren(...this.points.map(({ label, printed }, n) => new Option(`${label}: the chapter says ${printed}`, n)), new Option("none", ""));
+    parts.point.replaceChildren(...this.points.map(({ label, printed }, n) => new Option(`${label}: ${printed} by the chapter`, n)), new Option("none", ""));
     parts.point.value = this.points.length ? this.points.length - 1 : "";
     this.show();
   }
