@@ -38,7 +38,7 @@ def data_package(headers: dict[str, list[str]], known: list[File], units: dict[s
 def _resource(path, header, known, units):
     about, columns = next(((file.about, file.columns) for file in known if file.has(path)), ("", {}))
     if missing := [name for name in header if name not in columns]:
-        raise LookupError(f"{path}: columns {', '.join(missing)} are missing in the data dictionary")
+        raise LookupError(f"{path}: columns missing in the data dictionary: {', '.join(missing)}")
     below = path.removeprefix("results/")
     return {
         "profile": "tabular-data-resource",

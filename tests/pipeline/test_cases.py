@@ -46,5 +46,5 @@ def test_a_record_tells_of_the_parameter(tmp_path):
     others = {"versions": {"python": "2.7"}, "code": {}, "inputs": {}, "files": {}}
     made = {"config": {"cases.weak": case_parameters(checked(GOOD), "weak")}, **others}
     told, *_ = differences(tmp_path / "none", made, checked(edited("cases.weak.kappa = 0.5")))
-    assert told.startswith("config, cases.weak: is ")
+    assert told.startswith("config, cases.weak: was ")
     assert "'kappa': 0.5" in told

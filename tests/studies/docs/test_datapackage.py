@@ -98,9 +98,9 @@ def test_names_are_those_that_the_standard_allows_and_no_field_lacks_a_meaning_o
 def test_a_column_that_the_dictionary_lacks_is_refused():
     specs, data = read(ROOT)
     cited = {"title": "t", "abstract": "a", "version": 1, "keywords": [], "license": "MIT", "authors": []}
-    with pytest.raises(LookupError, match=r"results/orbits.csv: colour: not in the data dictionary"):
+    with pytest.raises(LookupError, match=r"results/orbits.csv: columns missing in the data dictionary: colour"):
         data_package({"results/orbits.csv": ["case", "colour"]}, files(specs, data), data["units"], cited)
-    with pytest.raises(LookupError, match=r"results/new.csv: case: not in the data dictionary"):
+    with pytest.raises(LookupError, match=r"results/new.csv: columns missing in the data dictionary: case"):
         data_package({"results/new.csv": ["case"]}, files(specs, data), data["units"], cited)
 
 
